@@ -1,0 +1,33 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+
+namespace lmdbench {
+
+/// How the distance of an LMD becomes the length of its force.
+enum class ForceLaw : std::uint8_t {
+  LINEAR,      ///< The original's: proportional to what is left of the cutoff.
+  EXPONENTIAL  ///< The improved algorithm's (paper, section 4.5; decision E9).
+};
+
+/// A force law with its constants; *hard* and *soft* are profiles. The paper states none of the constants (decision
+/// E8): they belong to the experiment and are recorded with the result.
+struct ForceProfile {
+  ForceLaw law = ForceLaw::EXPONENTIAL;
+  double cutoff = 0.0;               ///< No force at or beyond this distance [m].
+  double saturation_distance = 0.0;  ///< Full force at or below this distance [m], below the cutoff.
+  double maximum_force = 0.0;        ///< F_max of one LMD [N].
+  double sharpness = 4.0;            ///< k of the exponential law; k -> 0 is linear. Dimensionless.
+};
+
+/// Length of one LMD's force [N] at distance >= 0 [m]:
+///   F(d) = F_max for d <= d_sat, else F_max (e^(k s) - 1) / (e^k - 1), s = (cutoff - d) / (cutoff - d_sat),
+/// F_max s for the linear law; continuous at both ends. Zero beyond the cutoff.
+double force_magnitude(const ForceProfile& profile, double distance);
+
+/// Stiffness -dF/dd [N/m] of one LMD's force; 0 where the force is constant.
+double force_stiffness(const ForceProfile& profile, double distance);
+
+}  // namespace lmdbench

@@ -1,0 +1,19 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+
+#include <array>
+
+namespace lmdbench {
+
+/// A point or vector of R^3; the frame is in the variable's name: `p_W` world, `p_M` moving mesh.
+using Vec3 = Eigen::Vector3d;
+using Mat3 = Eigen::Matrix3d;
+
+/// Corners of a triangle in counter-clockwise order seen from the outer side. May be degenerate: a triangle with
+/// collinear corners is treated as a segment, one with three equal corners as a point.
+using Triangle = std::array<Vec3, 3>;
+
+}  // namespace lmdbench

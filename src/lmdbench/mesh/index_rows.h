@@ -1,0 +1,40 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <numeric>
+#include <span>
+#include <utility>
+#include <vector>
+
+namespace lmdbench {
+
+/// Lists of indices in compressed rows: row i is items[offsets[i]] .. items[offsets[i + 1]).
+class IndexRows {
+ public:
+  IndexRows() = default;
+
+  /// Groups `pairs` of (row, item) into `row_count` rows; within a row items keep the order of `pairs`.
+  IndexRows(std::int32_t row_count, std::span<const std::pair<std::int32_t, std::int32_t>> pairs)
+      : offsets_(static_cast<std::size_t>(row_count) + 1, 0), items_(pairs.size()) {
+    for (const auto& [row, item] : pairs) ++offsets_[static_cast<std::size_t>(row) + 1];
+    std::partial_sum(offsets_.begin(), offsets_.end(), offsets_.begin());
+    std::vector<std::int32_t> next(offsets_.begin(), offsets_.end() - 1);
+    for (const auto& [row, item] : pairs)
+      items_[static_cast<std::size_t>(next[static_cast<std::size_t>(row)]++)] = item;
+  }
+
+  std::span<const std::int32_t> operator[](std::int32_t row) const {
+    const auto begin = static_cast<std::size_t>(offsets_[static_cast<std::size_t>(row)]);
+    const auto end = static_cast<std::size_t>(offsets_[static_cast<std::size_t>(row) + 1]);
+    return {items_.data() + begin, end - begin};
+  }
+  std::int32_t row_count() const { return static_cast<std::int32_t>(offsets_.size()) - 1; }
+
+ private:
+  std::vector<std::int32_t> offsets_{0};
+  std::vector<std::int32_t> items_;
+};
+
+}  // namespace lmdbench

@@ -1,0 +1,35 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <lmdbench/geometry/types.h>
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace lmdbench {
+
+/// Indexed triangle mesh: what files hold. Frame: the mesh's own; unit: metres after scaling, else the file's.
+struct TriangleMesh {
+  std::vector<Vec3> vertices;                          ///< #V by 3.
+  std::vector<std::array<std::int32_t, 3>> triangles;  ///< #T by 3, counter-clockwise seen from outside.
+
+  Triangle triangle(std::int32_t index) const {
+    const auto& corners = triangles[static_cast<std::size_t>(index)];
+    return {vertices[static_cast<std::size_t>(corners[0])], vertices[static_cast<std::size_t>(corners[1])],
+            vertices[static_cast<std::size_t>(corners[2])]};
+  }
+};
+
+/// Length of the axis-aligned bounding box's diagonal; 0 for a mesh without vertices.
+double bounding_box_diagonal(const TriangleMesh& mesh);
+
+/// Mean length of all triangle sides; 0 for a mesh without triangles.
+double mean_edge_length(const TriangleMesh& mesh);
+
+/// Centre of the axis-aligned bounding box.
+Vec3 bounding_box_centre(const TriangleMesh& mesh);
+
+}  // namespace lmdbench
