@@ -1,0 +1,32 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <lmdbench/record/result_writer.h>
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace lmdbench {
+
+/// An input of a run, identified by content.
+struct InputFile {
+  std::string role;  ///< "mesh:bunny-16k", "path"
+  std::filesystem::path file;
+};
+
+/// SHA-256 of a file's bytes, lower-case hexadecimal.
+/// @throws InputError when the file cannot be read
+std::string sha256_of_file(const std::filesystem::path& file);
+
+/// "lmdbench 0.1.0 (commit, dirty flag), compiler, flags, library versions": the text of `--version`.
+std::string version_text();
+
+/// Writes root attributes (`format`, `format_version`, `creator`, `created_utc`) and the group /provenance of the
+/// result contract: program version, git commit, dirty flag, compiler and flags, processor, cores, library versions,
+/// argv, the resolved experiment and the plan as JSON text, and the inputs with their SHA-256.
+void write_provenance(ResultWriter& writer, const std::vector<std::string>& argv, const std::string& experiment_json,
+                      const std::string& plan_json, const std::vector<InputFile>& inputs);
+
+}  // namespace lmdbench

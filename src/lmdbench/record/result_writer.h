@@ -1,0 +1,52 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace lmdbench {
+
+/// What a reader must know of a dataset; the writer cannot make one without it.
+struct DatasetInfo {
+  std::string path;       ///< Absolute path in the file, e.g. "/methods/improved/force"; groups are made as needed.
+  std::string units;      ///< SI symbol, "1" for counts, ratios and indices
+  std::string long_name;  ///< One phrase
+};
+
+/// Writes one result file (HDF5). Data goes to `<file>.part`, which takes the final name only in `commit`: an earlier
+/// result of that name is whole until then, and an interrupted run never looks like a finished one.
+/// @throws EnvironmentError when the file cannot be made, written or renamed
+class ResultWriter {
+ public:
+  explicit ResultWriter(std::filesystem::path file);
+  ~ResultWriter();  ///< Closes; leaves the `.part` file where nothing was committed.
+  ResultWriter(const ResultWriter&) = delete;
+  ResultWriter& operator=(const ResultWriter&) = delete;
+
+  /// Row-major datasets; the product of `shape` equals `values.size()`, and a zero-sized shape is allowed. Chunked
+  /// along the first axis, shuffled and deflated where they are large enough for it.
+  void write(const DatasetInfo& info, std::span<const double> values, const std::vector<std::size_t>& shape);
+  void write(const DatasetInfo& info, std::span<const std::int64_t> values, const std::vector<std::size_t>& shape);
+  void write(const DatasetInfo& info, std::span<const std::uint8_t> values, const std::vector<std::size_t>& shape);
+  void write(const DatasetInfo& info, const std::vector<std::string>& values);
+
+  /// Attributes of the group or dataset at `path` ("/" is the root; missing groups are made).
+  void attribute(const std::string& path, const std::string& name, const std::string& value);
+  void attribute(const std::string& path, const std::string& name, std::int64_t value);
+  void attribute(const std::string& path, const std::string& name, double value);
+
+  /// Flushes to disk and gives the file its name, replacing an earlier one at once.
+  void commit();
+
+ private:
+  class Implementation;
+  std::unique_ptr<Implementation> implementation_;
+};
+
+}  // namespace lmdbench
