@@ -13,16 +13,18 @@ namespace lmdbench {
 
 /// Who touches whom in a mesh. Non-manifold edges keep all their triangles.
 struct Adjacency {
-  std::vector<std::array<std::int32_t, 2>> edges;           ///< #E by 2, vertex indices, the smaller one first.
-  std::vector<std::array<std::int32_t, 3>> triangle_edges;  ///< #T by 3; side k joins corners k and (k + 1) % 3.
-  IndexRows edge_triangles;                                 ///< #E rows of triangles, ascending.
-  IndexRows vertex_triangles;                               ///< #V rows of triangles, ascending.
-  IndexRows vertex_edges;                                   ///< #V rows of edges, ascending.
+  std::vector<std::array<std::int32_t, 2>> edges;  ///< #E by 2, vertex indices, the smaller one first.
+  std::vector<std::array<std::int32_t, 3>>
+      triangle_edges;          ///< #T by 3; side k joins corners k and (k + 1) % 3.
+  IndexRows edge_triangles;    ///< #E rows of triangles, ascending.
+  IndexRows vertex_triangles;  ///< #V rows of triangles, ascending.
+  IndexRows vertex_edges;      ///< #V rows of edges, ascending.
 
   std::int32_t edge_count() const { return static_cast<std::int32_t>(edges.size()); }
 };
 
-/// Edges are numbered in the order of their first triangle side, so the numbering depends on the mesh alone.
+/// Edges are numbered in the order of their first triangle side, so the numbering depends on the mesh alone. A
+/// triangle that names a vertex twice has a side {v, v} and stands once in each row that it belongs to.
 /// @pre every index is within the vertex array (import checks it)
 Adjacency build_adjacency(const TriangleMesh& mesh);
 

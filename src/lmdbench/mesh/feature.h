@@ -24,9 +24,12 @@ struct FeatureId {
 /// "vertex", "edge" or "face": the spelling of the query contract.
 constexpr std::string_view to_string(FeatureKind kind) {
   switch (kind) {
-    case FeatureKind::VERTEX: return "vertex";
-    case FeatureKind::EDGE: return "edge";
-    case FeatureKind::FACE: return "face";
+    case FeatureKind::VERTEX:
+      return "vertex";
+    case FeatureKind::EDGE:
+      return "edge";
+    case FeatureKind::FACE:
+      return "face";
   }
   return "unknown";
 }

@@ -1,0 +1,21 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <lmdbench/geometry/types.h>
+
+namespace lmdbench {
+
+/// A triangle counts as one without area when the sine-like ratio |e0 x e1| / (longest side)^2 is at or below
+/// this: the sides carry half a unit in the last place of rounding, so at this ratio the normal is still
+/// right to about 1e-3 radians, and below it it is noise.
+inline constexpr double ZERO_AREA_TOLERANCE = 1e-12;
+
+/// Unit normal of a triangle, counter-clockwise corners seen against it; zero for a triangle without area
+/// (`ZERO_AREA_TOLERANCE`). The same for every scale: no product over- or underflows.
+Vec3 triangle_normal(const Triangle& triangle);
+
+/// Angle at a corner, radians in [0, pi]; 0 where one of the two sides has no length.
+double corner_angle(const Triangle& triangle, int corner);
+
+}  // namespace lmdbench
