@@ -1,0 +1,62 @@
+# SPDX-FileCopyrightText: The lmdbench authors
+# SPDX-License-Identifier: BSD-3-Clause
+# shellcheck shell=bash
+# What the scripts share; to be sourced. Talk goes to stderr.
+
+ROOT="$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)"
+JOBS="$(nproc 2>/dev/null || echo 2)"
+# What needs the environment to change leaves with the program's own exit code for it.
+EXIT_ENVIRONMENT=4
+
+# The same run on a terminal and in CI: no questions, no colours in logs, numbers with a decimal point.
+export LC_ALL=C.UTF-8
+
+say() { printf '%s\n' "$*" >&2; }
+die() {
+  local code="$1"
+  shift
+  say "error: $*"
+  exit "$code"
+}
+
+# step "title" command...: runs the command (or function) and remembers title and wall time for `print_steps`.
+STEP_LINES=()
+step() {
+  local title="$1" started=$EPOCHREALTIME status=0
+  shift
+  say ""
+  say "== $title"
+  "$@" || status=$?
+  local mark=""
+  ((status == 0)) || mark="  FAILED (exit code $status)"
+  STEP_LINES+=("$(printf '%9s  %s%s' "$(seconds_since "$started")" "$title" "$mark")")
+  return "$status"
+}
+seconds_since() { awk -v a="$1" -v b="$EPOCHREALTIME" 'BEGIN { printf "%.1f s", b - a }'; }
+print_steps() {
+  say ""
+  say "Wall time of each step:"
+  printf '%s\n' "${STEP_LINES[@]}" >&2
+}
+
+# find_python MODULE...: prints the first interpreter that can import all modules. python3 may be a private build
+# (pyenv, conda) without the distribution's modules, so the distribution's own is tried too.
+find_python() {
+  local candidate imports
+  imports="$(printf 'import %s;' "$@")"
+  for candidate in python3 /usr/bin/python3; do
+    if "$candidate" -c "$imports" >/dev/null 2>&1; then
+      command -v "$candidate"
+      return 0
+    fi
+  done
+  say "error: no python3 can import: $* (remedy: ./scripts/setup.sh, or a python3 first in PATH that has them)"
+  return "$EXIT_ENVIRONMENT"
+}
+
+# build_preset PRESET [cmake option]...
+build_preset() {
+  local preset="$1"
+  shift
+  (cd "$ROOT" && cmake --preset "$preset" "$@" && cmake --build --preset "$preset" --parallel "$JOBS")
+}

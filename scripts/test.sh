@@ -1,0 +1,95 @@
+#!/usr/bin/env bash
+# SPDX-FileCopyrightText: The lmdbench authors
+# SPDX-License-Identifier: BSD-3-Clause
+# Everything that a change must pass: style, build without warnings, tests, tests under sanitizers, experiment files.
+# Goes on after a failure, so that one run shows all of them; the last line is 'N passed, N failed' (tests of both
+# builds, and each other check as one). Exit code 0 only when nothing failed.
+#   --fast   without the sanitizer build
+set -uo pipefail
+# shellcheck source=scripts/lib.sh
+source "$(dirname "${BASH_SOURCE[0]}")/lib.sh"
+
+fast=0
+for argument in "$@"; do
+  case "$argument" in
+    --fast) fast=1 ;;
+    *) die 2 "unknown argument '$argument' (remedy: ./scripts/test.sh [--fast])" ;;
+  esac
+done
+
+passed=0
+failed=0
+failures=()
+record_failure() {
+  failed=$((failed + $1))
+  failures+=("$2")
+}
+
+# check "title" command...: one check, passed or failed.
+check() {
+  if step "$@"; then
+    passed=$((passed + 1))
+  else
+    record_failure 1 "$1"
+    return 1
+  fi
+}
+
+# tests "title" PRESET: runs the preset's tests and adds their counts.
+tests() {
+  local title="$1" preset="$2" report="$ROOT/build/$2/test-report.xml" total bad
+  rm -f "$report"
+  step "$title" ctest_preset "$preset" "$report"
+  local status=$?
+  # The attributes of the report's first element; without a report or with an empty one nothing was proved.
+  total="$(grep -om1 'tests="[0-9]*"' "$report" 2>/dev/null | tr -dc 0-9)"
+  bad="$(grep -om1 'failures="[0-9]*"' "$report" 2>/dev/null | tr -dc 0-9)"
+  if [[ -z $total || $total -eq 0 ]]; then
+    record_failure 1 "$title: no test ran"
+    return 1
+  fi
+  passed=$((passed + total - bad))
+  if ((bad > 0)); then
+    record_failure "$bad" "$title: $bad of $total"
+  elif ((status != 0)); then
+    record_failure 1 "$title: ctest left with exit code $status"
+  fi
+}
+ctest_preset() {
+  (cd "$ROOT" && ctest --preset "$1" --label-exclude heavy --parallel "$JOBS" --no-tests=error \
+    --output-junit "$2" </dev/null)
+}
+
+# Every committed experiment file must pass the program's own check (schema, then what the schema cannot say).
+experiment_files() {
+  local file count=0 bad=0
+  for file in "$ROOT"/experiments/*.json; do
+    [[ -e $file && $file != *schema.json ]] || continue
+    count=$((count + 1))
+    "$ROOT/build/release/lmdbench" plan "$file" --json >/dev/null || bad=$((bad + 1))
+  done
+  say "$count experiment files, $bad wrong"
+  ((count > 0 && bad == 0))
+}
+
+if ! step "Set-up" "$ROOT/scripts/setup.sh"; then
+  die "$EXIT_ENVIRONMENT" "set-up failed, see above"
+fi
+
+check "Format and shell scripts" "$ROOT/scripts/lint.sh" --quick
+if check "Build (release, warnings are errors)" build_preset release -DLMDBENCH_WARNINGS_AS_ERRORS=ON; then
+  tests "Tests (release)" release
+  check "Experiment files" experiment_files
+  check "Static analysis" "$ROOT/scripts/lint.sh" --tidy
+fi
+if ((fast == 0)); then
+  if check "Build (address and undefined behaviour sanitizers)" \
+    build_preset asan-ubsan -DCMAKE_UNITY_BUILD=ON -DLMDBENCH_WARNINGS_AS_ERRORS=ON; then
+    tests "Tests (address and undefined behaviour sanitizers)" asan-ubsan
+  fi
+fi
+
+print_steps
+for failure in "${failures[@]}"; do say "FAILED: $failure"; done
+echo "$passed passed, $failed failed"
+((failed == 0))
