@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 
 namespace lmdbench {
 
@@ -12,8 +13,8 @@ enum class ForceLaw : std::uint8_t {
   EXPONENTIAL  ///< The improved algorithm's (paper, section 4.5; decision E9).
 };
 
-/// A force law with its constants; *hard* and *soft* are profiles. The paper states none of the constants (decision
-/// E8): they belong to the experiment and are recorded with the result.
+/// A force law with its constants; *hard* and *soft* are profiles. The paper states none of the constants
+/// (decision E8): they belong to the experiment and are recorded with the result.
 struct ForceProfile {
   ForceLaw law = ForceLaw::EXPONENTIAL;
   double cutoff = 0.0;               ///< No force at or beyond this distance [m].
@@ -22,12 +23,24 @@ struct ForceProfile {
   double sharpness = 4.0;            ///< k of the exponential law; k -> 0 is linear. Dimensionless.
 };
 
+/// Checks that a profile can be evaluated: 0 <= saturation_distance < cutoff, maximum_force > 0, sharpness >=
+/// 0, all finite.
+/// @param file    experiment file that the profile comes from, or empty
+/// @param pointer JSON pointer of the profile in that file; the field's name is appended
+/// @throws UsageError naming the field
+void validate_force_profile(const ForceProfile& profile, const std::string& file = "",
+                            const std::string& pointer = "");
+
 /// Length of one LMD's force [N] at distance >= 0 [m]:
 ///   F(d) = F_max for d <= d_sat, else F_max (e^(k s) - 1) / (e^k - 1), s = (cutoff - d) / (cutoff - d_sat),
-/// F_max s for the linear law; continuous at both ends. Zero beyond the cutoff.
+/// F_max s for the linear law; continuous at both ends. Zero at and beyond the cutoff; NaN for a NaN
+/// distance.
+/// @pre the profile is valid (`validate_force_profile`)
 double force_magnitude(const ForceProfile& profile, double distance);
 
-/// Stiffness -dF/dd [N/m] of one LMD's force; 0 where the force is constant.
+/// Stiffness -dF/dd [N/m] of one LMD's force; 0 where the force is constant (saturated, or at and beyond the
+/// cutoff).
+/// @pre the profile is valid (`validate_force_profile`)
 double force_stiffness(const ForceProfile& profile, double distance);
 
 }  // namespace lmdbench

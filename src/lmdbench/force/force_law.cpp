@@ -1,0 +1,70 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/error.h>
+#include <lmdbench/force/force_law.h>
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <limits>
+
+namespace lmdbench {
+namespace {
+
+/// Below this sharpness the exponential law differs from the linear one by less than a rounding error: its
+/// relative deviation is k (1 - s) / 2 to first order.
+inline constexpr double LINEAR_SHARPNESS = std::numeric_limits<double>::epsilon();
+
+bool is_linear(const ForceProfile& profile) {
+  return profile.law == ForceLaw::LINEAR || profile.sharpness < LINEAR_SHARPNESS;
+}
+
+/// s of decision E9: 1 at the saturation distance, 0 at the cutoff.
+double closeness(const ForceProfile& profile, double distance) {
+  return (profile.cutoff - distance) / (profile.cutoff - profile.saturation_distance);
+}
+
+[[noreturn]] void refuse(const std::string& file, const std::string& place, double value,
+                         const char* remedy) {
+  throw UsageError(file, place, fmt::format("{} is not a usable value", value), remedy);
+}
+
+}  // namespace
+
+void validate_force_profile(const ForceProfile& profile, const std::string& file,
+                            const std::string& pointer) {
+  if (!std::isfinite(profile.cutoff) || profile.cutoff <= 0.0)
+    refuse(file, pointer + "/cutoff", profile.cutoff, "give a finite distance in metres above 0");
+  if (!(profile.saturation_distance >= 0.0 && profile.saturation_distance < profile.cutoff))
+    refuse(file, pointer + "/saturation_distance", profile.saturation_distance,
+           "give a distance in metres of at least 0 and below the cutoff");
+  if (!std::isfinite(profile.maximum_force) || profile.maximum_force <= 0.0)
+    refuse(file, pointer + "/maximum_force", profile.maximum_force, "give a finite force in newtons above 0");
+  if (!std::isfinite(profile.sharpness) || profile.sharpness < 0.0)
+    refuse(file, pointer + "/sharpness", profile.sharpness,
+           "give a finite number of at least 0; 0 is linear");
+}
+
+double force_magnitude(const ForceProfile& profile, double distance) {
+  if (std::isnan(distance)) return distance;  // An unset distance must not pass for a free one.
+  if (distance <= profile.saturation_distance) return profile.maximum_force;
+  if (distance >= profile.cutoff) return 0.0;
+  const double s = closeness(profile, distance);
+  if (is_linear(profile)) return profile.maximum_force * s;
+  // Decision E9, ours: (e^(k s) - 1) / (e^k - 1), written as e^(k (s - 1)) (1 - e^(-k s)) / (1 - e^(-k)), in
+  // which no exponent is positive: nothing overflows for large k, and expm1 keeps every digit for small k.
+  const double k = profile.sharpness;
+  return profile.maximum_force * std::exp(k * (s - 1.0)) * (std::expm1(-k * s) / std::expm1(-k));
+}
+
+double force_stiffness(const ForceProfile& profile, double distance) {
+  if (std::isnan(distance)) return distance;
+  if (distance <= profile.saturation_distance || distance >= profile.cutoff) return 0.0;
+  const double linear_stiffness = profile.maximum_force / (profile.cutoff - profile.saturation_distance);
+  if (is_linear(profile)) return linear_stiffness;
+  const double k = profile.sharpness;
+  const double s = closeness(profile, distance);
+  return linear_stiffness * std::exp(k * (s - 1.0)) * (k / -std::expm1(-k));
+}
+
+}  // namespace lmdbench
