@@ -1,0 +1,130 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/error.h>
+#include <lmdbench/phantom/device.h>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <string>
+#include <vector>
+
+namespace lmdbench {
+namespace {
+
+constexpr std::string_view SURVEY = "survey of the makers' data sheets (secondary)";
+constexpr std::string_view CHAI3D = "CHAI3D, src/devices/CPhantomDevices.cpp";
+constexpr std::string_view RECALLED = "maker's data sheet, not re-read";
+
+constexpr DeviceFigure survey(double value, std::string_view unit) {
+  return {value, unit, SURVEY, Trust::STATED};
+}
+constexpr DeviceFigure chai3d(double value, std::string_view unit) {
+  return {value, unit, CHAI3D, Trust::STATED};
+}
+constexpr DeviceFigure recalled(double value, std::string_view unit) {
+  return {value, unit, RECALLED, Trust::FROM_MEMORY};
+}
+constexpr DeviceFigure unknown(std::string_view unit) {
+  return {std::numeric_limits<double>::quiet_NaN(), unit, "", Trust::UNKNOWN};
+}
+
+// The Desktop's figures are its successor Touch X's where the survey gives only that name, the Omni's the
+// Touch's. Sources and their trust are a field of each figure; the masses given as upper bounds are marked.
+constexpr std::array<Device, 5> DEVICES = {{
+    {
+        .name = "phantom-desktop",
+        .title = "PHANTOM Desktop",
+        .maximum_force = survey(7.9, "N"),
+        .continuous_force = survey(1.75, "N"),
+        .position_resolution = survey(0.023e-3, "m"),
+        .stable_stiffness = chai3d(1000.0, "N/m"),
+        .stable_damping = chai3d(5.0, "N s/m"),
+        .apparent_mass = recalled(0.045, "kg"),
+        .friction = recalled(0.06, "N"),
+        .torque = unknown("N m"),
+        .workspace = {survey(0.160, "m"), survey(0.120, "m"), survey(0.120, "m")},
+    },
+    {
+        .name = "phantom-premium-1.5",
+        .title = "PHANTOM Premium 1.5",
+        .maximum_force = survey(8.5, "N"),
+        .continuous_force = survey(1.4, "N"),
+        .position_resolution = survey(0.03e-3, "m"),
+        .stable_stiffness = unknown("N/m"),
+        .stable_damping = unknown("N s/m"),
+        .apparent_mass = recalled(0.075, "kg"),  // an upper bound
+        .friction = recalled(0.04, "N"),
+        .torque = unknown("N m"),
+        .workspace = {survey(0.381, "m"), survey(0.267, "m"), survey(0.191, "m")},
+    },
+    {
+        .name = "phantom-premium-1.5-6dof",
+        .title = "PHANTOM Premium 1.5 6DOF",
+        .maximum_force = chai3d(8.5, "N"),
+        .continuous_force = recalled(1.4, "N"),
+        .position_resolution = recalled(0.03e-3, "m"),
+        .stable_stiffness = chai3d(800.0, "N/m"),
+        .stable_damping = chai3d(5.0, "N s/m"),
+        .apparent_mass = recalled(0.136, "kg"),  // an upper bound, the larger of two that are remembered
+        .friction = recalled(0.04, "N"),
+        .torque = recalled(0.188, "N m"),
+        .workspace = {survey(0.381, "m"), survey(0.267, "m"), survey(0.191, "m")},
+    },
+    {
+        .name = "phantom-omni",
+        .title = "PHANTOM Omni",
+        .maximum_force = survey(3.3, "N"),
+        .continuous_force = survey(0.88, "N"),
+        .position_resolution = survey(0.055e-3, "m"),
+        .stable_stiffness = chai3d(700.0, "N/m"),
+        .stable_damping = chai3d(5.0, "N s/m"),
+        .apparent_mass = recalled(0.045, "kg"),
+        .friction = recalled(0.26, "N"),
+        .torque = unknown("N m"),
+        .workspace = {survey(0.160, "m"), survey(0.120, "m"), survey(0.070, "m")},
+    },
+    {
+        .name = "phantom-premium-3.0-6dof",
+        .title = "PHANTOM Premium 3.0 6DOF",
+        .maximum_force = chai3d(22.0, "N"),
+        .continuous_force = recalled(3.0, "N"),
+        .position_resolution = recalled(0.02e-3, "m"),
+        .stable_stiffness = chai3d(1000.0, "N/m"),
+        .stable_damping = chai3d(5.0, "N s/m"),
+        .apparent_mass = recalled(0.159, "kg"),  // an upper bound
+        .friction = recalled(0.2, "N"),
+        .torque = chai3d(0.188, "N m"),
+        .workspace = {recalled(0.838, "m"), recalled(0.584, "m"), recalled(0.406, "m")},
+    },
+}};
+
+}  // namespace
+
+std::string_view to_string(Trust trust) {
+  switch (trust) {
+    case Trust::STATED:
+      return "stated";
+    case Trust::FROM_MEMORY:
+      return "from memory";
+    case Trust::UNKNOWN:
+      return "unknown";
+  }
+  return "unknown";
+}
+
+std::span<const Device> known_devices() {
+  return DEVICES;
+}
+
+const Device& device_named(std::string_view name, std::string_view file, std::string_view pointer) {
+  std::vector<std::string_view> names;
+  for (const Device& device : DEVICES) {
+    if (device.name == name) return device;
+    names.push_back(device.name);
+  }
+  throw UsageError(std::string(file), std::string(pointer), fmt::format("there is no device '{}'", name),
+                   fmt::format("use one of {}", fmt::join(names, ", ")));
+}
+
+}  // namespace lmdbench

@@ -1,0 +1,60 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <string_view>
+
+namespace lmdbench {
+
+/// How far a device figure can be relied on.
+enum class Trust : std::uint8_t {
+  STATED,  ///< Read in the source that is named, for this device or for its successor under the newer name.
+  FROM_MEMORY,  ///< Recalled, not re-read; good enough to start from, not to quote.
+  UNKNOWN       ///< No figure was found: the value is NaN.
+};
+
+/// "stated", "from memory" or "unknown".
+std::string_view to_string(Trust trust);
+
+/// One figure of a device with where it comes from.
+struct DeviceFigure {
+  double value = std::numeric_limits<double>::quiet_NaN();  ///< in `unit`
+  std::string_view unit;                                    ///< SI symbol
+  std::string_view source;
+  Trust trust = Trust::UNKNOWN;
+};
+
+/// A haptic device. All of them sense position and orientation and render a translational force, as in the
+/// paper's set-up (section 5); the two 6DOF models can also actuate torque, which nothing here commands yet.
+struct Device {
+  std::string_view name;   ///< As written in experiments, e.g. "phantom-desktop".
+  std::string_view title;  ///< As written in reports.
+
+  DeviceFigure maximum_force;             ///< Largest force, for moments [N]: what decision E10 clips to.
+  DeviceFigure continuous_force;          ///< Force that the motors stand for long [N].
+  DeviceFigure position_resolution;       ///< Nominal [m].
+  DeviceFigure stable_stiffness;          ///< Largest stiffness that CHAI3D sets for it [N/m].
+  DeviceFigure stable_damping;            ///< Largest damping that CHAI3D sets for it [N s/m].
+  DeviceFigure apparent_mass;             ///< At the stylus [kg].
+  DeviceFigure friction;                  ///< Back-drive friction [N].
+  DeviceFigure torque;                    ///< Continuous torque [N m] of the models that have it.
+  std::array<DeviceFigure, 3> workspace;  ///< Width, height, depth [m].
+};
+
+inline constexpr int SENSED_DEGREES_OF_FREEDOM = 6;    ///< Paper, section 5.
+inline constexpr int ACTUATED_DEGREES_OF_FREEDOM = 3;  ///< Paper, section 5: force, no torque.
+inline constexpr double SERVO_RATE = 1000.0;  ///< [Hz] Paper, section 5; the devices' own servo rate.
+
+/// All known devices, in a fixed order.
+std::span<const Device> known_devices();
+
+/// Device of that name.
+/// @param file, pointer the place that the name was read from, for the message
+/// @throws UsageError listing the known names
+const Device& device_named(std::string_view name, std::string_view file = "", std::string_view pointer = "");
+
+}  // namespace lmdbench

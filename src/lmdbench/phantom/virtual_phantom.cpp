@@ -1,0 +1,18 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/phantom/virtual_phantom.h>
+
+namespace lmdbench {
+
+RenderedForce VirtualPhantom::render(const Wrench& command) const {
+  RenderedForce rendered;
+  const double commanded_length = command.force.stableNorm();
+  const double largest = device_.maximum_force.value;
+  rendered.clipped = commanded_length > largest;
+  rendered.force = rendered.clipped ? Vec3((command.force / commanded_length) * largest) : command.force;
+  rendered.exceeds_continuous_force =
+      (rendered.clipped ? largest : commanded_length) > device_.continuous_force.value;
+  return rendered;
+}
+
+}  // namespace lmdbench

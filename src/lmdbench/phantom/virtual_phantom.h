@@ -1,0 +1,36 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <lmdbench/force/aggregate.h>
+#include <lmdbench/geometry/types.h>
+#include <lmdbench/phantom/device.h>
+
+namespace lmdbench {
+
+/// What the device gives to the hand for one commanded wrench.
+struct RenderedForce {
+  Vec3 force = Vec3::Zero();  ///< World frame, newtons; never longer than the device's largest force.
+  bool clipped = false;       ///< The commanded force was longer than the device's largest force.
+  bool exceeds_continuous_force = false;  ///< The rendered force is above what the motors stand for long.
+};
+
+/// The virtual PHANTOM in open loop: it renders the force that it is commanded in the same tick and does not
+/// move the scene; poses come from a path. Device and world axes coincide. Torque is not rendered: three
+/// actuated degrees of freedom (paper, section 5).
+class VirtualPhantom {
+ public:
+  explicit VirtualPhantom(const Device& device) : device_(device) {}
+
+  const Device& device() const { return device_; }
+
+  /// Clips the length of the summed force to the device's largest force, keeping its direction (paper,
+  /// section 4.5; decision E10, ours: the length of the sum is clipped, not the components and not the single
+  /// LMDs). NaN stays NaN.
+  RenderedForce render(const Wrench& command) const;
+
+ private:
+  Device device_;
+};
+
+}  // namespace lmdbench

@@ -1,0 +1,70 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/error.h>
+#include <lmdbench/phantom/device.h>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <set>
+
+namespace lmdbench {
+namespace {
+
+TEST(Device, LargestForcesAreThoseOfTheSources) {
+  EXPECT_EQ(device_named("phantom-desktop").maximum_force.value, 7.9);
+  EXPECT_EQ(device_named("phantom-premium-1.5").maximum_force.value, 8.5);
+  EXPECT_EQ(device_named("phantom-premium-1.5-6dof").maximum_force.value, 8.5);
+  EXPECT_EQ(device_named("phantom-omni").maximum_force.value, 3.3);
+  EXPECT_EQ(device_named("phantom-premium-3.0-6dof").maximum_force.value, 22.0);
+}
+
+void expect_sound(const DeviceFigure& figure, std::string_view unit) {
+  EXPECT_EQ(figure.unit, unit);
+  EXPECT_EQ(std::isnan(figure.value), figure.trust == Trust::UNKNOWN);
+  EXPECT_EQ(figure.source.empty(), figure.trust == Trust::UNKNOWN);
+  if (figure.trust != Trust::UNKNOWN) {
+    EXPECT_GT(figure.value, 0.0);
+  }
+}
+
+TEST(Device, EveryFigureHasUnitSourceAndTrust) {
+  std::set<std::string_view> names;
+  for (const Device& device : known_devices()) {
+    SCOPED_TRACE(device.name);
+    EXPECT_TRUE(names.insert(device.name).second) << "the name is used twice";
+    EXPECT_FALSE(device.title.empty());
+    expect_sound(device.maximum_force, "N");
+    expect_sound(device.continuous_force, "N");
+    expect_sound(device.position_resolution, "m");
+    expect_sound(device.stable_stiffness, "N/m");
+    expect_sound(device.stable_damping, "N s/m");
+    expect_sound(device.apparent_mass, "kg");
+    expect_sound(device.friction, "N");
+    expect_sound(device.torque, "N m");
+    for (const DeviceFigure& side : device.workspace) expect_sound(side, "m");
+    // Rendering depends on these two: they must be known, in this order.
+    EXPECT_LT(device.continuous_force.value, device.maximum_force.value);
+    EXPECT_EQ(device.maximum_force.trust, Trust::STATED);
+    // Units slip most easily in the small figures.
+    EXPECT_LT(device.position_resolution.value, 1e-4);
+    EXPECT_LT(device.workspace[0].value, 1.0);
+    EXPECT_LT(device.apparent_mass.value, 0.2);
+  }
+  EXPECT_EQ(names.size(), 5u);
+}
+
+TEST(Device, UnknownNameListsTheKnownOnes) {
+  try {
+    device_named("phantom-desk", "hard.json", "/device");
+    FAIL() << "an unknown name was accepted";
+  } catch (const UsageError& error) {
+    EXPECT_THAT(error.what(), testing::HasSubstr("hard.json: /device: there is no device 'phantom-desk'"));
+    EXPECT_THAT(error.what(), testing::HasSubstr("phantom-desktop"));
+    EXPECT_THAT(error.what(), testing::HasSubstr("phantom-omni"));
+  }
+}
+
+}  // namespace
+}  // namespace lmdbench
