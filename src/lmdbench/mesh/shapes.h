@@ -1,0 +1,58 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <lmdbench/mesh/triangle_mesh.h>
+
+/// Generated shapes: for tests and for work without a network. All lengths are metres, all triangles
+/// counter-clockwise seen from outside, every shape centred at the origin. The same arguments give the same
+/// bits on every processor: sines come rounded to single precision, because their last bits depend on the
+/// processor's instruction set. Counts below their least useful value are a programming error (asserted).
+namespace lmdbench {
+
+/// Icosphere: 20 * 4^subdivisions triangles, nearly equal.
+TriangleMesh make_sphere(double radius, int subdivisions);
+
+/// Box with `cells` by `cells` squares a side: 12 * cells^2 triangles, most edges flat.
+TriangleMesh make_box(const Vec3& size, int cells = 1);
+
+/// Torus about the z axis: 2 * ring_cells * tube_cells triangles; convex outside, saddles inside, genus 1.
+TriangleMesh make_torus(double ring_radius, double tube_radius, int ring_cells, int tube_cells);
+
+/// Icosphere with smooth bumps and dents of up to `bump_height`: many separate convex places, like a scanned
+/// object.
+TriangleMesh make_blob(double radius, double bump_height, int subdivisions);
+
+/// Bumpy closed shape of 12 * cells^2 triangles whose sides differ by a factor of about `ratio` (> 1): tiny
+/// ones round one corner of a cube that was blown up to a sphere, huge ones at the opposite corner.
+TriangleMesh make_unequal(double radius, int cells, double ratio);
+
+/// Star-shaped spindle of 2 * spikes * 2 needles that all meet in its two tips; aspect about `spikes` * 2.
+/// `groove` in [0, 1) is the relative depth of the valleys between the ridges; 0 makes it convex.
+TriangleMesh make_needles(double radius, double height, int spikes, double groove = 0.3);
+
+/// Open wavy patch over the square [-size/2, size/2]^2, outer side up: 2 * cells^2 triangles, one boundary
+/// loop.
+TriangleMesh make_patch(double size, int cells, double wave_height);
+
+/// Wedge: a prism along y whose upper edge is sharp: 8 triangles. The base is `width` (x) by `length` (y),
+/// the edge stands `height` above it.
+TriangleMesh make_wedge(double width, double length, double height);
+
+/// Block with an L-shaped profile in xz, extruded along y: one reflex edge, all else convex or flat: 20
+/// triangles. Arms of length `size` and thickness `size` / 2.
+TriangleMesh make_l_block(double size);
+
+/// Two equal boxes `gap` apart along x, as one mesh of two components.
+TriangleMesh make_two_boxes(const Vec3& size, double gap);
+
+/// Copy moved by `offset`.
+TriangleMesh translated(TriangleMesh mesh, const Vec3& offset);
+
+/// Copy scaled about the origin.
+TriangleMesh scaled(TriangleMesh mesh, double factor);
+
+/// One mesh with the vertices and triangles of a, then those of b. Nothing is welded.
+TriangleMesh merged(TriangleMesh a, const TriangleMesh& b);
+
+}  // namespace lmdbench

@@ -1,0 +1,95 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/mesh/shapes.h>
+#include <lmdbench/mesh/surface.h>
+#include <lmdbench/mesh/triangle_normal.h>
+
+#include <Eigen/Geometry>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace lmdbench {
+namespace {
+
+using ::testing::ElementsAre;
+
+TEST(TriangleNormalTest, IsTheSameAtEveryScale) {
+  const Triangle triangle{Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0)};
+  for (const double scale : {1e-300, 1e-150, 1e-9, 1.0, 1e9, 1e150, 1e300}) {
+    const Triangle resized{scale * triangle[0], scale * triangle[1], scale * triangle[2]};
+    EXPECT_EQ(triangle_normal(resized), Vec3(0, 0, 1)) << scale;
+  }
+}
+
+TEST(TriangleNormalTest, KeepsItsDigitsOnNeedles) {
+  // Side ratio 1e8 in a plane that is not aligned with the axes; the exact normal is (1, 1, 1) / sqrt(3).
+  const Vec3 along = Vec3(1, -1, 0) * 1e8, across(0, 1, -1);
+  const Vec3 normal = triangle_normal({Vec3::Zero(), along, along + across});
+  EXPECT_LT((normal - Vec3::Ones().normalized()).norm(), 1e-14);
+}
+
+TEST(TriangleNormalTest, IsZeroWithoutArea) {
+  EXPECT_EQ(triangle_normal({Vec3(0, 0, 0), Vec3(1, 1, 1), Vec3(3, 3, 3)}), Vec3::Zero());
+  EXPECT_EQ(triangle_normal({Vec3(1, 2, 3), Vec3(1, 2, 3), Vec3(0, 0, 0)}), Vec3::Zero());
+  EXPECT_EQ(triangle_normal({Vec3(1, 2, 3), Vec3(1, 2, 3), Vec3(1, 2, 3)}), Vec3::Zero());
+}
+
+TEST(SurfaceTest, BoxHasTheNormalsOfABox) {
+  const Surface surface = build_surface(make_box({2, 2, 2}));
+  for (std::size_t v = 0; v < surface.mesh.vertices.size(); ++v)
+    EXPECT_LT((surface.vertex_pseudo_normals[v] - surface.mesh.vertices[v].normalized()).norm(), 1e-12)
+        << "angle weights make the diagonals of the sides irrelevant";
+  for (std::size_t e = 0; e < surface.adjacency.edges.size(); ++e) {
+    const auto [a, b] = surface.adjacency.edges[e];
+    const Vec3 middle = surface.mesh.vertices[static_cast<std::size_t>(a)] +
+                        surface.mesh.vertices[static_cast<std::size_t>(b)];
+    EXPECT_LT((surface.edge_pseudo_normals[e] - middle.normalized()).norm(), 1e-12);
+  }
+}
+
+TEST(SurfaceTest, FeaturesOfATriangle) {
+  const Surface surface = build_surface(make_box({2, 2, 2}));
+  const auto& corners = surface.mesh.triangles[5];
+  EXPECT_EQ(surface.feature_of(5, TriangleFeature::V1), (FeatureId{FeatureKind::VERTEX, corners[1]}));
+  EXPECT_EQ(surface.feature_of(5, TriangleFeature::FACE), (FeatureId{FeatureKind::FACE, 5}));
+  const FeatureId edge = surface.feature_of(5, TriangleFeature::E2);
+  EXPECT_EQ(edge.kind, FeatureKind::EDGE);
+  EXPECT_THAT(surface.adjacency.edges[static_cast<std::size_t>(edge.index)],
+              ElementsAre(std::min(corners[2], corners[0]), std::max(corners[2], corners[0])));
+  EXPECT_THAT(surface.incident_triangles({FeatureKind::FACE, 5}), ElementsAre(5));
+  EXPECT_EQ(surface.incident_triangles(edge).size(), 2u);
+  EXPECT_GE(surface.incident_triangles({FeatureKind::VERTEX, corners[0]}).size(), 3u);
+}
+
+TEST(SurfaceTest, FlagsBoundaryAndNonManifoldEdges) {
+  TriangleMesh mesh;
+  mesh.vertices = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}};
+  mesh.triangles = {{0, 1, 2}, {1, 0, 3}};
+  const Surface sheet = build_surface(mesh);
+  EXPECT_FALSE(sheet.is_boundary({FeatureKind::EDGE, 0}));
+  EXPECT_FALSE(sheet.edge_is_non_manifold[0]);
+  EXPECT_TRUE(sheet.is_boundary({FeatureKind::EDGE, 1}));
+  EXPECT_TRUE(sheet.is_boundary({FeatureKind::VERTEX, 0}));
+  EXPECT_FALSE(sheet.is_boundary({FeatureKind::FACE, 0}));
+
+  mesh.triangles = {{0, 1, 2}, {0, 1, 3}};
+  EXPECT_TRUE(build_surface(mesh).edge_is_non_manifold[0]) << "both run the same way";
+  mesh.triangles = {{0, 1, 2}, {1, 0, 3}, {1, 0, 4}};
+  EXPECT_TRUE(build_surface(mesh).edge_is_non_manifold[0]) << "three triangles";
+}
+
+TEST(SurfaceTest, TrianglesWithoutAreaAddNothing) {
+  TriangleMesh mesh;
+  mesh.vertices = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {2, 0, 0}};
+  mesh.triangles = {{0, 1, 2}, {0, 3, 1}, {0, 0, 2}};
+  const Surface surface = build_surface(mesh);
+  EXPECT_EQ(surface.face_normals[1], Vec3::Zero());
+  EXPECT_EQ(surface.face_normals[2], Vec3::Zero());
+  EXPECT_EQ(surface.vertex_pseudo_normals[0], Vec3(0, 0, 1));
+  EXPECT_EQ(surface.vertex_pseudo_normals[3], Vec3::Zero());
+}
+
+}  // namespace
+}  // namespace lmdbench
