@@ -16,17 +16,20 @@ struct InputFile {
   std::filesystem::path file;
 };
 
-/// SHA-256 of a file's bytes, lower-case hexadecimal.
-/// @throws InputError when the file cannot be read
-std::string sha256_of_file(const std::filesystem::path& file);
-
 /// "lmdbench 0.1.0 (commit, dirty flag), compiler, flags, library versions": the text of `--version`.
 std::string version_text();
 
-/// Writes root attributes (`format`, `format_version`, `creator`, `created_utc`) and the group /provenance of the
-/// result contract: program version, git commit, dirty flag, compiler and flags, processor, cores, library versions,
-/// argv, the resolved experiment and the plan as JSON text, and the inputs with their SHA-256.
-void write_provenance(ResultWriter& writer, const std::vector<std::string>& argv, const std::string& experiment_json,
-                      const std::string& plan_json, const std::vector<InputFile>& inputs);
+inline constexpr const char* RESULT_FORMAT = "lmdbench-result";
+/// Major version: readers refuse an unknown one. It rises when a dataset changes its meaning or disappears.
+inline constexpr int RESULT_FORMAT_VERSION = 1;
+
+/// Writes root attributes (`format`, `format_version`, `creator`, `created_utc`) and the group /provenance of
+/// the result contract: program version, git commit, dirty flag, compiler and flags, processor, cores,
+/// library versions, argv, the resolved experiment and the plan as JSON text, and the inputs with their
+/// SHA-256. Call it before the run: the load average is that of the moment.
+/// @throws InputError when an input cannot be read
+void write_provenance(ResultWriter& writer, const std::vector<std::string>& argv,
+                      const std::string& experiment_json, const std::string& plan_json,
+                      const std::vector<InputFile>& inputs);
 
 }  // namespace lmdbench

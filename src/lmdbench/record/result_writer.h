@@ -14,14 +14,21 @@ namespace lmdbench {
 
 /// What a reader must know of a dataset; the writer cannot make one without it.
 struct DatasetInfo {
-  std::string path;       ///< Absolute path in the file, e.g. "/methods/improved/force"; groups are made as needed.
+  std::string
+      path;  ///< Absolute path in the file, e.g. "/methods/improved/force"; groups are made as needed.
   std::string units;      ///< SI symbol, "1" for counts, ratios and indices
   std::string long_name;  ///< One phrase
 };
 
-/// Writes one result file (HDF5). Data goes to `<file>.part`, which takes the final name only in `commit`: an earlier
-/// result of that name is whole until then, and an interrupted run never looks like a finished one.
-/// @throws EnvironmentError when the file cannot be made, written or renamed
+/// Writes one result file (HDF5). It is kept in memory until `commit`, which writes `<file>.part`, brings it
+/// to the disk and gives it the final name: an earlier result of that name is whole until then, and an
+/// interrupted run never looks like a finished one. The `.part` file is made at once, so that a wrong place
+/// is reported before a long run.
+/// @throws EnvironmentError when the file cannot be made, written or renamed, or when another run is writing
+/// it
+/// @throws std::invalid_argument for a shape that does not fit, a path that is not absolute or was written
+/// before, and
+///         missing units or long name: mistakes of the calling code
 class ResultWriter {
  public:
   explicit ResultWriter(std::filesystem::path file);
@@ -29,11 +36,13 @@ class ResultWriter {
   ResultWriter(const ResultWriter&) = delete;
   ResultWriter& operator=(const ResultWriter&) = delete;
 
-  /// Row-major datasets; the product of `shape` equals `values.size()`, and a zero-sized shape is allowed. Chunked
-  /// along the first axis, shuffled and deflated where they are large enough for it.
+  /// Row-major datasets; the product of `shape` equals `values.size()`, and a zero-sized shape is allowed.
+  /// Chunked along the first axis, shuffled and deflated where they are large enough for it.
   void write(const DatasetInfo& info, std::span<const double> values, const std::vector<std::size_t>& shape);
-  void write(const DatasetInfo& info, std::span<const std::int64_t> values, const std::vector<std::size_t>& shape);
-  void write(const DatasetInfo& info, std::span<const std::uint8_t> values, const std::vector<std::size_t>& shape);
+  void write(const DatasetInfo& info, std::span<const std::int64_t> values,
+             const std::vector<std::size_t>& shape);
+  void write(const DatasetInfo& info, std::span<const std::uint8_t> values,
+             const std::vector<std::size_t>& shape);
   void write(const DatasetInfo& info, const std::vector<std::string>& values);
 
   /// Attributes of the group or dataset at `path` ("/" is the root; missing groups are made).
@@ -41,7 +50,8 @@ class ResultWriter {
   void attribute(const std::string& path, const std::string& name, std::int64_t value);
   void attribute(const std::string& path, const std::string& name, double value);
 
-  /// Flushes to disk and gives the file its name, replacing an earlier one at once.
+  /// Flushes to disk and gives the file its name, replacing an earlier one at once. When it throws, nothing
+  /// is lost: it may be called again.
   void commit();
 
  private:
