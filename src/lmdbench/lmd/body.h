@@ -12,8 +12,8 @@
 
 namespace lmdbench {
 
-/// A mesh prepared for proximity queries: immutable, shared between methods, instances and threads. What only some
-/// methods need (the hierarchy) is built when the first of them asks for it, once.
+/// A mesh prepared for proximity queries: immutable, shared between methods, instances and threads. What only
+/// some methods need (the hierarchy) is built when the first of them asks for it, once.
 class Body {
  public:
   Body(std::string name, Surface surface) : name_(std::move(name)), surface_(std::move(surface)) {}

@@ -10,31 +10,33 @@
 
 namespace lmdbench {
 
-/// One way to find the LMD set of a scene. A method owns its scratch memory and is used by one thread at a time; the
-/// bodies that it reads are immutable and shared. Drivers, tests, benchmarks and reports take lists of methods; a new
-/// one is a new file and a line in `registry.cpp`.
+/// One way to find the LMD set of a scene. A method owns its scratch memory and is used by one thread at a
+/// time; the bodies that it reads are immutable and shared. Drivers, tests, benchmarks and reports take lists
+/// of methods; a new one is a new file and a line in `registry.cpp`.
 class Method {
  public:
   virtual ~Method() = default;
 
   virtual std::string_view name() const = 0;
 
-  /// Whether the method needs local tracking between searches. If not, drivers call `search` in every haptic frame.
+  /// Whether the method needs local tracking between searches. If not, drivers call `search` in every haptic
+  /// frame.
   virtual bool tracks_locally() const = 0;
 
-  /// How many times `track` runs in the global thread right after a search (paper, section 4.3; decision E11): 0 for
-  /// the original, 2 for the improved algorithm (first reduction, second tracking).
+  /// How many times `track` runs in the global thread right after a search (paper, section 4.3; decision
+  /// E11): 0 for the original, 2 for the improved algorithm (first reduction, second tracking).
   virtual int trackings_after_search() const = 0;
 
   /// Finds an LMD set from scratch.
   /// @param X_WM     pose of the moving mesh
-  /// @param lmds     receives the set, sorted by `lmd_less`; for the paper's algorithms these are the candidates
+  /// @param lmds     receives the set, sorted by `lmd_less`; for the paper's algorithms these are the
+  /// candidates
   ///                 before reduction
   /// @param counters is added to
   virtual void search(const Pose& X_WM, LmdSet& lmds, WorkCounters& counters) = 0;
 
-  /// Brings a set to a new pose (L1..L4) and drops duplicates by the method's rule. Tracked pairs may lie beyond the
-  /// cutoff: they stay in the set, exert no force and are not reported (see `within_cutoff`).
+  /// Brings a set to a new pose (L1..L4) and drops duplicates by the method's rule. Tracked pairs may lie
+  /// beyond the cutoff: they stay in the set, exert no force and are not reported (see `within_cutoff`).
   virtual void track(const Pose& X_WM, LmdSet& lmds, WorkCounters& counters) = 0;
 };
 

@@ -2,56 +2,21 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <lmdbench/lmd/body.h>
 #include <lmdbench/lmd/method.h>
+#include <lmdbench/lmd/method_options.h>
+#include <lmdbench/lmd/scene.h>
 
-#include <cstdint>
 #include <memory>
-#include <string>
 #include <string_view>
 #include <vector>
 
 namespace lmdbench {
 
-/// What a method works on: one moving body and the fixed ones, whose vertices are already in the world frame.
-struct Scene {
-  std::shared_ptr<const Body> moving;
-  std::vector<std::shared_ptr<const Body>> fixed;
-  double cutoff = 0.0;  ///< Distance beyond which a pair exerts no force [m]; G1's limit.
-};
-
-/// How the visibility pre-test of the improved algorithm reads the paper (decision E6).
-enum class Visibility : std::uint8_t {
-  VERTEX_NORMAL,  ///< Project each corner along its vertex normal onto the other plane (default).
-  ORTHOGONAL,     ///< Project each corner orthogonally onto the other plane.
-  OFF             ///< No pre-test.
-};
-
-/// Which LMDs the improved algorithm's tracking drops (decision E7).
-enum class Reduction : std::uint8_t {
-  PUBLISHED,  ///< Section 4.2.1: the minimum was computed for another LMD.
-  LOSS_FREE   ///< Only an LMD that ends on the same feature pair as another one.
-};
-
-/// How the original algorithm reads the dual solution-line cone of G3 (decision E4).
-enum class LineCone : std::uint8_t {
-  ONE_SIDED,  ///< A ray from the moving to the fixed sphere, equal to G3.a/b (default: favours the original).
-  TWO_SIDED   ///< A line: either end may lie in the cone.
-};
-
-/// Free choices of the paper's algorithms; defaults are those of the reports.
-struct MethodOptions {
-  Visibility visibility = Visibility::VERTEX_NORMAL;
-  Reduction reduction = Reduction::PUBLISHED;
-  LineCone line_cone = LineCone::ONE_SIDED;
-  double g5_tolerance_rad = 0.5;  ///< Decision E5: how far a 7x7 direction may leave its feature's normal set.
-  bool literal_g3 = false;        ///< Ablation of decision E2: keep what the printed inequality keeps.
-};
-
 /// Names that `make_method` knows, in the order of reports.
 const std::vector<std::string_view>& method_names();
 
 /// @throws UsageError for an unknown name, listing the known ones
-std::unique_ptr<Method> make_method(std::string_view name, const Scene& scene, const MethodOptions& options = {});
+std::unique_ptr<Method> make_method(std::string_view name, const Scene& scene,
+                                    const MethodOptions& options = {});
 
 }  // namespace lmdbench

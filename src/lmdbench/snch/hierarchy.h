@@ -10,21 +10,23 @@
 
 namespace lmdbench {
 
-/// Node of a spatialized normal cone hierarchy (paper, section 3.1): a bounding sphere with a cone of normals, both in
-/// the mesh's frame. Angles are kept as cosine and sine, so that node tests need no inverse trigonometry.
+/// Node of a spatialized normal cone hierarchy (paper, section 3.1): a bounding sphere with a cone of
+/// normals, both in the mesh's frame. Angles are kept as cosine and sine, so that node tests need no inverse
+/// trigonometry.
 struct HierarchyNode {
-  Vec3 centre;                ///< S, metres
-  double radius;              ///< rho, metres
-  Vec3 cone_axis;             ///< C, unit; any direction where the cone is all directions
-  double cone_cosine;         ///< cos(phi); phi in [0, pi], pi meaning all directions
-  double cone_sine;           ///< sin(phi)
-  std::int32_t first_child;   ///< Index of the left child, the right one follows it; -1 for a leaf.
-  std::int32_t triangle;      ///< The leaf's triangle; -1 for an inner node.
+  Vec3 centre;               ///< S, metres
+  double radius;             ///< rho, metres
+  Vec3 cone_axis;            ///< C, unit; any direction where the cone is all directions
+  double cone_cosine;        ///< cos(phi); phi in [0, pi], pi meaning all directions
+  double cone_sine;          ///< sin(phi)
+  std::int32_t first_child;  ///< Index of the left child, the right one follows it; -1 for a leaf.
+  std::int32_t triangle;     ///< The leaf's triangle; -1 for an inner node.
 
   bool is_leaf() const { return first_child < 0; }
 };
 
-/// Binary hierarchy whose leaves hold one triangle each. nodes[0] is the root; empty for a mesh without triangles.
+/// Binary hierarchy whose leaves hold one triangle each. nodes[0] is the root; empty for a mesh without
+/// triangles.
 struct Hierarchy {
   std::vector<HierarchyNode> nodes;
 };

@@ -1,0 +1,31 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <lmdbench/geometry/pose.h>
+#include <lmdbench/lmd/lmd.h>
+#include <lmdbench/mesh/surface.h>
+
+namespace lmdbench {
+
+/// How far a direction may leave a polar cone before it counts as outside, as a sine: far above rounding of
+/// the directions, far below any dihedral angle that a mesh means. Useful range 1e-12 .. 1e-8.
+inline constexpr double FIRST_ORDER_TOLERANCE = 1e-10;
+
+/// The first-order LMD condition of design section 2 for one side: no point of the triangles incident to
+/// `feature` is nearer to the other point to first order, and the direction leaves on the outer side,
+///   n . (x - p) <= 0 for every corner x of those triangles, n . pseudo_normal > 0.
+/// Triangles are convex, so their corners decide. The outer side of boundary features is not asked for: the
+/// polar of a half-plane's edge is a half-plane's worth of directions, on both sides of the sheet (ours); nor
+/// that of non-manifold features, which have no side.
+/// @param p_W  the point on `feature`, world frame
+/// @param d_W  vector from p_W to the other point, not zero, any length, world frame
+bool in_outward_polar_cone(const Surface& surface, const RigidTransform& X_WS, const FeatureId& feature,
+                           const Vec3& p_W, const Vec3& d_W);
+
+/// Both sides of a pair: d in N_A(p) and -d in N_B(q). A pair at distance 0 has no direction and counts as an
+/// LMD (decision E12).
+bool is_local_minimum(const Surface& moving, const RigidTransform& X_WM, const Surface& fixed,
+                      const Lmd& lmd);
+
+}  // namespace lmdbench

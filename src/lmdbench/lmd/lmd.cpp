@@ -1,0 +1,27 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/lmd/lmd.h>
+
+#include <tuple>
+
+namespace lmdbench {
+
+bool lmd_less(const Lmd& a, const Lmd& b) {
+  return std::tie(a.distance, a.fixed_body, a.feature_moving, a.feature_fixed, a.triangle_moving,
+                  a.triangle_fixed) < std::tie(b.distance, b.fixed_body, b.feature_moving, b.feature_fixed,
+                                               b.triangle_moving, b.triangle_fixed);
+}
+
+bool same_feature_pair(const Lmd& a, const Lmd& b) {
+  return a.fixed_body == b.fixed_body && a.feature_moving == b.feature_moving &&
+         a.feature_fixed == b.feature_fixed;
+}
+
+double minimum_distance(const LmdSet& lmds) {
+  double minimum = std::numeric_limits<double>::quiet_NaN();
+  for (const Lmd& lmd : lmds)
+    if (!(lmd.distance >= minimum)) minimum = lmd.distance;
+  return minimum;
+}
+
+}  // namespace lmdbench

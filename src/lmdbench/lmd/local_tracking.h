@@ -1,0 +1,82 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <lmdbench/lmd/lmd.h>
+#include <lmdbench/lmd/work_counters.h>
+#include <lmdbench/mesh/surface.h>
+
+#include <cstdint>
+
+namespace lmdbench {
+
+/// Local tracking (paper, sections 3.2.2 and 4.2): one LMD walks to its local minimum over neighbouring
+/// triangles.
+///   L1  the triangles round both contact points, by their closest features (Fig. 5);
+///   L2  the distances of all combinations;
+///   L3  quit when the shortest one is the pair that was there;
+///   L4  else go on from the shortest.
+/// What the distance of a triangle pair is (7x7 points or exact) and where it comes from (calculated or
+/// cached) is the algorithm's own; the walk is shared.
+
+/// Closest points of one triangle pair, as an algorithm sees them.
+struct TrackedPair {
+  Lmd lmd;                     ///< Without `direction`.
+  bool seen_by_other = false;  ///< Calculated earlier in this update for another LMD (section 4.2.1).
+};
+
+/// Where a walk ended.
+struct WalkEnd {
+  Lmd lmd;
+  bool is_duplicate =
+      false;  ///< The minimum was already found for another LMD: the published rule drops this one.
+};
+
+/// A distance must shrink by more than this fraction to count as shorter: the same two points, seen from
+/// another triangle that shares them, differ by rounding only. Useful range 1e-14 .. 1e-9.
+inline constexpr double SAME_DISTANCE_TOLERANCE = 1e-12;
+
+inline bool is_shorter(double candidate, double best) {
+  return candidate < best * (1.0 - SAME_DISTANCE_TOLERANCE);
+}
+
+/// Direction of a pair from its points; a pair at distance 0 keeps the last valid one (decision E12).
+inline void set_direction(Lmd& lmd, const Vec3& last_direction) {
+  lmd.direction = lmd.distance > 0.0 && !lmd.intersecting
+                      ? Vec3((lmd.point_fixed - lmd.point_moving) / lmd.distance)
+                      : last_direction;
+}
+
+/// Walks `start` to its local minimum.
+/// @param evaluate (triangle_moving, triangle_fixed) -> TrackedPair at the current pose
+template <class Evaluate>
+WalkEnd walk_to_minimum(const Surface& moving, const Surface& fixed, const Lmd& start, Evaluate&& evaluate,
+                        WorkCounters& counters) {
+  WalkEnd end{start, false};
+  for (bool first_round = true;; first_round = false) {
+    ++counters[Counter::TRACKING_STEPS];
+    TrackedPair shortest;
+    bool any = false;
+    for (const std::int32_t t_moving : moving.incident_triangles(end.lmd.feature_moving)) {
+      for (const std::int32_t t_fixed : fixed.incident_triangles(end.lmd.feature_fixed)) {
+        const TrackedPair pair = evaluate(t_moving, t_fixed);
+        if (!any || is_shorter(pair.lmd.distance, shortest.lmd.distance)) {
+          shortest = pair;
+          any = true;
+        } else if (!is_shorter(shortest.lmd.distance, pair.lmd.distance)) {
+          // The same minimum on another triangle that shares its features.
+          shortest.seen_by_other |= pair.seen_by_other;
+        }
+      }
+    }
+    const bool settled = same_feature_pair(shortest.lmd, end.lmd) ||
+                         (!first_round && !is_shorter(shortest.lmd.distance, end.lmd.distance));
+    end.is_duplicate = shortest.seen_by_other;
+    if (first_round || is_shorter(shortest.lmd.distance, end.lmd.distance)) end.lmd = shortest.lmd;
+    if (end.is_duplicate || settled) break;
+  }
+  set_direction(end.lmd, start.direction);
+  return end;
+}
+
+}  // namespace lmdbench

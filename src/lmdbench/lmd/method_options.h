@@ -1,0 +1,38 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+
+namespace lmdbench {
+
+/// How the visibility pre-test of the improved algorithm reads the paper (decision E6).
+enum class Visibility : std::uint8_t {
+  VERTEX_NORMAL,  ///< Project each corner along its vertex normal onto the other plane (default).
+  ORTHOGONAL,     ///< Project each corner orthogonally onto the other plane.
+  OFF             ///< No pre-test.
+};
+
+/// Which LMDs the improved algorithm's tracking drops (decision E7).
+enum class Reduction : std::uint8_t {
+  PUBLISHED,  ///< Section 4.2.1: the minimum was computed for another LMD.
+  LOSS_FREE   ///< Only an LMD that ends on the same feature pair as another one.
+};
+
+/// How the original algorithm reads the dual solution-line cone of G3 (decision E4).
+enum class LineCone : std::uint8_t {
+  ONE_SIDED,  ///< A ray from the moving to the fixed sphere, equal to G3.a/b (default: favours the original).
+  TWO_SIDED   ///< A line: either end may lie in the cone.
+};
+
+/// Free choices of the paper's algorithms; defaults are those of the reports.
+struct MethodOptions {
+  Visibility visibility = Visibility::VERTEX_NORMAL;
+  Reduction reduction = Reduction::PUBLISHED;
+  LineCone line_cone = LineCone::ONE_SIDED;
+  double g5_tolerance_rad =
+      0.5;                  ///< Decision E5: how far a 7x7 direction may leave its feature's normal set.
+  bool literal_g3 = false;  ///< Ablation of decision E2: keep what the printed inequality keeps.
+};
+
+}  // namespace lmdbench

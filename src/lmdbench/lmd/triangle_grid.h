@@ -1,0 +1,57 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <lmdbench/geometry/types.h>
+#include <lmdbench/mesh/index_rows.h>
+#include <lmdbench/mesh/triangle_mesh.h>
+
+#include <Eigen/Geometry>
+
+#include <cstdint>
+#include <vector>
+
+namespace lmdbench {
+
+/// Axis-aligned bounding box of a triangle.
+Eigen::AlignedBox3d bounding_box(const Triangle& triangle);
+
+/// Uniform grid over a mesh's triangles: lists all triangles whose boxes lie within a distance of a query
+/// box. Used by one thread at a time.
+class TriangleGrid {
+ public:
+  explicit TriangleGrid(const TriangleMesh& mesh);
+
+  /// Calls `visit(triangle)` once for each triangle whose box is within `distance` [m] of `box`; order: cell
+  /// by cell.
+  template <class Visitor>
+  void for_each_near(const Eigen::AlignedBox3d& box, double distance, Visitor&& visit) {
+    if (boxes_.empty() || bounds_.squaredExteriorDistance(box) > distance * distance) return;
+    ++query_;
+    const Vec3 reach = Vec3::Constant(distance);
+    const Eigen::Array3i first = cell_of(box.min() - reach), last = cell_of(box.max() + reach);
+    for (int z = first.z(); z <= last.z(); ++z)
+      for (int y = first.y(); y <= last.y(); ++y)
+        for (int x = first.x(); x <= last.x(); ++x)
+          for (const std::int32_t triangle : cells_[(z * size_.y() + y) * size_.x() + x]) {
+            const auto t = static_cast<std::size_t>(triangle);
+            if (last_query_[t] == query_) continue;
+            last_query_[t] = query_;
+            if (boxes_[t].squaredExteriorDistance(box) <= distance * distance) visit(triangle);
+          }
+  }
+
+ private:
+  /// Cell that holds a point, clamped to the grid.
+  Eigen::Array3i cell_of(const Vec3& point) const;
+
+  Eigen::AlignedBox3d bounds_;
+  Eigen::Array3i size_ = Eigen::Array3i::Ones();
+  Vec3 cells_per_metre_ = Vec3::Zero();
+  std::vector<Eigen::AlignedBox3d> boxes_;
+  IndexRows cells_;
+  std::vector<std::uint64_t> last_query_;  ///< Stamp of the query that visited the triangle last.
+  std::uint64_t query_ = 0;
+};
+
+}  // namespace lmdbench

@@ -1,0 +1,67 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/snch/minimum_distance.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <vector>
+
+namespace lmdbench {
+
+namespace {
+
+struct Candidate {
+  double lower_bound;  ///< distance of the spheres
+  std::int32_t index_a;
+  std::int32_t index_b;
+};
+
+}  // namespace
+
+NearestPair nearest_pair(const Surface& moving, const Hierarchy& moving_hierarchy, const Surface& fixed,
+                         const Hierarchy& fixed_hierarchy, const Pose& X_WM, double upper_bound) {
+  NearestPair nearest;
+  if (moving_hierarchy.nodes.empty() || fixed_hierarchy.nodes.empty()) return nearest;
+  const RigidTransform transform(X_WM);
+  double best = upper_bound;
+
+  const auto candidate = [&](std::int32_t index_a, std::int32_t index_b) {
+    const HierarchyNode& a = moving_hierarchy.nodes[static_cast<std::size_t>(index_a)];
+    const HierarchyNode& b = fixed_hierarchy.nodes[static_cast<std::size_t>(index_b)];
+    const double gap = (b.centre - transform.point(a.centre)).norm() - a.radius - b.radius;
+    return Candidate{std::max(0.0, gap), index_a, index_b};
+  };
+
+  // Depth first, the nearer child pair on top: the bound tightens early and the stack stays small.
+  std::vector<Candidate> stack{candidate(0, 0)};
+  std::array<Candidate, 2> children;
+  while (!stack.empty()) {
+    const Candidate pair = stack.back();
+    stack.pop_back();
+    if (pair.lower_bound > best) continue;
+    const HierarchyNode& a = moving_hierarchy.nodes[static_cast<std::size_t>(pair.index_a)];
+    const HierarchyNode& b = fixed_hierarchy.nodes[static_cast<std::size_t>(pair.index_b)];
+    if (a.is_leaf() && b.is_leaf()) {
+      const TrianglePairDistance distance = triangle_distance(
+          transform.triangle(moving.mesh.triangle(a.triangle)), fixed.mesh.triangle(b.triangle));
+      const double length = std::sqrt(distance.squared_distance);
+      if (length < best || (length <= best && nearest.triangle_moving < 0)) {
+        best = length;
+        nearest = {length, a.triangle, b.triangle, distance};
+      }
+      continue;
+    }
+    if (!a.is_leaf() && (b.is_leaf() || a.radius >= b.radius)) {
+      children = {candidate(a.first_child, pair.index_b), candidate(a.first_child + 1, pair.index_b)};
+    } else {
+      children = {candidate(pair.index_a, b.first_child), candidate(pair.index_a, b.first_child + 1)};
+    }
+    if (children[0].lower_bound < children[1].lower_bound) std::swap(children[0], children[1]);
+    for (const Candidate& child : children)
+      if (child.lower_bound <= best) stack.push_back(child);
+  }
+  return nearest;
+}
+
+}  // namespace lmdbench
