@@ -14,12 +14,12 @@ namespace lmdbench {
 
 namespace {
 
-/// "assimp=5.2.5;fcl=0.7.0" as CMake found them, and what the headers in use say of themselves.
+/// "assimp=5.2.5 fcl=0.7.0" as CMake found them, and what the headers in use say of themselves.
 std::vector<std::pair<std::string, std::string>> library_versions() {
   std::vector<std::pair<std::string, std::string>> versions;
   std::string_view found = LMDBENCH_LIBRARY_VERSIONS;
   while (!found.empty()) {
-    const std::string_view entry = found.substr(0, found.find(';'));
+    const std::string_view entry = found.substr(0, found.find(' '));
     found.remove_prefix(std::min(found.size(), entry.size() + 1));
     const std::size_t equals = entry.find('=');
     versions.emplace_back(entry.substr(0, equals), entry.substr(equals + 1));
