@@ -1,0 +1,109 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/motion/interpolate.h>
+#include <lmdbench/motion/rotation_vector.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <utility>
+
+namespace lmdbench {
+namespace {
+
+/// Values at the poses from the secants between them: the slope of the parabola through three neighbours
+/// inside, the secant at the ends.
+std::vector<Vec3> parabola_slopes(const std::vector<double>& steps, const std::vector<Vec3>& secants) {
+  const std::size_t count = secants.size() + 1;
+  std::vector<Vec3> slopes(count, Vec3::Zero());
+  if (secants.empty()) return slopes;
+  slopes.front() = secants.front();
+  slopes.back() = secants.back();
+  for (std::size_t i = 1; i + 1 < count; ++i) {
+    const double before = steps[i - 1];
+    const double after = steps[i];
+    slopes[i] = (after * secants[i - 1] + before * secants[i]) / (before + after);
+  }
+  return slopes;
+}
+
+Vec3 hermite(const Vec3& p0, const Vec3& step_v0, const Vec3& p1, const Vec3& step_v1, double u) {
+  const Vec3 chord = p1 - p0;
+  // Offset from p0 and not a blend of p0 and p1: far from the origin the blend would round the motion away.
+  return p0 + u * (step_v0 +
+                   u * ((3.0 * chord - 2.0 * step_v0 - step_v1) + u * (step_v0 + step_v1 - 2.0 * chord)));
+}
+
+Eigen::Quaterniond bezier(const Eigen::Quaterniond& q0, const Vec3& step_w0, const Eigen::Quaterniond& q3,
+                          const Vec3& step_w1, double u) {
+  const Vec3 w_1 = step_w0 / 3.0;
+  const Vec3 w_3 = step_w1 / 3.0;
+  // The middle factor closes the curve: q0 exp(w_1) exp(w_2) exp(w_3) = q3.
+  const Vec3 w_2 = rotation_vector_of((q0 * rotation_of(w_1)).conjugate() * q3 * rotation_of(-w_3));
+  const double b_1 = u * (3.0 + u * (-3.0 + u));
+  const double b_2 = u * u * (3.0 - 2.0 * u);
+  const double b_3 = u * u * u;
+  return (q0 * rotation_of(w_1 * b_1) * rotation_of(w_2 * b_2) * rotation_of(w_3 * b_3)).normalized();
+}
+
+}  // namespace
+
+PathInterpolator::PathInterpolator(Path path, Interpolation interpolation)
+    : path_(std::move(path)), interpolation_(interpolation) {
+  if (path_.empty()) throw std::invalid_argument("a path needs at least one pose");
+  if (interpolation_ == Interpolation::LINEAR) return;
+  std::vector<double> steps;
+  std::vector<Vec3> secants;
+  std::vector<Vec3> angular_secants;
+  for (std::size_t i = 0; i + 1 < path_.size(); ++i) {
+    const Pose& a = path_[i].pose;
+    const Pose& b = path_[i + 1].pose;
+    steps.push_back(path_[i + 1].time - path_[i].time);
+    secants.push_back((b.translation - a.translation) / steps.back());
+    angular_secants.push_back(rotation_vector_of(a.rotation.conjugate() * b.rotation) / steps.back());
+  }
+  velocities_ = parabola_slopes(steps, secants);
+  angular_velocities_ = parabola_slopes(steps, angular_secants);
+}
+
+Pose PathInterpolator::at(double time) const {
+  const auto next = std::upper_bound(path_.begin(), path_.end(), time,
+                                     [](double t, const TimedPose& timed) { return t < timed.time; });
+  if (next == path_.begin()) return path_.front().pose;
+  const auto index = static_cast<std::size_t>(next - path_.begin()) - 1;
+  const TimedPose& a = path_[index];
+  if (next == path_.end() || time == a.time) return a.pose;
+  const TimedPose& b = *next;
+  const double step = b.time - a.time;
+  const double u = (time - a.time) / step;
+  if (interpolation_ == Interpolation::LINEAR) {
+    const Vec3 turn = rotation_vector_of(a.pose.rotation.conjugate() * b.pose.rotation);
+    return {a.pose.translation + u * (b.pose.translation - a.pose.translation),
+            (a.pose.rotation * rotation_of(u * turn)).normalized()};
+  }
+  return {hermite(a.pose.translation, step * velocities_[index], b.pose.translation,
+                  step * velocities_[index + 1], u),
+          bezier(a.pose.rotation, step * angular_velocities_[index], b.pose.rotation,
+                 step * angular_velocities_[index + 1], u)};
+}
+
+std::size_t frame_count(const PathInterpolator& interpolator, double rate) {
+  if (!(rate > 0.0) || !std::isfinite(rate)) throw std::invalid_argument("the frame rate must be above 0");
+  const double periods = (interpolator.end_time() - interpolator.start_time()) * rate;
+  return static_cast<std::size_t>(std::floor(periods + LAST_FRAME_TOLERANCE)) + 1;
+}
+
+Path resample(const PathInterpolator& interpolator, double rate) {
+  const std::size_t count = frame_count(interpolator, rate);
+  Path frames;
+  frames.reserve(count);
+  for (std::size_t k = 0; k < count; ++k) {
+    const double time = interpolator.start_time() + static_cast<double>(k) / rate;
+    Pose pose = interpolator.at(time);
+    if (k > 0 && pose.rotation.dot(frames.back().pose.rotation) < 0.0) pose.rotation.coeffs() *= -1.0;
+    frames.push_back({time, pose});
+  }
+  return frames;
+}
+
+}  // namespace lmdbench

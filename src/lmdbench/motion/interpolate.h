@@ -1,0 +1,63 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <lmdbench/motion/path.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace lmdbench {
+
+/// What lies between the poses of a path. Both go through every pose and turn along the shorter arc.
+enum class Interpolation : std::uint8_t {
+  LINEAR,  ///< Straight and at constant speed between poses (slerp); velocity jumps at the poses.
+  CUBIC    ///< Velocity and angular velocity are continuous (C1): what a hand does, the default.
+};
+
+/// A path at any time.
+///
+/// CUBIC, translation: cubic Hermite between neighbouring poses; the velocity at a pose is the slope of the
+/// parabola through it and its two neighbours (exact for quadratic motion on uneven times), at the ends the
+/// secant's. CUBIC, rotation: cubic Bezier curve of quaternions in cumulative form, q(u) = q_0 exp(w_1
+/// b_1(u)) exp(w_2 b_2(u)) exp(w_3 b_3(u)) (Kim, Kim and Shin, SIGGRAPH 1995), whose end angular velocities
+/// are set to the same rule's values in place of the translation's. Neither overshoots by more than a
+/// fraction of a step, but where a path *jumps* the neighbouring intervals swing: use LINEAR for paths that
+/// are meant to jump.
+///
+/// The translation that is interpolated is the one of the mesh frame's origin: a mesh whose origin is far
+/// from its centre swings when it turns. Meshes are centred for that (`scaled_to_diagonal`).
+class PathInterpolator {
+ public:
+  /// @pre the path has at least one pose and strictly increasing times (as `read_tum` gives)
+  explicit PathInterpolator(Path path, Interpolation interpolation = Interpolation::CUBIC);
+
+  double start_time() const { return path_.front().time; }
+  double end_time() const { return path_.back().time; }
+  const Path& path() const { return path_; }
+
+  /// Pose at a time [s]: at a pose's own time that pose bit for bit, before the start the first, after the
+  /// end the last. The quaternion's sign follows the pose that opens the interval.
+  Pose at(double time) const;
+
+ private:
+  Path path_;
+  Interpolation interpolation_;
+  std::vector<Vec3> velocities_;          ///< m/s at each pose; empty for LINEAR
+  std::vector<Vec3> angular_velocities_;  ///< rad/s at each pose, in the mesh's frame; empty for LINEAR
+};
+
+/// A frame is inside the path when it is late by at most this part of a period: rounding must not lose the
+/// last frame.
+inline constexpr double LAST_FRAME_TOLERANCE = 1e-6;
+
+/// Number of haptic frames start + k / rate, k = 0, 1, ..., that lie on the path; at least 1.
+std::size_t frame_count(const PathInterpolator& interpolator, double rate);
+
+/// The path's haptic frames: frame k has the time start + k / rate, each computed from k and not by adding up
+/// steps. Quaternion signs are continuous from frame to frame.
+/// @param rate frames a second [Hz], > 0
+Path resample(const PathInterpolator& interpolator, double rate);
+
+}  // namespace lmdbench
