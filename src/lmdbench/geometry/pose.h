@@ -23,8 +23,8 @@ struct Pose {
   }
 };
 
-/// A pose with its rotation expanded to a matrix: what inner loops use. Every method transforms points with this one
-/// expression, so that the same vertex has the same bits everywhere.
+/// A pose with its rotation expanded to a matrix: what inner loops use. Every method transforms points with
+/// this one expression, so that the same vertex has the same bits everywhere.
 struct RigidTransform {
   Mat3 rotation = Mat3::Identity();
   Vec3 translation = Vec3::Zero();

@@ -12,8 +12,8 @@ namespace lmdbench {
 using Vec3 = Eigen::Vector3d;
 using Mat3 = Eigen::Matrix3d;
 
-/// Corners of a triangle in counter-clockwise order seen from the outer side. May be degenerate: a triangle with
-/// collinear corners is treated as a segment, one with three equal corners as a point.
+/// Corners of a triangle in counter-clockwise order seen from the outer side. May be degenerate: a triangle
+/// with collinear corners is treated as a segment, one with three equal corners as a point.
 using Triangle = std::array<Vec3, 3>;
 
 }  // namespace lmdbench

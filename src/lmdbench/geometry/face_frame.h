@@ -1,0 +1,82 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <lmdbench/geometry/tolerance.h>
+#include <lmdbench/geometry/types.h>
+
+#include <Eigen/Geometry>
+
+#include <cmath>
+
+namespace lmdbench::kernel {
+
+/// A triangle's plane, held as its longest edge e = b - a and the altitude h on it, with c = a + u e + h.
+///
+/// Both are known to a few roundings of the edge's length whatever the aspect ratio, where the cross product
+/// of two edges of a needle loses every digit. Weights of a projected point follow from two divisions along e
+/// and h.
+struct FaceFrame {
+  Vec3 a, e, h, ca;        ///< ca = c - a
+  double squared_e = 0.0;  ///< |e|^2
+  double squared_h = 0.0;  ///< |h|^2
+  double u = 0.0;
+  double squared_limit_b =
+      0.0;  ///< square of the weight of b below which a point is on the edge ca; and so on
+  double squared_limit_a = 0.0;
+  double squared_limit_c = 0.0;
+  std::array<int, 3> corner{0, 1, 2};  ///< which corners a, b and c are
+  bool has_face = false;               ///< false when the altitude is rounding: a segment or a point
+
+  /// Weights of corners a, b, c of the projection of x.
+  struct Weights {
+    double a, b, c;
+  };
+
+  explicit FaceFrame(const std::array<Vec3, 3>& corners, double tolerance) {
+    const double squared_01 = (corners[1] - corners[0]).squaredNorm();
+    const double squared_12 = (corners[2] - corners[1]).squaredNorm();
+    const double squared_20 = (corners[0] - corners[2]).squaredNorm();
+    if (squared_12 > squared_01 && squared_12 >= squared_20) {
+      corner = {1, 2, 0};
+    } else if (squared_20 > squared_01) {
+      corner = {2, 0, 1};
+    }
+    a = corners[corner[0]];
+    e = corners[corner[1]] - a;
+    ca = corners[corner[2]] - a;
+    squared_e = e.squaredNorm();
+    if (!(squared_e > 0.0)) return;
+    u = ca.dot(e) / squared_e;
+    h = ca - u * e;
+    squared_h = h.squaredNorm();
+    const double squared_tolerance = tolerance * tolerance;
+    has_face = squared_h > squared_tolerance;
+    if (!has_face) return;
+    // weight of b times its height |e| |h| / |ca| is the distance to the edge ca; likewise for a and c.
+    const double squared_double_area = squared_e * squared_h;
+    squared_limit_a = squared_tolerance * (ca - e).squaredNorm() / squared_double_area;
+    squared_limit_b = squared_tolerance * ca.squaredNorm() / squared_double_area;
+    squared_limit_c = squared_tolerance / squared_h;
+  }
+
+  Weights weights(const Vec3& x) const {
+    const Vec3 from_a = x - a;
+    const double s = from_a.dot(e) / squared_e;
+    const double t = (from_a - s * e).dot(h) / squared_h;
+    const double b = s - u * t;
+    return {1.0 - t - b, b, t};
+  }
+
+  /// Farther than the tolerance from every edge, and inside.
+  bool is_interior(const Weights& w) const {
+    return w.a > 0.0 && w.b > 0.0 && w.c > 0.0 && w.a * w.a > squared_limit_a &&
+           w.b * w.b > squared_limit_b && w.c * w.c > squared_limit_c;
+  }
+
+  Vec3 point(const Weights& w) const { return a + w.b * e + w.c * ca; }
+
+  Vec3 unit_normal() const { return e.cross(h) / std::sqrt(squared_e * squared_h); }
+};
+
+}  // namespace lmdbench::kernel

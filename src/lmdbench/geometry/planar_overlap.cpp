@@ -1,0 +1,122 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/geometry/planar_overlap.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace lmdbench::kernel {
+namespace {
+
+using Vec2 = Eigen::Vector2d;
+
+/// A triangle cut by three half planes has at most six corners.
+struct Polygon {
+  std::array<Vec2, 6> corners;
+  int size = 0;
+};
+
+double cross(const Vec2& a, const Vec2& b) {
+  return a[0] * b[1] - a[1] * b[0];
+}
+
+/// The part of the polygon to the left of the line from p to q (Sutherland and Hodgman 1974).
+Polygon cut(const Polygon& polygon, const Vec2& p, const Vec2& q) {
+  Polygon result;
+  for (int i = 0; i < polygon.size; ++i) {
+    const Vec2& from = polygon.corners[i];
+    const Vec2& to = polygon.corners[(i + 1) % polygon.size];
+    const double side_from = cross(q - p, from - p);
+    const double side_to = cross(q - p, to - p);
+    if (side_from >= 0.0 && result.size < 6) result.corners[result.size++] = from;
+    if ((side_from > 0.0 && side_to < 0.0) || (side_from < 0.0 && side_to > 0.0)) {
+      if (result.size < 6)
+        result.corners[result.size++] = from + (side_from / (side_from - side_to)) * (to - from);
+    }
+  }
+  return result;
+}
+
+struct AreaAndCentroid {
+  double area = 0.0;
+  Vec2 centroid = Vec2::Zero();
+};
+
+AreaAndCentroid measure(const Polygon& polygon) {
+  AreaAndCentroid result;
+  // A fan from the first corner keeps the products as small as the polygon.
+  const Vec2& origin = polygon.corners[0];
+  for (int i = 1; i + 1 < polygon.size; ++i) {
+    const Vec2 a = polygon.corners[i] - origin;
+    const Vec2 b = polygon.corners[i + 1] - origin;
+    const double area = 0.5 * cross(a, b);
+    result.area += area;
+    result.centroid += area / 3.0 * (a + b);
+  }
+  if (result.area > 0.0) result.centroid = origin + result.centroid / result.area;
+  return result;
+}
+
+}  // namespace
+
+EdgeOverFace edge_over_face(const Vec3& x0, const Vec3& x1, const FaceFrame& face, double tolerance) {
+  EdgeOverFace result;
+  const FaceFrame::Weights w0 = face.weights(x0);
+  const FaceFrame::Weights w1 = face.weights(x1);
+  double begin = 0.0;
+  double end = 1.0;
+  for (const auto& [from, to] : {std::array{w0.a, w1.a}, std::array{w0.b, w1.b}, std::array{w0.c, w1.c}}) {
+    if (from < 0.0 && to < 0.0) return result;
+    if (from < 0.0) begin = std::max(begin, from / (from - to));
+    if (to < 0.0) end = std::min(end, from / (from - to));
+  }
+  const double length = (end - begin) * (x1 - x0).norm();
+  if (!(length > tolerance)) return result;
+  const double middle = 0.5 * (begin + end);
+  const FaceFrame::Weights w{w0.a + middle * (w1.a - w0.a), w0.b + middle * (w1.b - w0.b),
+                             w0.c + middle * (w1.c - w0.c)};
+  if (!face.is_interior(w)) return result;
+  result.exists = true;
+  result.length = length;
+  result.middle_on_edge = x0 + middle * (x1 - x0);
+  result.middle_on_face = face.point(w);
+  return result;
+}
+
+FaceOverFace face_over_face(const FaceFrame& first, const FaceFrame& second, double tolerance) {
+  FaceOverFace result;
+  // Coordinates along e and h of the first face, metres.
+  const double length_e = std::sqrt(first.squared_e);
+  const double length_h = std::sqrt(first.squared_h);
+  const auto planar = [&](const Vec3& x) {
+    const Vec3 from_a = x - first.a;
+    const double s = from_a.dot(first.e) / first.squared_e;
+    return Vec2(s * length_e, (from_a - s * first.e).dot(first.h) / length_h);
+  };
+  Polygon polygon;
+  polygon.size = 3;
+  polygon.corners[0] = planar(second.a);
+  polygon.corners[1] = planar(second.a + second.e);
+  polygon.corners[2] = planar(second.a + second.ca);
+  if (cross(polygon.corners[1] - polygon.corners[0], polygon.corners[2] - polygon.corners[0]) < 0.0) {
+    std::swap(polygon.corners[1], polygon.corners[2]);
+  }
+  const std::array<Vec2, 3> frame{Vec2::Zero(), Vec2(length_e, 0.0), Vec2(first.u * length_e, length_h)};
+  for (int k = 0; k < 3 && polygon.size > 0; ++k) polygon = cut(polygon, frame[k], frame[(k + 1) % 3]);
+  if (polygon.size < 3) return result;
+  const AreaAndCentroid whole = measure(polygon);
+  double longest = 0.0;
+  for (int i = 0; i < polygon.size; ++i) {
+    longest = std::max(longest, (polygon.corners[(i + 1) % polygon.size] - polygon.corners[i]).norm());
+  }
+  if (!(whole.area > tolerance * longest)) return result;
+  result.exists = true;
+  result.area = whole.area;
+  result.centroid_on_first =
+      first.a + whole.centroid[0] / length_e * first.e + whole.centroid[1] / length_h * first.h;
+  result.centroid_on_second = second.point(second.weights(result.centroid_on_first));
+  return result;
+}
+
+}  // namespace lmdbench::kernel

@@ -1,0 +1,266 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/geometry/face_frame.h>
+#include <lmdbench/geometry/planar_overlap.h>
+#include <lmdbench/geometry/point_triangle.h>
+#include <lmdbench/geometry/segment_kernel.h>
+#include <lmdbench/geometry/sorted_triangle.h>
+#include <lmdbench/geometry/tolerance.h>
+#include <lmdbench/geometry/triangle_distance.h>
+#include <lmdbench/geometry/triangle_intersection.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+
+// Steps of triangle_distance:
+// - sort the corners of each triangle and the two triangles, so that the caller's order cannot change a bit;
+// - 9 edge pairs and 6 corner-face pairs, each a feasible pair of points; keep the nearest;
+// - where an edge is parallel to a face, or both faces are parallel, and as near: take the middle of the
+// overlap;
+// - an exact intersection test; where it says yes the distance is 0 and the point is the middle of what is
+// shared.
+//
+// Every candidate is feasible, so an error in one can only lose it, never report a distance that is too
+// small, and the candidates cover each other: near the border of two cases both are within rounding of the
+// minimum.
+
+namespace lmdbench {
+namespace {
+
+using kernel::EDGE_ENDS;
+using kernel::FaceFrame;
+using kernel::SortedTriangle;
+
+/// Products of four coordinates must neither overflow nor lose digits to underflow; outside this range of the
+/// largest coordinate the triangles are scaled by a power of two, which is exact.
+constexpr int LARGEST_EXPONENT = 100;
+
+int dimension(TriangleFeature feature) {
+  return is_face(feature) ? 2 : is_edge(feature) ? 1 : 0;
+}
+
+/// Nearer, or equally near and of lower dimension.
+bool better(const TrianglePairDistance& candidate, const TrianglePairDistance& best) {
+  if (candidate.squared_distance != best.squared_distance) {
+    return candidate.squared_distance < best.squared_distance;
+  }
+  return dimension(candidate.feature_a) + dimension(candidate.feature_b) <
+         dimension(best.feature_a) + dimension(best.feature_b);
+}
+
+struct Query {
+  SortedTriangle a, b;
+  FaceFrame face_a, face_b;
+  double tolerance;
+
+  Query(const SortedTriangle& sorted_a, const SortedTriangle& sorted_b, double coincidence)
+      : a(sorted_a),
+        b(sorted_b),
+        face_a(sorted_a.corners, coincidence),
+        face_b(sorted_b.corners, coincidence),
+        tolerance(coincidence) {}
+};
+
+TrianglePairDistance nearest_edge_pair(const Query& query) {
+  TrianglePairDistance best;
+  best.squared_distance = std::numeric_limits<double>::infinity();
+  for (int i = 0; i < 3; ++i) {
+    const Vec3& a0 = query.a.corners[EDGE_ENDS[i][0]];
+    const Vec3& a1 = query.a.corners[EDGE_ENDS[i][1]];
+    for (int j = 0; j < 3; ++j) {
+      const SegmentPairDistance pair = kernel::segment_pair(
+          a0, a1, query.b.corners[EDGE_ENDS[j][0]], query.b.corners[EDGE_ENDS[j][1]], query.tolerance);
+      TrianglePairDistance candidate;
+      candidate.squared_distance = pair.squared_distance;
+      candidate.point_a = pair.point_a;
+      candidate.point_b = pair.point_b;
+      candidate.feature_a = query.a.edge_part(i, pair.feature_a);
+      candidate.feature_b = query.b.edge_part(j, pair.feature_b);
+      candidate.minimiser_dimension = pair.minimiser_dimension;
+      candidate.minimiser_measure = pair.minimiser_measure;
+      if (better(candidate, best)) best = candidate;
+    }
+  }
+  return best;
+}
+
+TrianglePairDistance nearest_corner_of_a_to_face_of_b(const SortedTriangle& a, const FaceFrame& face_b) {
+  TrianglePairDistance best;
+  best.squared_distance = std::numeric_limits<double>::infinity();
+  if (!face_b.has_face) return best;
+  for (int corner = 0; corner < 3; ++corner) {
+    const Vec3& x = a.corners[corner];
+    const auto weights = face_b.weights(x);
+    if (!face_b.is_interior(weights)) continue;
+    TrianglePairDistance candidate;
+    candidate.point_a = x;
+    candidate.point_b = face_b.point(weights);
+    candidate.squared_distance = (candidate.point_a - candidate.point_b).squaredNorm();
+    candidate.feature_a = a.vertex(corner);
+    candidate.feature_b = TriangleFeature::FACE;
+    if (better(candidate, best)) best = candidate;
+  }
+  return best;
+}
+
+TrianglePairDistance swapped(const TrianglePairDistance& pair) {
+  TrianglePairDistance result = pair;
+  std::swap(result.point_a, result.point_b);
+  std::swap(result.feature_a, result.feature_b);
+  return result;
+}
+
+/// The longest overlap of an edge of a with the face of b that is as near as `best`.
+void prefer_edge_over_face(const SortedTriangle& a, const FaceFrame& face_b, const Vec3& heights,
+                           double tolerance, double limit, TrianglePairDistance& best) {
+  for (int k = 0; k < 3; ++k) {
+    const int i = EDGE_ENDS[k][0];
+    const int j = EDGE_ENDS[k][1];
+    if (!(std::abs(heights[i] - heights[j]) <= tolerance)) continue;
+    if (!(std::min(std::abs(heights[i]), std::abs(heights[j])) <= limit)) continue;
+    const auto overlap = kernel::edge_over_face(a.corners[i], a.corners[j], face_b, tolerance);
+    if (!overlap.exists) continue;
+    TrianglePairDistance candidate;
+    candidate.point_a = overlap.middle_on_edge;
+    candidate.point_b = overlap.middle_on_face;
+    candidate.squared_distance = (candidate.point_a - candidate.point_b).squaredNorm();
+    candidate.feature_a = a.edge(k);
+    candidate.feature_b = TriangleFeature::FACE;
+    candidate.minimiser_dimension = 1;
+    candidate.minimiser_measure = overlap.length;
+    if (!(std::sqrt(candidate.squared_distance) <= limit)) continue;
+    if (best.minimiser_dimension < 1 || candidate.minimiser_measure > best.minimiser_measure)
+      best = candidate;
+  }
+}
+
+/// Replaces a single nearest pair by the middle of an overlap of parallel features that is as near.
+void prefer_whole_minimiser_set(const Query& query, TrianglePairDistance& best) {
+  const auto heights = [](const FaceFrame& face, const Triangle& corners) {
+    const Vec3 normal = face.unit_normal();
+    return Vec3(normal.dot(corners[0] - face.a), normal.dot(corners[1] - face.a),
+                normal.dot(corners[2] - face.a));
+  };
+  const double limit = std::sqrt(best.squared_distance) + query.tolerance;
+  if (query.face_a.has_face && query.face_b.has_face) {
+    const Vec3 z = heights(query.face_a, query.b.corners);
+    if (z.maxCoeff() - z.minCoeff() <= query.tolerance && z.cwiseAbs().minCoeff() <= limit) {
+      const auto overlap = kernel::face_over_face(query.face_a, query.face_b, query.tolerance);
+      const double squared_distance = (overlap.centroid_on_first - overlap.centroid_on_second).squaredNorm();
+      if (overlap.exists && std::sqrt(squared_distance) <= limit) {
+        best.point_a = overlap.centroid_on_first;
+        best.point_b = overlap.centroid_on_second;
+        best.squared_distance = squared_distance;
+        best.feature_a = best.feature_b = TriangleFeature::FACE;
+        best.minimiser_dimension = 2;
+        best.minimiser_measure = overlap.area;
+        return;
+      }
+    }
+  }
+  if (query.face_b.has_face) {
+    prefer_edge_over_face(query.a, query.face_b, heights(query.face_b, query.a.corners), query.tolerance,
+                          limit, best);
+  }
+  if (query.face_a.has_face) {
+    TrianglePairDistance turned = swapped(best);
+    prefer_edge_over_face(query.b, query.face_a, heights(query.face_a, query.b.corners), query.tolerance,
+                          limit, turned);
+    best = swapped(turned);
+  }
+}
+
+/// The answer for triangles that share a point: the middle of the shared set.
+TrianglePairDistance answer_intersection(const Query& query, const TrianglePairDistance& nearest) {
+  TrianglePairDistance result = nearest;
+  Vec3 shared = nearest.point_a;
+  // Touching and coplanar triangles already have their shared point, segment or polygon as the nearest pair.
+  if (!(std::sqrt(nearest.squared_distance) <= query.tolerance && nearest.minimiser_dimension == 2)) {
+    if (const auto segment = intersection_segment(query.a.corners, query.b.corners)) {
+      shared = 0.5 * ((*segment)[0] + (*segment)[1]);
+      const double length = ((*segment)[1] - (*segment)[0]).norm();
+      result.minimiser_dimension = length > query.tolerance ? 1 : 0;
+      result.minimiser_measure = length > query.tolerance ? length : 0.0;
+    }
+  }
+  const auto on_a = point_triangle_distance(shared, query.a.corners);
+  const auto on_b = point_triangle_distance(shared, query.b.corners);
+  const auto original = [](const SortedTriangle& t, TriangleFeature feature) {
+    if (is_vertex(feature)) return t.vertex(local_index(feature));
+    if (is_edge(feature)) return edge_feature((t.original[(local_index(feature) + 2) % 3] + 1) % 3);
+    return feature;
+  };
+  if (is_vertex(on_a.feature)) {
+    shared = on_a.point;
+  } else if (is_vertex(on_b.feature)) {
+    shared = on_b.point;
+  }
+  result.point_a = result.point_b = shared;
+  result.feature_a = original(query.a, on_a.feature);
+  result.feature_b = original(query.b, on_b.feature);
+  result.squared_distance = 0.0;
+  result.intersecting = true;
+  return result;
+}
+
+/// @pre a before b in lexicographic order of sorted corners
+TrianglePairDistance ordered_distance(const SortedTriangle& a, const SortedTriangle& b, double magnitude) {
+  const Query query(a, b, coincidence_length(magnitude));
+  TrianglePairDistance best = nearest_edge_pair(query);
+  const TrianglePairDistance on_b = nearest_corner_of_a_to_face_of_b(a, query.face_b);
+  if (better(on_b, best)) best = on_b;
+  const TrianglePairDistance on_a = swapped(nearest_corner_of_a_to_face_of_b(b, query.face_a));
+  if (better(on_a, best)) best = on_a;
+  prefer_whole_minimiser_set(query, best);
+  if (triangles_intersect(a.corners, b.corners)) return answer_intersection(query, best);
+  return best;
+}
+
+TrianglePairDistance distance_in_range(const Triangle& a, const Triangle& b, double magnitude) {
+  const SortedTriangle sorted_a(a);
+  const SortedTriangle sorted_b(b);
+  const bool b_first =
+      std::lexicographical_compare(sorted_b.corners.begin(), sorted_b.corners.end(), sorted_a.corners.begin(),
+                                   sorted_a.corners.end(), lexicographic_less);
+  return b_first ? swapped(ordered_distance(sorted_b, sorted_a, magnitude))
+                 : ordered_distance(sorted_a, sorted_b, magnitude);
+}
+
+/// Corner points are copied from the caller's triangle: scaling back would round denormal coordinates.
+Vec3 unscaled(const Vec3& point, TriangleFeature feature, const Triangle& triangle, int exponent) {
+  if (is_vertex(feature)) return triangle[local_index(feature)];
+  return point.unaryExpr([exponent](double value) { return std::ldexp(value, -exponent); });
+}
+
+TrianglePairDistance distance_out_of_range(const Triangle& a, const Triangle& b, double magnitude) {
+  const int exponent = -std::ilogb(magnitude);
+  const auto scaled = [exponent](const Triangle& triangle) {
+    Triangle result;
+    for (int i = 0; i < 3; ++i) {
+      result[i] = triangle[i].unaryExpr([exponent](double value) { return std::ldexp(value, exponent); });
+    }
+    return result;
+  };
+  TrianglePairDistance result = distance_in_range(scaled(a), scaled(b), std::ldexp(magnitude, exponent));
+  result.point_a = unscaled(result.point_a, result.feature_a, a, exponent);
+  result.point_b = unscaled(result.point_b, result.feature_b, b, exponent);
+  if (result.intersecting) result.point_b = result.point_a;
+  result.squared_distance = (result.point_a - result.point_b).squaredNorm();
+  result.minimiser_measure = std::ldexp(result.minimiser_measure, -exponent * result.minimiser_dimension);
+  return result;
+}
+
+}  // namespace
+
+TrianglePairDistance triangle_distance(const Triangle& a, const Triangle& b) {
+  const double magnitude_a = largest_coordinate(a);
+  const double magnitude_b = largest_coordinate(b);
+  if (!std::isfinite(magnitude_a) || !std::isfinite(magnitude_b)) return {};
+  const double magnitude = std::max(magnitude_a, magnitude_b);
+  const bool in_range = magnitude == 0.0 || std::abs(std::ilogb(magnitude)) <= LARGEST_EXPONENT;
+  return in_range ? distance_in_range(a, b, magnitude) : distance_out_of_range(a, b, magnitude);
+}
+
+}  // namespace lmdbench

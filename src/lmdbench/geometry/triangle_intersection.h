@@ -1,0 +1,22 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <lmdbench/geometry/segment_distance.h>
+#include <lmdbench/geometry/types.h>
+
+#include <optional>
+
+namespace lmdbench {
+
+/// True exactly when the closed triangles share a point. Decided by the signs of exact orientation
+/// predicates, for touching, coplanar and degenerate triangles too.
+/// @pre finite coordinates whose triple products neither overflow nor underflow
+bool triangles_intersect(const Triangle& a, const Triangle& b);
+
+/// The segment that two intersecting triangles of different planes share: one piece of an intersection
+/// polyline, in double precision, ends in lexicographic order; both ends equal where they touch in one point.
+/// Empty when the triangles are disjoint, coplanar, or degenerate.
+std::optional<Segment> intersection_segment(const Triangle& a, const Triangle& b);
+
+}  // namespace lmdbench
