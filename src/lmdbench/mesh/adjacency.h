@@ -23,8 +23,8 @@ struct Adjacency {
   std::int32_t edge_count() const { return static_cast<std::int32_t>(edges.size()); }
 };
 
-/// Edges are numbered in the order of their first triangle side, so the numbering depends on the mesh alone. A
-/// triangle that names a vertex twice has a side {v, v} and stands once in each row that it belongs to.
+/// Edges are numbered in the order of their first triangle side, so the numbering depends on the mesh alone.
+/// A triangle that names a vertex twice has a side {v, v} and stands once in each row that it belongs to.
 /// @pre every index is within the vertex array (import checks it)
 Adjacency build_adjacency(const TriangleMesh& mesh);
 

@@ -18,8 +18,9 @@ namespace lmdbench {
 struct Surface {
   TriangleMesh mesh;
   Adjacency adjacency;
-  std::vector<Vec3> face_normals;           ///< #T by 3; zero for a triangle without area.
-  std::vector<Vec3> edge_pseudo_normals;    ///< #E by 3; normalised sum of the incident faces' normals, or zero.
+  std::vector<Vec3> face_normals;  ///< #T by 3; zero for a triangle without area.
+  std::vector<Vec3>
+      edge_pseudo_normals;  ///< #E by 3; normalised sum of the incident faces' normals, or zero.
   std::vector<Vec3> vertex_pseudo_normals;  ///< #V by 3; angle-weighted (Baerentzen and Aanaes 2005).
   std::vector<bool> edge_is_boundary;       ///< #E; the edge has exactly one triangle.
   std::vector<bool> vertex_is_boundary;     ///< #V; some incident edge is a boundary edge.

@@ -19,13 +19,13 @@ double difference_of_products(double a, double b, double c, double d) {
   return std::fma(a, b, -cd) + error;
 }
 
+}  // namespace
+
 Vec3 accurate_cross(const Vec3& a, const Vec3& b) {
   return {difference_of_products(a.y(), b.z(), a.z(), b.y()),
           difference_of_products(a.z(), b.x(), a.x(), b.z()),
           difference_of_products(a.x(), b.y(), a.y(), b.x())};
 }
-
-}  // namespace
 
 Vec3 triangle_normal(const Triangle& triangle) {
   std::array<Vec3, 3> sides;

@@ -11,6 +11,10 @@ namespace lmdbench {
 /// right to about 1e-3 radians, and below it it is noise.
 inline constexpr double ZERO_AREA_TOLERANCE = 1e-12;
 
+/// Cross product whose components carry one rounding error each (Kahan's difference of products). A plain one
+/// loses every digit where a and b are nearly parallel.
+Vec3 accurate_cross(const Vec3& a, const Vec3& b);
+
 /// Unit normal of a triangle, counter-clockwise corners seen against it; zero for a triangle without area
 /// (`ZERO_AREA_TOLERANCE`). The same for every scale: no product over- or underflows.
 Vec3 triangle_normal(const Triangle& triangle);
