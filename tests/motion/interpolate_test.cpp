@@ -132,9 +132,9 @@ TEST(Interpolate, QuaternionsStayUnit) {
 
 TEST(Interpolate, KeepsMillimetresFarFromTheOrigin) {
   const double far = 1e6;
-  const PathInterpolator interpolator({{0.0, {Vec3(far, 0, 0), {}}},
-                                       {1.0, {Vec3(far + 1e-3, 0, 0), {}}},
-                                       {2.0, {Vec3(far + 2e-3, 0, 0), {}}}});
+  const PathInterpolator interpolator(Path{at_position(0.0, Vec3(far, 0, 0)),
+                                           at_position(1.0, Vec3(far + 1e-3, 0, 0)),
+                                           at_position(2.0, Vec3(far + 2e-3, 0, 0))});
   EXPECT_NEAR(interpolator.at(0.5).translation.x() - far, 5e-4, 2e-10);
 }
 
