@@ -50,6 +50,14 @@ bool better(const TrianglePairDistance& candidate, const TrianglePairDistance& b
          dimension(best.feature_a) + dimension(best.feature_b);
 }
 
+/// Nearer, or equally near and longer: for overlaps of parallel edges.
+bool nearer(const TrianglePairDistance& candidate, const TrianglePairDistance& best) {
+  if (candidate.squared_distance != best.squared_distance) {
+    return candidate.squared_distance < best.squared_distance;
+  }
+  return candidate.minimiser_measure > best.minimiser_measure;
+}
+
 struct Query {
   SortedTriangle a, b;
   FaceFrame face_a, face_b;
@@ -63,9 +71,16 @@ struct Query {
         tolerance(coincidence) {}
 };
 
-TrianglePairDistance nearest_edge_pair(const Query& query) {
-  TrianglePairDistance best;
-  best.squared_distance = std::numeric_limits<double>::infinity();
+/// The nearest edge pair, and the longest overlap of parallel edges if there is one.
+struct EdgePairs {
+  TrianglePairDistance nearest;
+  TrianglePairDistance overlap;
+};
+
+EdgePairs examine_edge_pairs(const Query& query) {
+  EdgePairs result;
+  result.nearest.squared_distance = std::numeric_limits<double>::infinity();
+  result.overlap.squared_distance = std::numeric_limits<double>::infinity();
   for (int i = 0; i < 3; ++i) {
     const Vec3& a0 = query.a.corners[EDGE_ENDS[i][0]];
     const Vec3& a1 = query.a.corners[EDGE_ENDS[i][1]];
@@ -80,10 +95,11 @@ TrianglePairDistance nearest_edge_pair(const Query& query) {
       candidate.feature_b = query.b.edge_part(j, pair.feature_b);
       candidate.minimiser_dimension = pair.minimiser_dimension;
       candidate.minimiser_measure = pair.minimiser_measure;
-      if (better(candidate, best)) best = candidate;
+      if (better(candidate, result.nearest)) result.nearest = candidate;
+      if (candidate.minimiser_dimension == 1 && nearer(candidate, result.overlap)) result.overlap = candidate;
     }
   }
-  return best;
+  return result;
 }
 
 TrianglePairDistance nearest_corner_of_a_to_face_of_b(const SortedTriangle& a, const FaceFrame& face_b) {
@@ -137,7 +153,8 @@ void prefer_edge_over_face(const SortedTriangle& a, const FaceFrame& face_b, con
 }
 
 /// Replaces a single nearest pair by the middle of an overlap of parallel features that is as near.
-void prefer_whole_minimiser_set(const Query& query, TrianglePairDistance& best) {
+void prefer_whole_minimiser_set(const Query& query, const TrianglePairDistance& edge_overlap,
+                                TrianglePairDistance& best) {
   const auto heights = [](const FaceFrame& face, const Triangle& corners) {
     const Vec3 normal = face.unit_normal();
     return Vec3(normal.dot(corners[0] - face.a), normal.dot(corners[1] - face.a),
@@ -160,6 +177,7 @@ void prefer_whole_minimiser_set(const Query& query, TrianglePairDistance& best) 
       }
     }
   }
+  if (std::sqrt(edge_overlap.squared_distance) <= limit) best = edge_overlap;
   if (query.face_b.has_face) {
     prefer_edge_over_face(query.a, query.face_b, heights(query.face_b, query.a.corners), query.tolerance,
                           limit, best);
@@ -208,12 +226,13 @@ TrianglePairDistance answer_intersection(const Query& query, const TrianglePairD
 /// @pre a before b in lexicographic order of sorted corners
 TrianglePairDistance ordered_distance(const SortedTriangle& a, const SortedTriangle& b, double magnitude) {
   const Query query(a, b, coincidence_length(magnitude));
-  TrianglePairDistance best = nearest_edge_pair(query);
+  const EdgePairs edge_pairs = examine_edge_pairs(query);
+  TrianglePairDistance best = edge_pairs.nearest;
   const TrianglePairDistance on_b = nearest_corner_of_a_to_face_of_b(a, query.face_b);
   if (better(on_b, best)) best = on_b;
   const TrianglePairDistance on_a = swapped(nearest_corner_of_a_to_face_of_b(b, query.face_a));
   if (better(on_a, best)) best = on_a;
-  prefer_whole_minimiser_set(query, best);
+  prefer_whole_minimiser_set(query, edge_pairs.overlap, best);
   if (triangles_intersect(a.corners, b.corners)) return answer_intersection(query, best);
   return best;
 }

@@ -1,0 +1,289 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/geometry/triangle_distance.h>
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <limits>
+
+namespace lmdbench {
+namespace {
+
+constexpr std::array<std::array<int, 3>, 6> PERMUTATIONS{
+    {{0, 1, 2}, {1, 2, 0}, {2, 0, 1}, {0, 2, 1}, {2, 1, 0}, {1, 0, 2}}};
+
+Triangle permuted(const Triangle& triangle, const std::array<int, 3>& order) {
+  return {triangle[order[0]], triangle[order[1]], triangle[order[2]]};
+}
+
+/// The feature of `triangle` that the feature of the permuted triangle is.
+TriangleFeature unpermuted(TriangleFeature feature, const std::array<int, 3>& order) {
+  if (is_vertex(feature)) return vertex_feature(order[local_index(feature)]);
+  if (is_face(feature)) return feature;
+  const int opposite = order[(local_index(feature) + 2) % 3];
+  return edge_feature((opposite + 1) % 3);
+}
+
+/// A case whose answer is known by hand, checked under all 72 orders of the corners and the arguments.
+struct Known {
+  Triangle a, b;
+  double distance;
+  Vec3 point_a, point_b;
+  TriangleFeature feature_a, feature_b;
+  int minimiser_dimension = 0;
+  double minimiser_measure = 0.0;
+  bool intersecting = false;
+};
+
+void expect_known(const Known& known) {
+  for (const auto& order_a : PERMUTATIONS) {
+    for (const auto& order_b : PERMUTATIONS) {
+      for (const bool swap : {false, true}) {
+        const Triangle a = permuted(known.a, order_a);
+        const Triangle b = permuted(known.b, order_b);
+        const TrianglePairDistance pair = swap ? triangle_distance(b, a) : triangle_distance(a, b);
+        const Vec3& point_a = swap ? pair.point_b : pair.point_a;
+        const Vec3& point_b = swap ? pair.point_a : pair.point_b;
+        EXPECT_NEAR(std::sqrt(pair.squared_distance), known.distance, 1e-14);
+        EXPECT_NEAR((point_a - known.point_a).norm(), 0.0, 1e-14) << point_a.transpose();
+        EXPECT_NEAR((point_b - known.point_b).norm(), 0.0, 1e-14) << point_b.transpose();
+        EXPECT_EQ(unpermuted(swap ? pair.feature_b : pair.feature_a, order_a), known.feature_a);
+        EXPECT_EQ(unpermuted(swap ? pair.feature_a : pair.feature_b, order_b), known.feature_b);
+        EXPECT_EQ(pair.minimiser_dimension, known.minimiser_dimension);
+        EXPECT_NEAR(pair.minimiser_measure, known.minimiser_measure, 1e-14);
+        EXPECT_EQ(pair.intersecting, known.intersecting);
+      }
+    }
+  }
+}
+
+const Triangle FLOOR{Vec3(0, 0, 0), Vec3(4, 0, 0), Vec3(0, 4, 0)};
+
+TEST(TriangleDistance, VertexToVertex) {
+  expect_known({FLOOR,
+                {Vec3(-3, 0, 4), Vec3(-9, 0, 5), Vec3(-9, 1, 9)},
+                5.0,
+                Vec3(0, 0, 0),
+                Vec3(-3, 0, 4),
+                TriangleFeature::V0,
+                TriangleFeature::V0});
+}
+
+TEST(TriangleDistance, VertexToEdge) {
+  expect_known({FLOOR,
+                {Vec3(2, -3, 4), Vec3(1, -9, 5), Vec3(3, -9, 9)},
+                5.0,
+                Vec3(2, 0, 0),
+                Vec3(2, -3, 4),
+                TriangleFeature::E0,
+                TriangleFeature::V0});
+}
+
+TEST(TriangleDistance, VertexToFace) {
+  expect_known({FLOOR,
+                {Vec3(1, 1, 3), Vec3(2, 1, 4), Vec3(1, 2, 5)},
+                3.0,
+                Vec3(1, 1, 0),
+                Vec3(1, 1, 3),
+                TriangleFeature::FACE,
+                TriangleFeature::V0});
+}
+
+TEST(TriangleDistance, EdgeToEdge) {
+  expect_known({FLOOR,
+                {Vec3(2, -1, -1), Vec3(2, -1, 1), Vec3(3, -9, 0)},
+                1.0,
+                Vec3(2, 0, 0),
+                Vec3(2, -1, 0),
+                TriangleFeature::E0,
+                TriangleFeature::E0});
+}
+
+TEST(TriangleDistance, AnExactTieGoesToTheLowestDimension) {
+  // The corner (2, 0, 3) is exactly over the edge, (0, 0, 3) exactly over the corner.
+  expect_known({FLOOR,
+                {Vec3(2, 0, 3), Vec3(3, 0, 4), Vec3(2, 1, 5)},
+                3.0,
+                Vec3(2, 0, 0),
+                Vec3(2, 0, 3),
+                TriangleFeature::E0,
+                TriangleFeature::V0});
+  expect_known({FLOOR,
+                {Vec3(0, 0, 3), Vec3(1, 0, 4), Vec3(0, 1, 5)},
+                3.0,
+                Vec3(0, 0, 0),
+                Vec3(0, 0, 3),
+                TriangleFeature::V0,
+                TriangleFeature::V0});
+}
+
+TEST(TriangleDistance, ParallelEdgesAreAnsweredByTheMiddleOfTheOverlap) {
+  expect_known({FLOOR,
+                {Vec3(1, -2, 0), Vec3(9, -2, 0), Vec3(3, -5, 0)},
+                2.0,
+                Vec3(2.5, 0, 0),
+                Vec3(2.5, -2, 0),
+                TriangleFeature::E0,
+                TriangleFeature::E0,
+                1,
+                3.0});
+}
+
+TEST(TriangleDistance, AnEdgeParallelToAFaceIsAnsweredByTheMiddleOfTheOverlap) {
+  expect_known({FLOOR,
+                {Vec3(1, -1, 2), Vec3(1, 9, 2), Vec3(1, 1, 8)},
+                2.0,
+                Vec3(1, 1.5, 0),
+                Vec3(1, 1.5, 2),
+                TriangleFeature::FACE,
+                TriangleFeature::E0,
+                1,
+                3.0});
+}
+
+TEST(TriangleDistance, ParallelFacesAreAnsweredByTheCentroidOfTheOverlap) {
+  // The overlap is the unit square with its far corners at (1, 1) and (2, 2).
+  expect_known({FLOOR,
+                {Vec3(2, 2, 1), Vec3(2, -2, 1), Vec3(-2, 2, 1)},
+                1.0,
+                Vec3(1, 1, 0),
+                Vec3(1, 1, 1),
+                TriangleFeature::FACE,
+                TriangleFeature::FACE,
+                2,
+                4.0});
+  // One inside the other's shadow: its own centroid.
+  expect_known({FLOOR,
+                {Vec3(1, 1, 1), Vec3(1.75, 1, 1), Vec3(1, 1.75, 1)},
+                1.0,
+                Vec3(1.25, 1.25, 0),
+                Vec3(1.25, 1.25, 1),
+                TriangleFeature::FACE,
+                TriangleFeature::FACE,
+                2,
+                0.28125});
+}
+
+TEST(TriangleDistance, PiercingTrianglesShareAPoint) {
+  expect_known({FLOOR,
+                {Vec3(1, 1, -1), Vec3(1, 1, 1), Vec3(3, -9, 0)},
+                0.0,
+                Vec3(1.1, 0.5, 0),
+                Vec3(1.1, 0.5, 0),
+                TriangleFeature::FACE,
+                TriangleFeature::FACE,
+                1,
+                std::hypot(0.2, 1.0),
+                true});
+}
+
+TEST(TriangleDistance, ASharedCornerIsThatCorner) {
+  expect_known({FLOOR,
+                {Vec3(0, 0, 0), Vec3(-3, 0, 1), Vec3(0, -3, 1)},
+                0.0,
+                Vec3(0, 0, 0),
+                Vec3(0, 0, 0),
+                TriangleFeature::V0,
+                TriangleFeature::V0,
+                0,
+                0.0,
+                true});
+}
+
+TEST(TriangleDistance, ASharedEdgeIsItsMiddle) {
+  expect_known({FLOOR,
+                {Vec3(0, 0, 0), Vec3(4, 0, 0), Vec3(0, -3, 1)},
+                0.0,
+                Vec3(2, 0, 0),
+                Vec3(2, 0, 0),
+                TriangleFeature::E0,
+                TriangleFeature::E0,
+                1,
+                4.0,
+                true});
+}
+
+TEST(TriangleDistance, ACornerThatTouchesAFaceIsThatCorner) {
+  expect_known({FLOOR,
+                {Vec3(1, 1, 0), Vec3(2, 1, 4), Vec3(1, 2, 5)},
+                0.0,
+                Vec3(1, 1, 0),
+                Vec3(1, 1, 0),
+                TriangleFeature::FACE,
+                TriangleFeature::V0,
+                0,
+                0.0,
+                true});
+}
+
+TEST(TriangleDistance, IdenticalTrianglesShareTheirCentroid) {
+  expect_known({FLOOR, FLOOR, 0.0, Vec3(4, 4, 0) / 3.0, Vec3(4, 4, 0) / 3.0, TriangleFeature::FACE,
+                TriangleFeature::FACE, 2, 8.0, true});
+}
+
+TEST(TriangleDistance, CornersAreBitCopies) {
+  const Triangle a{Vec3(0.1, 0.2, 0.3), Vec3(1.1, 0.7, 0.2), Vec3(0.3, 1.3, 0.1)};
+  const Triangle b{Vec3(-0.7, -0.1, 1.3), Vec3(-2.1, 0.7, 2.2), Vec3(-1.3, -1.3, 3.1)};
+  const auto pair = triangle_distance(a, b);
+  ASSERT_TRUE(is_vertex(pair.feature_b));
+  EXPECT_EQ(pair.point_b, b[local_index(pair.feature_b)]);
+}
+
+TEST(TriangleDistance, DegenerateTrianglesAreSegmentsAndPoints) {
+  const Triangle segment{Vec3(0, 0, 0), Vec3(2, 0, 0), Vec3(4, 0, 0)};
+  const Triangle point{Vec3(3, 3, 0), Vec3(3, 3, 0), Vec3(3, 3, 0)};
+  EXPECT_EQ(triangle_distance(segment, point).squared_distance, 9.0);
+  EXPECT_EQ(triangle_distance(point, point).squared_distance, 0.0);
+  EXPECT_TRUE(triangle_distance(point, point).intersecting);
+  const Triangle across{Vec3(3, -1, 0), Vec3(3, 1, 0), Vec3(3, 0, 0)};
+  EXPECT_TRUE(triangle_distance(segment, across).intersecting);
+  EXPECT_EQ(triangle_distance(segment, across).squared_distance, 0.0);
+}
+
+TEST(TriangleDistance, KnowsThePublishedFailuresOfOthers) {
+  // PQP issue 4: nearly parallel edges once gave 687.9.
+  const Triangle s{Vec3(8000.0000000000036, 6817.7672478170962, 571.00166381103077),
+                   Vec3(7500.0000000000009, 6817.7672478170962, 571.00166381103077),
+                   Vec3(7500.0000000000009, 6327.6345143037688, 571.00166381103077)};
+  const Triangle t{Vec3(8000.0000000000009, 6327.6345143037670, 88.336618780016408),
+                   Vec3(7500.0, 6327.6345143037670, 88.336618780016408),
+                   Vec3(7500.0, 6327.6345143037670, 1015.9309593449836)};
+  const auto pair = triangle_distance(s, t);
+  EXPECT_NEAR(std::sqrt(pair.squared_distance), 1.819e-12, 1e-12);
+  EXPECT_FALSE(pair.intersecting);
+}
+
+TEST(TriangleDistance, NonFiniteInputIsNotANumber) {
+  for (const double bad :
+       {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
+    for (int corner = 0; corner < 3; ++corner) {
+      for (int axis = 0; axis < 3; ++axis) {
+        Triangle broken = FLOOR;
+        broken[corner][axis] = bad;
+        EXPECT_TRUE(std::isnan(triangle_distance(FLOOR, broken).squared_distance));
+        EXPECT_TRUE(std::isnan(triangle_distance(broken, FLOOR).squared_distance));
+      }
+    }
+  }
+}
+
+TEST(TriangleDistance, ExtremeMagnitudesKeepTheirShape) {
+  const Triangle a = FLOOR;
+  const Triangle b{Vec3(1, 1, 3), Vec3(2, 1, 4), Vec3(1, 2, 5)};
+  for (int exponent = -1060; exponent <= 1000; exponent += 20) {
+    Triangle scaled_a = a, scaled_b = b;
+    for (Triangle* triangle : {&scaled_a, &scaled_b}) {
+      for (Vec3& corner : *triangle)
+        corner = corner.unaryExpr([&](double x) { return std::ldexp(x, exponent); });
+    }
+    const auto pair = triangle_distance(scaled_a, scaled_b);
+    EXPECT_EQ(pair.point_b, scaled_b[0]) << exponent;
+    EXPECT_EQ(pair.point_a, Vec3(scaled_b[0][0], scaled_b[0][1], 0.0)) << exponent;
+    EXPECT_FALSE(pair.intersecting);
+  }
+}
+
+}  // namespace
+}  // namespace lmdbench
