@@ -1,0 +1,85 @@
+#!/usr/bin/env python3
+# SPDX-FileCopyrightText: The lmdbench authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""The claims ledger: prints it and writes claims.md and claims.json. The claims and the rules of their verdicts are in
+claim_rules.py."""
+
+import argparse
+import json
+import os
+import textwrap
+from dataclasses import asdict
+
+import numpy as np
+
+from claim_rules import ledger
+from lmdbench_results import Result, run_script
+
+
+def verdict_text(claim):
+    return claim.verdict + (f": {claim.because}" if claim.because else "")
+
+
+def markdown(claims, results):
+    lines = ["# Claims ledger", "",
+             "What the paper says, what that is in numbers, and what this machine shows. The thresholds of the verdicts "
+             "stand in the third column.", ""]
+    machine = results[0].machine()
+    lines += [f"Machine: {machine.get('processor', 'unknown')}. Results: "
+              + ", ".join(f"`{os.path.basename(result.file)}`" for result in results) + ".", "",
+              "| | the paper's words | our measure | our numbers | verdict |", "|---|---|---|---|---|"]
+    lines += ["| " + " | ".join(text.replace("|", "\\|") for text in
+                                (claim.id, claim.paper, claim.measure, claim.result, f"**{verdict_text(claim)}**")) + " |"
+              for claim in claims]
+    return "\n".join(lines) + "\n"
+
+
+def plain(claims):
+    blocks = []
+    for claim in claims:
+        lines = [f"{claim.id}: {verdict_text(claim)}"]
+        for title, text in (("paper", claim.paper), ("rule", claim.measure), ("here", claim.result)):
+            lines += textwrap.wrap(text, width=110, initial_indent=f"  {title + ':':<7}", subsequent_indent=" " * 9)
+        blocks.append("\n".join(lines))
+    return "\n".join(blocks)
+
+
+def without_nan(value):
+    """JSON has no NaN: null says that a number was not measured."""
+    if isinstance(value, dict):
+        return {key: without_nan(item) for key, item in value.items()}
+    if isinstance(value, (float, np.floating)):
+        return float(value) if np.isfinite(value) else None
+    return value
+
+
+def write_text(directory, name, text):
+    os.makedirs(directory, exist_ok=True)
+    file = os.path.join(directory, name)
+    with open(file + ".part", "w", encoding="utf-8") as stream:
+        stream.write(text)
+    os.replace(file + ".part", file)
+
+
+def main(argv):
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("hard", help="result file of the experiment with hard contact")
+    parser.add_argument("soft", help="result file of the experiment with soft contact")
+    parser.add_argument("--other", nargs="*", default=[], metavar="RESULT.h5",
+                        help="results on meshes of other densities (K5)")
+    parser.add_argument("--unequal", nargs="*", default=[], metavar="RESULT.h5",
+                        help="results on meshes of large or unequal triangles (K10)")
+    parser.add_argument("--out", required=True, metavar="DIR", help="directory of claims.md and claims.json")
+    arguments = parser.parse_args(argv)
+    hard, soft = Result(arguments.hard), Result(arguments.soft)
+    others, unequal = ([Result(file) for file in files] for files in (arguments.other, arguments.unequal))
+    claims = ledger(hard, soft, others, unequal)
+    write_text(arguments.out, "claims.md", markdown(claims, [hard, soft, *others, *unequal]))
+    write_text(arguments.out, "claims.json",
+               json.dumps([without_nan(asdict(claim)) for claim in claims], indent=2) + "\n")
+    print(plain(claims))
+    return 0
+
+
+if __name__ == "__main__":
+    raise SystemExit(run_script(main))

@@ -1,0 +1,299 @@
+# SPDX-FileCopyrightText: The lmdbench authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Reads lmdbench result files (see results/README.md) and derives what figures and tables have in common.
+
+Nothing here changes a file: raw samples are evidence, every number is derived from them. Times are in seconds here;
+figures and tables show milliseconds.
+"""
+
+import json
+import sys
+
+import h5py
+import numpy as np
+
+FORMAT = "lmdbench-result"
+FORMAT_VERSION = 1
+EXIT_USAGE = 2
+EXIT_INPUT_DATA = 3
+
+# The order of reports; labels that are not here come after these, in alphabetical order.
+METHOD_ORDER = ("original", "improved", "certified", "exhaustive")
+
+
+class ResultError(Exception):
+    """A result file is missing, broken or lacks what is asked for; the message names file, place and remedy."""
+
+
+class Method:
+    """One group of /methods."""
+
+    def __init__(self, result, label):
+        self.result = result
+        self.label = label
+        group = f"/methods/{label}"
+        self.name = result.text_attribute(group, "method", label)
+        self.force_law = result.text_attribute(group, "force_law", "exponential")
+
+    def has(self, dataset):
+        return self.result.has(f"/methods/{self.label}/{dataset}")
+
+    def read(self, dataset):
+        return self.result.read(f"/methods/{self.label}/{dataset}")
+
+    def times(self, dataset):
+        """(R, count) samples [s] of the repetitions after the warm-up."""
+        samples = np.atleast_2d(self.read(dataset))
+        first = self.result.warm_up_repetitions
+        if samples.shape[0] <= first:
+            raise ResultError(
+                f"{self.result.file}: /methods/{self.label}/{dataset}: only {samples.shape[0]} repetition(s), and the "
+                f"first {first} warm up (remedy: run with /driver/repetitions of at least {first + 1})"
+            )
+        return samples[first:]
+
+    def median_times(self, dataset):
+        """(count) median over the repetitions [s]; NaN where nothing was measured."""
+        return nan_median(self.times(dataset), axis=0)
+
+    def force_magnitude(self):
+        """(N) length of the rendered force [N]."""
+        return np.linalg.norm(self.read("force"), axis=1)
+
+    def force_jumps(self):
+        """(N-1) length of the change of force from each frame to the next [N]."""
+        return np.linalg.norm(np.diff(self.read("force"), axis=0), axis=1)
+
+    def search_parts(self):
+        """(R, G) times [s] of search alone and of search with the first reduction, which counts 0 where there is none."""
+        search = self.times("global_search_time")
+        return search, search + zero_for_nan(self.times("first_reduction_time"))
+
+    def searches_every_frame(self):
+        """Whether the method has no search of its own rate: its whole set is found anew in the local part."""
+        return self.read("global_frame").size == 0
+
+    def contact_frames(self):
+        """(N) frames with an LMD."""
+        return self.read("lmd_count") > 0
+
+    def time_per_frame(self):
+        """(R, N) processor time [s] per haptic frame, all-in: the local update and the frame's share of the global
+        searches. The paper's global thread is busy between two searches, so a search (with its first reduction and
+        second tracking) is spread evenly over the frames up to the next one."""
+        local = zero_for_nan(self.times("local_update_time"))
+        frames = self.read("global_frame").astype(int)
+        if frames.size == 0:
+            return local
+        search = (
+            zero_for_nan(self.times("global_search_time"))
+            + zero_for_nan(self.times("first_reduction_time"))
+            + zero_for_nan(self.times("second_tracking_time"))
+        )
+        ends = np.append(frames[1:], local.shape[1])
+        per_frame = local.copy()
+        for index, (start, end) in enumerate(zip(frames, ends)):
+            if end > start:
+                per_frame[:, start:end] += search[:, index : index + 1] / (end - start)
+        return per_frame
+
+
+class Result:
+    """One result file, open for reading."""
+
+    def __init__(self, file):
+        self.file = str(file)
+        try:
+            self.h5 = h5py.File(self.file, "r")
+        except OSError as error:
+            raise ResultError(f"{self.file}: cannot be read: {error} (remedy: name a file that `lmdbench run` wrote)")
+        found = self.text_attribute("/", "format")
+        if found != FORMAT:
+            raise ResultError(f"{self.file}: is not a result of lmdbench (remedy: name a file that `lmdbench run` wrote)")
+        version = int(self.h5.attrs["format_version"])
+        if version != FORMAT_VERSION:
+            raise ResultError(
+                f"{self.file}: has format version {version}, this script reads {FORMAT_VERSION} "
+                "(remedy: use the scripts of the same version as the program)"
+            )
+        self.experiment = json.loads(self.read_text("/provenance/experiment"))
+        self.name = self.experiment.get("name", self.file)
+        self.time = self.read("/path/time")
+        self.warm_up_repetitions = self._warm_up_repetitions()
+        self.methods = self._methods()
+
+    def has(self, path):
+        return path in self.h5
+
+    def read(self, path):
+        if path not in self.h5:
+            raise ResultError(f"{self.file}: {path}: is missing (remedy: run the experiment again)")
+        return self.h5[path][()]
+
+    def read_text(self, path):
+        return self.texts(path)[0]
+
+    def texts(self, path):
+        return [item.decode() if isinstance(item, bytes) else str(item) for item in np.ravel(self.read(path))]
+
+    def text_attribute(self, path, name, default=None):
+        value = self.h5[path].attrs.get(name, default) if path in self.h5 else default
+        return value.decode() if isinstance(value, bytes) else value
+
+    def _warm_up_repetitions(self):
+        for path in ("/methods", "/"):
+            if path in self.h5 and "warm_up_repetitions" in self.h5[path].attrs:
+                return int(self.h5[path].attrs["warm_up_repetitions"])
+        return 0
+
+    def _methods(self):
+        if "/methods" not in self.h5:
+            raise ResultError(f"{self.file}: /methods: is missing (remedy: run the experiment again)")
+        labels = [label for label, item in self.h5["/methods"].items() if isinstance(item, h5py.Group)]
+
+        def place(label):
+            return (METHOD_ORDER.index(label) if label in METHOD_ORDER else len(METHOD_ORDER), label)
+
+        return {label: Method(self, label) for label in sorted(labels, key=place)}
+
+    def method(self, label):
+        if label not in self.methods:
+            known = ", ".join(self.methods)
+            raise ResultError(f"{self.file}: has no method '{label}' (remedy: choose among {known})")
+        return self.methods[label]
+
+    def repetitions(self):
+        return max((method.read("local_update_time").shape[0] for method in self.methods.values()), default=0)
+
+    def maximum_force(self):
+        """F_max of one LMD [N], the scale of force errors."""
+        return float(self.experiment["force"]["maximum_force_n"])
+
+    def triangles(self, smallest=False):
+        """Triangles of all meshes of the scene, or of its smallest mesh; 0 when the file does not say."""
+        if "/scene/triangles" not in self.h5:
+            return 0
+        counts = np.ravel(self.read("/scene/triangles"))
+        return int(counts.min() if smallest else counts.sum())
+
+    def machine(self):
+        if "/provenance/machine" not in self.h5:
+            return {}
+        return {name: self.text_attribute("/provenance/machine", name) for name in self.h5["/provenance/machine"].attrs}
+
+
+def zero_for_nan(values):
+    return np.where(np.isnan(values), 0.0, values)
+
+
+def nan_median(values, axis=None):
+    """Median of what was measured; NaN without a warning where nothing was."""
+    values = np.asarray(values, dtype=float)
+    empty = np.all(np.isnan(values), axis=axis)
+    filled = np.where(np.expand_dims(empty, axis) if axis is not None else empty, 0.0, values)
+    return np.where(empty, np.nan, np.nanmedian(filled, axis=axis)) if values.size else np.nan
+
+
+def quantile(values, share):
+    """Quantile of what was measured; NaN where nothing was."""
+    values = np.asarray(values, dtype=float)
+    values = values[~np.isnan(values)]
+    return float(np.quantile(values, share)) if values.size else float("nan")
+
+
+def median(values):
+    return quantile(values, 0.5)
+
+
+class Truth:
+    """What a method's LMD sets and forces are worth, at the probed frames."""
+
+    def __init__(self, method):
+        result = method.result
+        group = "truth/"
+        self.frames = method.read(group + "frame").astype(int)
+        self.reference_frames = result.read("/reference/frame").astype(int)
+        if not np.array_equal(self.frames, self.reference_frames):
+            raise ResultError(f"{result.file}: /methods/{method.label}/truth/frame and /reference/frame differ")
+        self.true_count = result.read("/reference/lmd_count").astype(float)
+        self.count = method.read("lmd_count")[self.frames].astype(float)
+        self.recall = method.read(group + "recall")
+        self.precision = method.read(group + "precision")
+        self.recall_adjacent = method.read(group + "recall_adjacent")
+        self.precision_adjacent = method.read(group + "precision_adjacent")
+        self.force_error = method.read(group + "force_error")
+        self.force_angle_error = method.read(group + "force_angle_error")
+        self.minimum_distance_error = method.read(group + "minimum_distance_error")
+        self.maximum_force = result.maximum_force()
+
+    def pooled(self, shares, counts):
+        """Share over all LMDs of all probed frames, so that a frame with one LMD does not weigh as much as one with
+        twenty; NaN when there were none."""
+        known = ~np.isnan(shares)
+        total = float(np.sum(counts[known]))
+        return float(np.sum(shares[known] * counts[known]) / total) if total > 0 else float("nan")
+
+    def pooled_recall(self):
+        return self.pooled(self.recall, self.true_count)
+
+    def pooled_precision(self):
+        return self.pooled(self.precision, self.count)
+
+    def pooled_recall_adjacent(self):
+        return self.pooled(self.recall_adjacent, self.true_count)
+
+    def pooled_precision_adjacent(self):
+        return self.pooled(self.precision_adjacent, self.count)
+
+    def in_contact(self):
+        """Probed frames in which truth or the method has an LMD: elsewhere every error is 0 and would only dilute."""
+        return (self.true_count > 0) | (self.count > 0)
+
+    def rms_force_error(self):
+        """Root mean square of the force error [N] over the probed frames in contact."""
+        errors = self.force_error[self.in_contact()]
+        return float(np.sqrt(np.mean(errors**2))) if errors.size else float("nan")
+
+    def relative_rms_force_error(self):
+        return self.rms_force_error() / self.maximum_force
+
+
+def truth_of(method):
+    """Truth of a method, or None when the run had no truth probe."""
+    if not method.has("truth/frame") or not method.result.has("/reference/frame"):
+        return None
+    return Truth(method) if method.read("truth/frame").size else None
+
+
+def reference_force(result, law):
+    """(K) frames and (K) length of the true rendered force under a law [N]; empty without a truth probe."""
+    if not result.has(f"/reference/force_{law}"):
+        return np.empty(0, dtype=int), np.empty(0)
+    return result.read("/reference/frame").astype(int), np.linalg.norm(result.read(f"/reference/force_{law}"), axis=1)
+
+
+def frame_seconds(result):
+    return float(np.median(np.diff(result.time))) if result.time.size > 1 else float("nan")
+
+
+def jumps_per_second(method, share):
+    """Changes of force from one frame to the next above a share of F_max, per second in contact; NaN without any."""
+    seconds = np.count_nonzero(method.contact_frames()) * frame_seconds(method.result)
+    jumps = np.count_nonzero(method.force_jumps() > share * method.result.maximum_force())
+    return jumps / seconds if seconds > 0 else float("nan")
+
+
+def true_jumps_per_second(result, law, share):
+    """The same of the true force, estimated from the probed frames."""
+    contact = result.read("/reference/lmd_count") > 0
+    jumps = result.read(f"/reference/force_jump_{law}")[contact] > share * result.maximum_force()
+    return float(np.mean(jumps)) / frame_seconds(result) if jumps.size else float("nan")
+
+
+def run_script(main):
+    """Calls main(argv) and turns what a user did wrong into one line and the exit code of the command line contract."""
+    try:
+        return main(sys.argv[1:])
+    except ResultError as error:
+        print(error, file=sys.stderr)
+        return EXIT_INPUT_DATA

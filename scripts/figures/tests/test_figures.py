@@ -1,0 +1,281 @@
+# SPDX-FileCopyrightText: The lmdbench authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Tests of the scripts on synthetic results with known contents. Run: python3 -m unittest discover scripts/figures/tests"""
+
+import contextlib
+import io
+import json
+import os
+import subprocess
+import sys
+import tempfile
+import unittest
+
+import h5py
+import numpy as np
+
+HERE = os.path.dirname(os.path.abspath(__file__))
+SCRIPTS = os.path.dirname(HERE)
+sys.path[:0] = [HERE, SCRIPTS]
+
+import claim_rules  # noqa: E402
+import claims  # noqa: E402
+import figure7  # noqa: E402
+import figure_style  # noqa: E402
+import lmdbench_results  # noqa: E402
+import summary  # noqa: E402
+import work_precision  # noqa: E402
+from lmdbench_results import Result, ResultError, truth_of  # noqa: E402
+from synthetic import misses, write_result  # noqa: E402
+
+
+class ScriptsTest(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.directory = tempfile.TemporaryDirectory()
+        cls.hard = write_result(cls.path("hard.h5"), "hard")
+        cls.soft = write_result(cls.path("soft.h5"), "soft", methods=("original", "improved", "certified"), seed=2)
+        cls.bare = write_result(cls.path("bare.h5"), "bare", truth_stride=0)
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.directory.cleanup()
+
+    @classmethod
+    def path(cls, name):
+        return os.path.join(cls.directory.name, name)
+
+    def edited(self, name, change, **options):
+        """A result on which `change(h5)` was applied."""
+        file = write_result(self.path(name), **options)
+        with h5py.File(file, "r+") as h5:
+            change(h5)
+        return file
+
+    def printed(self, main, *arguments):
+        stream = io.StringIO()
+        with contextlib.redirect_stdout(stream):
+            self.assertEqual(main(list(arguments)), 0)
+        return stream.getvalue()
+
+
+class ReadingTest(ScriptsTest):
+    def test_warm_up_is_in_no_time(self):
+        method = Result(self.hard).method("original")
+        self.assertEqual(method.read("local_update_time").shape[0], 5)
+        self.assertEqual(method.times("local_update_time").shape[0], 4)
+        warm_up = method.read("local_update_time")[0]
+        self.assertTrue(np.all(method.median_times("local_update_time") < 0.5 * warm_up))
+
+    def test_only_a_warm_up_is_refused(self):
+        file = write_result(self.path("short.h5"), repetitions=1)
+        with self.assertRaisesRegex(ResultError, "short.h5: /methods/original/local_update_time.*remedy"):
+            Result(file).method("original").times("local_update_time")
+
+    def test_time_per_frame_loses_nothing(self):
+        method = Result(self.hard).method("improved")
+        parts = ("local_update_time", "global_search_time", "first_reduction_time", "second_tracking_time")
+        everything = sum(np.nansum(method.times(part), axis=1) for part in parts)
+        np.testing.assert_allclose(method.time_per_frame().sum(axis=1), everything, rtol=1e-12)
+
+    def test_a_search_is_spread_over_the_frames_until_the_next(self):
+        method = Result(self.hard).method("original")
+        extra = method.time_per_frame() - method.times("local_update_time")
+        search = method.times("global_search_time")
+        np.testing.assert_allclose(extra[:, 20:40], np.repeat(search[:, 1:2] / 20, 20, axis=1), rtol=1e-9)
+
+    def test_recall_is_pooled_over_lmds(self):
+        truth = truth_of(Result(self.hard).method("original"))
+        counts = truth.true_count
+        found = counts[~misses(2000)[truth.frames]].sum()
+        self.assertAlmostEqual(truth.pooled_recall(), found / counts.sum())
+        self.assertNotAlmostEqual(truth.pooled_recall(), np.nanmean(truth.recall), places=3)
+
+    def test_force_error_counts_frames_in_contact_only(self):
+        truth = truth_of(Result(self.hard).method("original"))
+        contact = truth.true_count > 0
+        self.assertTrue(0 < contact.sum() < contact.size)
+        self.assertAlmostEqual(truth.rms_force_error(), np.sqrt(np.mean(truth.force_error[contact] ** 2)))
+
+    def test_no_truth_probe_is_no_truth(self):
+        self.assertIsNone(truth_of(Result(self.bare).method("original")))
+
+    def test_other_files_are_refused(self):
+        with open(self.path("text.h5"), "w", encoding="utf-8") as stream:
+            stream.write("text")
+        with h5py.File(self.path("other.h5"), "w") as h5:
+            h5["a"] = 1
+        newer = self.edited("newer.h5", lambda h5: h5.attrs.__setitem__("format_version", 2))
+        for name, message in (("gone.h5", "cannot be read"), ("text.h5", "cannot be read"), ("other.h5", "not a result"),
+                              ("newer.h5", "version 2")):
+            with self.assertRaisesRegex(ResultError, f"{name}.*{message}.*remedy"):
+                Result(self.path(name))
+        self.assertTrue(os.path.exists(newer))
+
+    def test_scripts_leave_with_the_exit_code_of_wrong_data(self):
+        for script in ("figure7.py", "claims.py"):
+            done = subprocess.run([sys.executable, os.path.join(SCRIPTS, script), self.path("gone.h5"), self.hard, "--out",
+                                   self.path("out")], capture_output=True, text=True, check=False)
+            self.assertEqual(done.returncode, lmdbench_results.EXIT_INPUT_DATA, done.stderr)
+            self.assertIn("gone.h5", done.stderr)
+            self.assertNotIn("Traceback", done.stderr)
+
+    def test_missing_dataset_is_named(self):
+        file = self.edited("lacks.h5", lambda h5: h5["/methods/original"].__delitem__("force"))
+        with self.assertRaisesRegex(ResultError, "lacks.h5: /methods/original/force: is missing"):
+            Result(file).method("original").force_magnitude()
+
+
+class FigureTest(ScriptsTest):
+    def figure_bytes(self, main, names, *arguments):
+        contents = []
+        for turn in ("first", "second"):
+            self.printed(main, *arguments, "--out", self.path(turn))
+            contents.append([open(os.path.join(self.path(turn), name), "rb").read() for name in names])
+        return contents
+
+    def test_figure7_is_the_same_every_time(self):
+        first, second = self.figure_bytes(figure7.main, ("figure7.svg", "figure7.png"), self.hard, self.soft)
+        self.assertEqual(first, second)
+        self.assertNotIn(b"dc:date", first[0])
+        self.assertGreater(len(first[1]), 50_000)
+
+    def test_work_precision_is_the_same_every_time(self):
+        names = ("work_precision.svg", "work_precision.png")
+        first, second = self.figure_bytes(work_precision.main, names, self.hard, self.soft)
+        self.assertEqual(first, second)
+
+    def test_figure7_shows_medians_and_says_what_it_cuts(self):
+        def busy(h5):
+            h5["/methods/original/local_update_time"][:, 1000] = 0.5  # in every repetition: a median of half a second
+
+        result = Result(self.edited("busy.h5", busy))
+        figure = figure7.draw({"hard contact": result, "soft contact": Result(self.soft)})
+        axes = figure.axes[6]  # local update, left column
+        self.assertEqual(axes.get_shared_x_axes().joined(axes, figure.axes[0]), True)
+        self.assertLess(axes.get_ylim()[1], 1.0)
+        self.assertIn("1 above, up to 500 ms", [text.get_text() for text in axes.texts])
+        figure_style.plt.close(figure)
+
+    def test_figure7_without_truth_says_so(self):
+        figure = figure7.draw({"hard contact": Result(self.bare), "soft contact": Result(self.bare)})
+        texts = [text.get_text() for axes in figure.axes for text in axes.texts]
+        self.assertIn("no truth probe in this run", texts)
+        figure_style.plt.close(figure)
+
+    def test_work_precision_places_exact_failed_and_other_methods(self):
+        def fail(h5):
+            h5["/methods/improved/force"][5] = np.nan
+
+        result = Result(self.edited("failing.h5", fail, methods=("original", "improved", "certified")))
+        points = {label: work_precision.Point(result, method) for label, method in result.methods.items()}
+        self.assertEqual(points["certified"].force_error, 0.0)
+        self.assertEqual(points["certified"].failure, "")
+        self.assertGreater(points["original"].force_error, 0.1)
+        self.assertNotEqual(points["improved"].failure, "")
+        figure = work_precision.draw([result])
+        labels = [label.get_text() for label in figure.axes[0].get_xticklabels()]
+        self.assertIn("failed", labels)
+        self.assertIn("0", labels)
+        figure_style.plt.close(figure)
+
+    def test_work_precision_refuses_times_without_errors(self):
+        with self.assertRaisesRegex(ResultError, "no truth probe"):
+            work_precision.draw([Result(self.bare)])
+
+
+class SummaryTest(ScriptsTest):
+    def test_every_time_has_its_error_in_the_row(self):
+        text = self.printed(summary.main, self.hard, self.soft)
+        rows = [line for line in text.splitlines() if line.startswith(("original", "improved", "certified"))]
+        self.assertEqual(len(rows), 5)
+        for line in rows:
+            self.assertRegex(line, r"\d+\.\d \(\d+\.\d\)")  # recall
+        self.assertIn("0 disagree, worst relative difference 2.0e-09", text)
+        self.assertIn("hard.h5", text)
+        self.assertIn("Note: synthetic data", text)
+
+    def test_missing_errors_are_shouted(self):
+        self.assertIn("NO TRUTH PROBE", self.printed(summary.main, self.bare))
+
+    def test_disagreements_with_fcl_are_counted(self):
+        def disagree(h5):
+            h5["/crosscheck/fcl/agrees"][3:5] = 0
+            h5["/crosscheck/fcl/relative_difference"][3] = 0.5
+
+        text = self.printed(summary.main, self.edited("fcl.h5", disagree))
+        self.assertIn("2 disagree, worst relative difference 5.0e-01", text)
+
+
+class ClaimsTest(ScriptsTest):
+    def verdicts(self, hard, soft, **options):
+        return {claim.id: claim for claim in claim_rules.ledger(Result(hard), Result(soft), **options)}
+
+    def test_what_the_synthetic_run_shows(self):
+        rows = self.verdicts(self.hard, self.soft)
+        self.assertEqual(list(rows), [f"K{i}" for i in range(1, 11)])
+        expected = {"K1": "reproduced", "K2": "reproduced", "K3": "not reproduced", "K4": "reproduced",
+                    "K5": "reproduced", "K6": "reproduced", "K7": "differs because", "K8": "not measured here",
+                    "K9": "reproduced", "K10": "differs because"}
+        self.assertEqual({name: claim.verdict for name, claim in rows.items()}, expected)
+        self.assertIn("less so when soft", rows["K7"].because)
+
+    def test_k1_turns_when_the_improved_method_jumps(self):
+        def jump(h5):
+            h5["/methods/improved/force"][...] = h5["/methods/original/force"][...]
+
+        claim = self.verdicts(self.edited("jumping.h5", jump), self.soft)["K1"]
+        self.assertEqual(claim.verdict, "differs because")
+        self.assertIn("improved force is stable", claim.because)
+
+    def test_k1_turns_when_nobody_jumps(self):
+        def smooth(h5):
+            h5["/methods/original/force"][...] = h5["/methods/improved/force"][...]
+
+        self.assertIn("original jumps", self.verdicts(self.edited("smooth.h5", smooth), self.soft)["K1"].because)
+
+    def test_k2_turns_with_large_sets(self):
+        def many(h5):
+            h5["/methods/original/lmd_count"][...] += 10
+            h5["/methods/improved/lmd_count"][...] += 10
+
+        self.assertEqual(self.verdicts(self.edited("many.h5", many), self.soft)["K2"].verdict, "not reproduced")
+
+    def test_k5_sees_the_density(self):
+        def denser(factor):
+            def change(h5):
+                h5["/scene/triangles"][...] = 75_408
+                h5["/methods/improved/candidates"][...] = h5["/methods/improved/candidates"][...] * factor
+            return change
+
+        more = Result(self.edited("more.h5", denser(2)))
+        claim = self.verdicts(self.hard, self.soft, others=[more])["K5"]
+        self.assertEqual((claim.verdict, claim.because), ("reproduced", ""))
+        less = Result(self.edited("less.h5", denser(0.5)))
+        claim = self.verdicts(self.hard, self.soft, others=[less])["K5"]
+        self.assertIn("larger for denser meshes", claim.because)
+
+    def test_k9_needs_large_meshes_and_short_updates(self):
+        def slow(h5):
+            h5["/methods/improved/local_update_time"][...] += 1e-3
+
+        def small(h5):
+            h5["/scene/triangles"][...] = 500
+
+        self.assertIn("above 1 kHz", self.verdicts(self.edited("slow.h5", slow), self.soft)["K9"].because)
+        self.assertIn("10,000 triangles", self.verdicts(self.edited("small.h5", small), self.soft)["K9"].because)
+
+    def test_ledger_is_written_as_text_and_data(self):
+        out = self.path("ledger")
+        text = self.printed(claims.main, self.hard, self.soft, "--out", out)
+        self.assertIn("K1: reproduced", text)
+        with open(os.path.join(out, "claims.json"), encoding="utf-8") as stream:
+            rows = json.load(stream)
+        self.assertEqual([row["id"] for row in rows], [f"K{i}" for i in range(1, 11)])
+        with open(os.path.join(out, "claims.md"), encoding="utf-8") as stream:
+            table = [line for line in stream if line.startswith("| K")]
+        self.assertEqual(len(table), 10)
+
+
+if __name__ == "__main__":
+    unittest.main()
