@@ -1,0 +1,63 @@
+#!/usr/bin/env bash
+# SPDX-FileCopyrightText: The lmdbench authors
+# SPDX-License-Identifier: BSD-3-Clause
+# From a fresh clone to the paper's Figure 7: packages, build, meshes, the hard and the soft experiment, figures, summary.
+# Leaves results/bunny-hard.h5, results/bunny-soft.h5 and results/figures/. The summary goes to standard output, all
+# else to standard error.
+set -euo pipefail
+# shellcheck source=scripts/lib.sh
+source "$(dirname "${BASH_SOURCE[0]}")/lib.sh"
+(($# == 0)) || die 2 "unknown argument '$1' (remedy: ./scripts/reproduce.sh takes none)"
+cd "$ROOT"
+
+EXPERIMENTS=(bunny-hard bunny-soft)
+LMDBENCH=build/release/lmdbench
+FIGURES=results/figures
+started=$EPOCHREALTIME
+
+# Every step stops the script when it fails; what was timed until then is still told.
+trap 'print_steps; say "  in all: $(seconds_since "$started")"' EXIT
+
+# The meshes that the experiments name, each once.
+build_meshes() {
+  local names meshes
+  names="$("$PYTHON" - "${EXPERIMENTS[@]}" <<'PYTHON_END'
+import json
+import sys
+
+names = set()
+for name in sys.argv[1:]:
+    with open(f"experiments/{name}.json", encoding="utf-8") as file:
+        experiment = json.load(file)
+    names.update(body["mesh"] for body in [experiment["moving"], *experiment["fixed"]])
+print("\n".join(sorted(names)))
+PYTHON_END
+)" || return
+  mapfile -t meshes <<<"$names"
+  "$LMDBENCH" mesh build "${meshes[@]}" </dev/null >&2
+}
+
+# The program alone: tests and benchmarks are the business of scripts/test.sh.
+build_program() { cmake --preset release && cmake --build --preset release --parallel "$JOBS" --target lmdbench; }
+
+run_experiment() { "$LMDBENCH" run "experiments/$1.json" --out "results/$1.h5" </dev/null >&2; }
+
+figures() {
+  mkdir -p "$FIGURES" &&
+    "$PYTHON" scripts/figures/figure7.py "$HARD" "$SOFT" --out "$FIGURES" >&2 &&
+    "$PYTHON" scripts/figures/work_precision.py "$HARD" "$SOFT" --out "$FIGURES" >&2 &&
+    "$PYTHON" scripts/figures/claims.py "$HARD" "$SOFT" --out "$FIGURES" >&2
+}
+
+step "Packages" scripts/setup.sh
+PYTHON="$(find_python h5py matplotlib numpy)"
+HARD=results/bunny-hard.h5
+SOFT=results/bunny-soft.h5
+
+step "Build" build_program >&2
+step "Meshes" build_meshes
+for experiment in "${EXPERIMENTS[@]}"; do
+  step "Experiment $experiment" run_experiment "$experiment"
+done
+step "Figures" figures
+step "Summary" "$PYTHON" scripts/figures/summary.py "$HARD" "$SOFT" --files "$FIGURES"/*
