@@ -93,7 +93,7 @@ TEST(Interpolate, CubicReproducesAcceleratedMotionOnUnevenTimes) {
   Path path;
   for (const double t : {0.0, 0.1, 0.15, 0.4, 0.5, 0.9}) path.push_back(at_position(t, position(t)));
   const PathInterpolator interpolator(path);
-  for (double t = 0.1; t <= 0.5; t += 0.013)  // the end intervals have secants for slopes
+  for (double t = 0.0; t <= 0.9; t += 0.013)
     EXPECT_LT((interpolator.at(t).translation - position(t)).norm(), 1e-14) << t;
 }
 

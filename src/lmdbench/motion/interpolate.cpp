@@ -11,19 +11,21 @@
 namespace lmdbench {
 namespace {
 
-/// Values at the poses from the secants between them: the slope of the parabola through three neighbours
-/// inside, the secant at the ends.
+/// Slopes at the poses from the secants between them: inside, the slope of the parabola through a pose and
+/// its two neighbours; at the ends, that of the outermost such parabola.
 std::vector<Vec3> parabola_slopes(const std::vector<double>& steps, const std::vector<Vec3>& secants) {
   const std::size_t count = secants.size() + 1;
-  std::vector<Vec3> slopes(count, Vec3::Zero());
-  if (secants.empty()) return slopes;
-  slopes.front() = secants.front();
-  slopes.back() = secants.back();
+  if (secants.size() < 2)
+    return std::vector<Vec3>(count, secants.empty() ? Vec3(Vec3::Zero()) : secants.front());
+  std::vector<Vec3> slopes(count);
   for (std::size_t i = 1; i + 1 < count; ++i) {
     const double before = steps[i - 1];
     const double after = steps[i];
     slopes[i] = (after * secants[i - 1] + before * secants[i]) / (before + after);
   }
+  // A parabola's secant is the mean of its end slopes.
+  slopes.front() = 2.0 * secants.front() - slopes[1];
+  slopes.back() = 2.0 * secants.back() - slopes[count - 2];
   return slopes;
 }
 

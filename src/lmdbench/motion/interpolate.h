@@ -19,12 +19,15 @@ enum class Interpolation : std::uint8_t {
 /// A path at any time.
 ///
 /// CUBIC, translation: cubic Hermite between neighbouring poses; the velocity at a pose is the slope of the
-/// parabola through it and its two neighbours (exact for quadratic motion on uneven times), at the ends the
-/// secant's. CUBIC, rotation: cubic Bezier curve of quaternions in cumulative form, q(u) = q_0 exp(w_1
-/// b_1(u)) exp(w_2 b_2(u)) exp(w_3 b_3(u)) (Kim, Kim and Shin, SIGGRAPH 1995), whose end angular velocities
-/// are set to the same rule's values in place of the translation's. Neither overshoots by more than a
-/// fraction of a step, but where a path *jumps* the neighbouring intervals swing: use LINEAR for paths that
-/// are meant to jump.
+/// parabola through it and its two neighbours, at the ends of the outermost such parabola: exact for
+/// quadratic motion on uneven times.
+///
+/// CUBIC, rotation: cubic Bezier curve of quaternions in cumulative form, q(u) = q_0 exp(w_1 b_1(u))
+/// exp(w_2 b_2(u)) exp(w_3 b_3(u)) (Kim, Kim and Shin, SIGGRAPH 1995). Its angular velocities at the poses
+/// come from the same rule, with rotation vectors between poses in place of differences.
+///
+/// Neither overshoots by more than a fraction of a step, but where a path *jumps* the neighbouring intervals
+/// swing: use LINEAR for paths that are meant to jump.
 ///
 /// The translation that is interpolated is the one of the mesh frame's origin: a mesh whose origin is far
 /// from its centre swings when it turns. Meshes are centred for that (`scaled_to_diagonal`).

@@ -18,13 +18,12 @@ struct MotionLimits {
 ///
 /// One pass has two steps:
 ///  1. Braking is limited: at every time the highest of the "caps" hung from the samples, a cap being the way
-///  down from
-///     rest at full braking, then at full speed. No cap bends down faster than -a, and their maximum only
-///     adds upward kinks.
+///     down from rest at full braking, then at full speed. No cap bends down faster than -a, and their
+///     maximum only adds upward kinks.
 ///  2. Speeding up is limited: f - a t^2/2 must be concave, so the smallest such function is the upper convex
-///  hull of
-///     the points (t, f - a t^2/2), with a t^2/2 added back. It touches only where the caps are smooth, and
-///     so keeps step 1's bounds.
+///     hull of the points (t, f - a t^2/2), with a t^2/2 added back. It touches only where the caps are
+///     smooth, and so keeps step 1's bounds.
+///
 /// Caps begin at rest, so one pass lies v^2/(2a) above samples that move at speed v. Therefore the limits are
 /// shared among three passes, each working on what the samples lack to the sum of the passes before it: that
 /// remainder hardly moves where the samples are smooth, and there the excess all but vanishes.

@@ -21,8 +21,7 @@ inline constexpr double QUATERNION_LENGTH_TOLERANCE = 1e-3;
 /// path bit for bit; one within QUATERNION_LENGTH_TOLERANCE is normalised. Signs of quaternions are kept as
 /// written.
 /// @throws InputError naming file, line and remedy: not a number, NaN or infinity, wrong number of columns,
-/// time not
-///         strictly increasing, quaternion not of unit length, no pose at all, unreadable file
+///         time not strictly increasing, quaternion not of unit length, no pose at all, unreadable file
 Path read_tum(const std::filesystem::path& file);
 
 /// The same from a stream, e.g. standard input; `name` stands for the file in messages.
@@ -31,9 +30,8 @@ Path read_tum(std::istream& stream, const std::string& name);
 /// Text of a TUM trajectory.
 /// @param comment  lines written first, each behind "# "; may be empty
 /// @param decimals digits behind the point; unset: the shortest text that reads back to the same bits
-/// @throws std::invalid_argument when the path could not be read back (empty, not finite, time not
-/// increasing,
-///         quaternion not of unit length)
+/// @throws std::invalid_argument when the path could not be read back (empty, not finite, time
+///         not increasing, quaternion not of unit length)
 std::string tum_text(const Path& path, const std::string& comment = "",
                      std::optional<int> decimals = std::nullopt);
 
