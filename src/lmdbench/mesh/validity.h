@@ -1,0 +1,66 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <lmdbench/mesh/surface.h>
+
+#include <nlohmann/json_fwd.hpp>
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace lmdbench {
+
+/// What a mesh is like: nothing here stops an algorithm, but results on open, non-manifold or inside-out
+/// meshes need the words beside them. Lengths in the mesh's unit.
+struct ValidityReport {
+  std::int64_t vertices = 0;
+  std::int64_t edges = 0;
+  std::int64_t triangles = 0;
+  std::int64_t unused_vertices = 0;  ///< Vertices without triangles.
+  std::int64_t components = 0;       ///< Groups of triangles that hang together over vertices.
+
+  std::int64_t boundary_edges = 0;
+  std::int64_t boundary_loops = 0;         ///< Groups of boundary edges that hang together over vertices.
+  std::int64_t non_manifold_edges = 0;     ///< Edges with more than two triangles.
+  std::int64_t non_manifold_vertices = 0;  ///< Vertices whose triangles are not one fan.
+  std::int64_t misoriented_edges = 0;      ///< Edges whose two triangles disagree on which side is out.
+  std::int64_t degenerate_triangles = 0;   ///< Triangles without area (ZERO_AREA_TOLERANCE).
+  std::int64_t duplicate_triangles = 0;    ///< Triangles on the vertices of an earlier one, in any order.
+
+  bool closed = false;                 ///< No boundary edge.
+  bool manifold = false;               ///< No non-manifold edge or vertex.
+  bool consistently_oriented = false;  ///< No misoriented edge.
+  std::optional<bool> outward;   ///< Encloses a positive volume; only where closed and consistently oriented.
+  std::optional<double> volume;  ///< Enclosed volume, signed; only where closed and consistently oriented.
+  std::optional<std::int64_t>
+      genus;  ///< Sum over the components; only where closed, manifold, consistently oriented.
+
+  double area = 0.0;
+  double diagonal = 0.0;          ///< Of the bounding box.
+  double mean_edge_length = 0.0;  ///< Mean of all triangle sides.
+  double shortest_edge = 0.0;
+  double longest_edge = 0.0;
+  double worst_aspect = 0.0;  ///< Largest (longest side / altitude on it) of triangles with area.
+
+  /// Features with a polar cone that is not empty (polar_cone.h), of vertices, edges and faces.
+  std::array<std::int64_t, 3> polar_cones{};
+};
+
+ValidityReport check_mesh(const Surface& surface);
+
+/// Sentences for what is amiss, worst first; empty for a closed, manifold, consistently and outward oriented
+/// mesh without degenerate or duplicate triangles.
+std::vector<std::string> findings(const ValidityReport& report);
+
+/// Keys as the members above; `polar_cones` is an object {vertex|edge|face: {count, share}}; what is not
+/// known is null.
+nlohmann::ordered_json to_json(const ValidityReport& report);
+
+/// Lines for people, with a final newline.
+std::string to_text(const ValidityReport& report);
+
+}  // namespace lmdbench
