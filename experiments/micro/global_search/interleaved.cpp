@@ -1,0 +1,145 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <CLI/CLI.hpp>
+#include <fmt/core.h>
+#include <micro/bodies.h>
+#include <micro/global_search/check.h>
+#include <micro/poses.h>
+#include <micro/timing.h>
+#include <nlohmann/json.hpp>
+
+#include <exception>
+#include <fstream>
+
+/// Times every implementation of the task "global search" on the same poses, interleaved pose by pose, and
+/// reports the error of each beside its time. Exit code 1 when an implementation does not do what it
+/// promises.
+namespace lmdbench::micro {
+namespace {
+
+struct Choice {
+  SceneChoice scene;
+  std::vector<double> cutoffs = {0.005, 0.02, 0.05};
+  std::size_t poses = 40;
+  std::size_t repetitions = 9;
+  std::uint64_t seed = 1;
+  bool slow = false;
+  std::string json;
+};
+
+struct Row {
+  std::string name;
+  SearchError error;
+  double median_ms = 0.0, p99_ms = 0.0, ratio_to_fcl = 0.0;
+};
+
+std::vector<Row> measure(const Scene& scene, const std::vector<Pose>& poses, const Choice& choice) {
+  const Truth truth = exhaustive_truth(scene, poses);
+  std::vector<Row> rows;
+  std::vector<std::unique_ptr<GlobalSearch>> searches;
+  std::vector<TimedTask> tasks;
+  for (const SearchImplementation& implementation : search_implementations()) {
+    if (implementation.slow && !choice.slow) continue;
+    searches.push_back(implementation.make(scene));
+    GlobalSearch* search = searches.back().get();
+    rows.push_back({implementation.name, check_search(implementation, *search, scene, poses, truth)});
+    tasks.push_back({implementation.name, [search, &poses](std::size_t pose) { search->run(poses[pose]); }});
+  }
+  const auto seconds = time_interleaved(tasks, poses.size(), choice.repetitions);
+  double fcl_ms = 0.0;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    rows[i].median_ms = 1e3 * median(seconds[i]);
+    rows[i].p99_ms = 1e3 * quantile(seconds[i], 0.99);
+    if (rows[i].name == "fcl-cold") fcl_ms = rows[i].median_ms;
+  }
+  for (Row& row : rows) row.ratio_to_fcl = fcl_ms / row.median_ms;
+  return rows;
+}
+
+void print(const std::vector<Row>& rows, double cutoff) {
+  fmt::print("\nCutoff {:g} % of the diagonal\n\n", 100.0 * cutoff);
+  fmt::print(
+      "| implementation | median [ms] | p99 [ms] | FCL cold / this | recall | precision | minimum missed | "
+      "worst minimum error |\n");
+  fmt::print("|---|---|---|---|---|---|---|---|\n");
+  for (const Row& row : rows) {
+    const bool has_set = row.error.feature_pairs.truths > 0;
+    fmt::print(
+        "| {} | {:.4f} | {:.4f} | {:.2f} | {} | {} | {} | {:.2g} |{}\n", row.name, row.median_ms, row.p99_ms,
+        row.ratio_to_fcl, has_set ? fmt::format("{:.4f}", row.error.feature_pairs.recall()) : "-",
+        has_set ? fmt::format("{:.4f}", row.error.feature_pairs.precision()) : "-", row.error.minimum_missed,
+        row.error.worst_minimum_error, row.error.objection.empty() ? "" : " WRONG: " + row.error.objection);
+  }
+}
+
+nlohmann::json to_json(const Row& row) {
+  return {{"name", row.name},
+          {"median_ms", row.median_ms},
+          {"p99_ms", row.p99_ms},
+          {"fcl_cold_ratio", row.ratio_to_fcl},
+          {"true_lmds", row.error.feature_pairs.truths},
+          {"found", row.error.feature_pairs.found},
+          {"reported", row.error.feature_pairs.reported},
+          {"right", row.error.feature_pairs.right},
+          {"minimum_missed", row.error.minimum_missed},
+          {"worst_minimum_error", row.error.worst_minimum_error},
+          {"objection", row.error.objection}};
+}
+
+int run(const Choice& choice) {
+  Scene scene = load_scene(choice.scene);
+  const std::vector<Pose> poses = grazing_poses(
+      *scene.moving, *scene.fixed.at(0), choice.scene.gap * choice.scene.diagonal, choice.poses, choice.seed);
+  fmt::print(
+      "{} on {}: {} poses at gap {:g} % of the diagonal ({:g} m), median of {} runs a pose, one thread's "
+      "processor time\n",
+      choice.scene.moving, choice.scene.fixed, poses.size(), 100.0 * choice.scene.gap, choice.scene.diagonal,
+      choice.repetitions);
+  nlohmann::json report = {{"moving", choice.scene.moving},
+                           {"fixed", choice.scene.fixed},
+                           {"diagonal_m", choice.scene.diagonal},
+                           {"gap", choice.scene.gap},
+                           {"poses", poses.size()},
+                           {"repetitions", choice.repetitions},
+                           {"seed", choice.seed}};
+  bool kept_promises = true;
+  for (const double cutoff : choice.cutoffs) {
+    scene.cutoff = cutoff * choice.scene.diagonal;
+    const std::vector<Row> rows = measure(scene, poses, choice);
+    print(rows, cutoff);
+    nlohmann::json entry = {{"cutoff", cutoff}};
+    for (const Row& row : rows) {
+      entry["implementations"].push_back(to_json(row));
+      kept_promises = kept_promises && row.error.objection.empty();
+    }
+    report["cutoffs"].push_back(entry);
+  }
+  if (!choice.json.empty()) std::ofstream(choice.json) << report.dump(2) << '\n';
+  return kept_promises ? 0 : 1;
+}
+
+}  // namespace
+}  // namespace lmdbench::micro
+
+int main(int argc, char** argv) {
+  lmdbench::micro::Choice choice;
+  CLI::App app("Interleaved comparison of global searches, error beside time");
+  app.add_option("--moving", choice.scene.moving, "Moving mesh")->capture_default_str();
+  app.add_option("--fixed", choice.scene.fixed, "Fixed mesh")->capture_default_str();
+  app.add_option("--meshes", choice.scene.meshes, "Folder of built meshes")->capture_default_str();
+  app.add_option("--diagonal", choice.scene.diagonal, "Diagonal of both meshes [m]")->capture_default_str();
+  app.add_option("--gap", choice.scene.gap, "Gap, share of the diagonal")->capture_default_str();
+  app.add_option("--cutoff", choice.cutoffs, "Cutoffs, shares of the diagonal")->capture_default_str();
+  app.add_option("--poses", choice.poses, "Random poses")->capture_default_str();
+  app.add_option("--repetitions", choice.repetitions, "Timed runs a pose")->capture_default_str();
+  app.add_option("--seed", choice.seed, "Seed of the poses")->capture_default_str();
+  app.add_flag("--slow", choice.slow, "Time slow implementations too");
+  app.add_option("--json", choice.json, "Also write the table to this file");
+  CLI11_PARSE(app, argc, argv);
+  try {
+    return lmdbench::micro::run(choice);
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "error: {}\n", error.what());
+    return 3;
+  }
+}

@@ -1,0 +1,26 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <lmdbench/lmd/body.h>
+
+#include <micro/random.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace lmdbench::micro {
+
+/// Poses X_WM at which the moving body is `gap` away from the fixed one: a random orientation, approached
+/// along a random line through both centres by conservative advancement (each step is the distance that is
+/// left, so nothing is jumped over). The first pose depends on the seed alone, not on how many follow.
+/// @param gap wanted minimum distance [m], positive; reached to within `GAP_TOLERANCE` of itself
+/// @throws std::runtime_error when a line misses the fixed body (bodies with a hole through the centre)
+std::vector<Pose> grazing_poses(const Body& moving, const Body& fixed, double gap, std::size_t count,
+                                std::uint64_t seed);
+
+/// Relative to the gap: far below what any method resolves, reached in some dozens of steps.
+inline constexpr double GAP_TOLERANCE = 1e-6;
+
+}  // namespace lmdbench::micro

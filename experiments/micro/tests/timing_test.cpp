@@ -1,0 +1,36 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <gtest/gtest.h>
+#include <micro/timing.h>
+
+#include <cmath>
+
+namespace lmdbench::micro {
+namespace {
+
+TEST(Quantile, InterpolatesBetweenValues) {
+  EXPECT_DOUBLE_EQ(median({3.0, 1.0, 2.0}), 2.0);
+  EXPECT_DOUBLE_EQ(median({4.0, 1.0, 2.0, 3.0}), 2.5);
+  EXPECT_DOUBLE_EQ(quantile({0.0, 10.0}, 0.25), 2.5);
+  EXPECT_DOUBLE_EQ(quantile({7.0}, 0.99), 7.0);
+  EXPECT_TRUE(std::isnan(median({})));
+}
+
+TEST(TimeInterleaved, RunsEveryTaskAtEveryPoseInRotatingOrder) {
+  std::vector<std::string> order;
+  const auto task = [&order](const std::string& name) {
+    return TimedTask{name,
+                     [&order, name](std::size_t pose) { order.push_back(name + std::to_string(pose)); }};
+  };
+  const auto seconds = time_interleaved({task("a"), task("b")}, 2, 2);
+  const std::vector<std::string> expected = {"a0", "b0", "a1", "b1",   // not recorded
+                                             "a0", "b0", "b1", "a1",   // first repetition
+                                             "b0", "a0", "a1", "b1"};  // second
+  EXPECT_EQ(order, expected);
+  ASSERT_EQ(seconds.size(), 2U);
+  EXPECT_EQ(seconds[0].size(), 2U);
+  EXPECT_GE(seconds[0][0], 0.0);
+}
+
+}  // namespace
+}  // namespace lmdbench::micro

@@ -1,0 +1,34 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace lmdbench::micro {
+
+/// Something to be timed at each of a list of poses.
+struct TimedTask {
+  std::string name;
+  std::function<void(std::size_t pose)> run;
+};
+
+/// Processor time [s] of the calling thread, so that other programs on the machine count as little as they
+/// can.
+double thread_seconds();
+
+/// seconds[task][pose]: the median of `repetitions` runs. All tasks run at a pose before the next pose comes,
+/// in an order that rotates, so drifts of the machine meet every task alike. One unrecorded run of everything
+/// goes first.
+std::vector<std::vector<double>> time_interleaved(const std::vector<TimedTask>& tasks, std::size_t pose_count,
+                                                  std::size_t repetitions);
+
+/// Value below which `share` of the values lie, interpolated linearly; NaN for none.
+double quantile(std::vector<double> values, double share);
+inline double median(std::vector<double> values) {
+  return quantile(std::move(values), 0.5);
+}
+
+}  // namespace lmdbench::micro

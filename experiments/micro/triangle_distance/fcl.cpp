@@ -1,0 +1,17 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/crosscheck/fcl_triangle_distance.h>
+
+#include <micro/triangle_distance/implementation.h>
+
+namespace lmdbench::micro {
+
+/// FCL's kernel, with witness points.
+DistanceImplementation fcl_distance() {
+  return {"fcl", [](std::span<const TrianglePair> pairs, std::span<double> distances) {
+            for (std::size_t i = 0; i < pairs.size(); ++i)
+              distances[i] = fcl_triangle_distance(pairs[i].a, pairs[i].b).distance;
+          }};
+}
+
+}  // namespace lmdbench::micro

@@ -1,0 +1,84 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <fmt/core.h>
+#include <recall_study/variant.h>
+
+#include <cmath>
+#include <numbers>
+
+namespace lmdbench::recall_study {
+namespace {
+
+/// Relative to the true minimum distance.
+constexpr double MINIMUM_TOLERANCE = 1e-6;
+
+/// From "only exact directions" to "any direction"; decision E5's sweep.
+constexpr double G5_TOLERANCES_RAD[] = {
+    0.0, 0.05, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.8, 1.0, 1.25, std::numbers::pi / 2.0, std::numbers::pi};
+
+bool misses_minimum(const LmdSet& truth, const LmdSet& reported) {
+  if (truth.empty()) return false;
+  const double true_minimum = minimum_distance(truth);
+  // Written so that NaN (nothing reported) counts as missed.
+  return !(std::abs(minimum_distance(reported) - true_minimum) <= MINIMUM_TOLERANCE * true_minimum);
+}
+
+}  // namespace
+
+std::vector<Variant> improved_variants() {
+  MethodOptions off;
+  off.visibility = Visibility::OFF;
+  MethodOptions vertex_normal;
+  vertex_normal.visibility = Visibility::VERTEX_NORMAL;
+  MethodOptions orthogonal;
+  orthogonal.visibility = Visibility::ORTHOGONAL;
+  std::vector<Variant> variants = {
+      {"cones only (visibility off)", "improved", off, 0},
+      {"visibility vertex-normal", "improved", vertex_normal, 0},
+      {"visibility orthogonal", "improved", orthogonal, 0},
+  };
+  for (MethodOptions options : {off, vertex_normal})
+    for (const Reduction reduction : {Reduction::PUBLISHED, Reduction::LOSS_FREE}) {
+      options.reduction = reduction;
+      variants.push_back({fmt::format("visibility {}, {} reduction",
+                                      options.visibility == Visibility::OFF ? "off" : "vertex-normal",
+                                      reduction == Reduction::PUBLISHED ? "published" : "loss-free"),
+                          "improved", options, 1});
+    }
+  return variants;
+}
+
+std::vector<Variant> original_variants() {
+  std::vector<Variant> variants;
+  for (const int trackings : {0, 1})
+    for (const double tolerance : G5_TOLERANCES_RAD) {
+      MethodOptions options;
+      options.g5_tolerance_rad = tolerance;
+      variants.push_back(
+          {fmt::format("G5 tolerance {:.2f} rad{}", tolerance, trackings == 0 ? "" : ", tracked"), "original",
+           options, trackings});
+    }
+  return variants;
+}
+
+VariantResult judge(const Variant& variant, const Scene& scene, const std::vector<Pose>& poses,
+                    const std::vector<LmdSet>& truth) {
+  VariantResult result;
+  result.variant = variant;
+  const std::unique_ptr<Method> method = make_method(variant.method, scene, variant.options);
+  LmdSet lmds;
+  WorkCounters counters;
+  for (std::size_t i = 0; i < poses.size(); ++i) {
+    method->search(poses[i], lmds, counters);
+    for (int k = 0; k < variant.trackings; ++k) method->track(poses[i], lmds, counters);
+    const LmdSet reported = within_cutoff(lmds, scene.cutoff);
+    const micro::MatchCount pairs = count_matches(truth[i], reported, micro::Match::FEATURE_PAIR, scene);
+    result.feature_pairs += pairs;
+    result.adjacent += count_matches(truth[i], reported, micro::Match::ADJACENT, scene);
+    if (pairs.missed() > 0) ++result.poses_with_loss;
+    if (misses_minimum(truth[i], reported)) ++result.minimum_missed;
+  }
+  return result;
+}
+
+}  // namespace lmdbench::recall_study

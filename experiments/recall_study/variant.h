@@ -1,0 +1,45 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <lmdbench/lmd/registry.h>
+
+#include <micro/match.h>
+
+#include <string>
+#include <vector>
+
+namespace lmdbench::recall_study {
+
+/// A method with its free choices fixed, observed before or after tracking.
+struct Variant {
+  std::string label;
+  std::string method;
+  MethodOptions options;
+  int trackings = 0;  ///< Trackings at the pose of the search; 0: candidates as the search left them.
+};
+
+/// Where the improved algorithm loses LMDs, one step at a time: cones (search without pre-test), each reading
+/// of the visibility pre-test, each reduction rule, with and without the pre-test.
+std::vector<Variant> improved_variants();
+
+/// The original algorithm over its G5 tolerance (decision E5), before and after one tracking.
+std::vector<Variant> original_variants();
+
+/// Sums over all poses at one cutoff.
+struct VariantResult {
+  Variant variant;
+  micro::MatchCount feature_pairs;
+  micro::MatchCount adjacent;
+  std::size_t poses_with_loss = 0;  ///< Poses with at least one true LMD whose feature pair is missing.
+  /// Poses whose nearest true LMD has no reported LMD at its distance (relative 1e-6): the force's main part
+  /// is off.
+  std::size_t minimum_missed = 0;
+};
+
+/// Runs a variant at every pose and compares it with the truth there.
+/// @param truth true LMDs within the scene's cutoff at each pose
+VariantResult judge(const Variant& variant, const Scene& scene, const std::vector<Pose>& poses,
+                    const std::vector<LmdSet>& truth);
+
+}  // namespace lmdbench::recall_study
