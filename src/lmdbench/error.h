@@ -5,17 +5,18 @@
 #include <stdexcept>
 #include <string>
 
-/// Errors that end a command. The library throws them and never prints or aborts; `cli/` maps them to exit codes.
+/// Errors that end a command. The library throws them and never prints or aborts; `cli/` maps them to exit
+/// codes.
 namespace lmdbench {
 
 /// Exit codes of the command line (design contract; scripts depend on them).
 enum class ExitCode : int {
-  DONE = 0,              ///< Everything asked for was done.
-  CHECK_FAILED = 1,      ///< A check or a comparison failed.
-  USAGE = 2,             ///< Command line or experiment file wrong.
-  INPUT_DATA = 3,        ///< Mesh, path or result file wrong.
-  ENVIRONMENT = 4,       ///< Something that the environment should offer is missing.
-  INTERNAL = 70          ///< A bug of ours.
+  DONE = 0,          ///< Everything asked for was done.
+  CHECK_FAILED = 1,  ///< A check or a comparison failed.
+  USAGE = 2,         ///< Command line or experiment file wrong.
+  INPUT_DATA = 3,    ///< Mesh, path or result file wrong.
+  ENVIRONMENT = 4,   ///< Something that the environment should offer is missing.
+  INTERNAL = 70      ///< A bug of ours.
 };
 
 /// What every message names: the file, the place in it, what is wrong there and what to do about it.
