@@ -183,12 +183,12 @@ def k5(results):
         largest.append(quantile(ratio, 1.0))
         medians.append((triangles, median(ratio)))
         texts.append(f"{result.name}: median {median(ratio):.1f}, 99th percentile {quantile(ratio, 0.99):.1f}, largest "
-                     f"{largest[-1]:.1f}" + (f" ({triangles:,} triangles)" if triangles else ""))
+                     f"{largest[-1]:.1f} ({triangles:,} triangles)")
         numbers[result.name] = {"median": median(ratio), "p99": quantile(ratio, 0.99), "largest": largest[-1],
                                 "triangles": triangles}
     top = max(largest)
     parts = {"up to about twenty times (10 to 40)": 10 <= top <= 40}
-    densities = sorted({triangles for triangles, _ in medians if triangles})
+    densities = sorted({triangles for triangles, _ in medians})
     one_density = True
     if len(densities) > 1 and densities[-1] >= 2 * densities[0]:
         thin = np.mean([value for triangles, value in medians if triangles == densities[0]])
@@ -289,13 +289,11 @@ def k9(results):
         late = float(np.mean(samples > 1e-3))
         p99 = quantile(samples, 0.99)
         triangles = result.triangles(smallest=True)
-        if triangles:
-            parts[f"{result.name}: over 10,000 triangles a mesh"] = triangles > 10_000
+        parts[f"{result.name}: over 10,000 triangles a mesh"] = triangles > 10_000
         parts[f"{result.name}: above 1 kHz"] = p99 < 1e-3
         texts.append(f"{result.name}: local update 99th percentile {p99 * 1e3:.3f} ms ({1e-3 / p99:.0f} times the rate of "
-                     f"1 kHz), {100 * late:.3f} % of updates above 1 ms; "
-                     + (f"meshes of at least {triangles:,} triangles" if triangles else "triangle count not recorded")
-                     + " " + errors(result))
+                     f"1 kHz), {100 * late:.3f} % of updates above 1 ms; meshes of at least {triangles:,} triangles "
+                     + errors(result))
         numbers[result.name] = {"local_update_p99_s": p99, "share_above_1ms": late, "smallest_mesh_triangles": triangles}
     verdict, because = judge(parts)
     return Claim("K9", "Update rates usually exceed 1 kHz (3), with bunnies of over 10,000 triangles each (6).",

@@ -14,7 +14,7 @@ import numpy as np
 
 FORMAT = "lmdbench-result"
 FORMAT_VERSION = 1
-EXIT_USAGE = 2
+EXIT_CHECK_FAILED = 1
 EXIT_INPUT_DATA = 3
 
 # The order of reports; labels that are not here come after these, in alphabetical order.
@@ -165,16 +165,22 @@ class Result:
     def repetitions(self):
         return max((method.read("local_update_time").shape[0] for method in self.methods.values()), default=0)
 
+    def scene(self, name):
+        """A number of the scene: maximum_force_n, cutoff_m, ..."""
+        if "/scene" not in self.h5 or name not in self.h5["/scene"].attrs:
+            raise ResultError(f"{self.file}: /scene: attribute {name} is missing (remedy: run the experiment again)")
+        return float(self.h5["/scene"].attrs[name])
+
     def maximum_force(self):
         """F_max of one LMD [N], the scale of force errors."""
-        return float(self.experiment["force"]["maximum_force_n"])
+        return self.scene("maximum_force_n")
 
     def triangles(self, smallest=False):
-        """Triangles of all meshes of the scene, or of its smallest mesh; 0 when the file does not say."""
-        if "/scene/triangles" not in self.h5:
-            return 0
-        counts = np.ravel(self.read("/scene/triangles"))
-        return int(counts.min() if smallest else counts.sum())
+        """Triangles of all meshes of the scene, or of its smallest mesh."""
+        counts = [int(item.attrs["triangles"]) for item in self.h5["/scene"].values() if "triangles" in item.attrs]
+        if not counts:
+            raise ResultError(f"{self.file}: /scene: names no mesh (remedy: run the experiment again)")
+        return min(counts) if smallest else sum(counts)
 
     def machine(self):
         if "/provenance/machine" not in self.h5:

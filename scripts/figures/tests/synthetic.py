@@ -17,7 +17,7 @@ def dataset(group, name, values, units, long_name):
 
 
 def write_result(file, name="hard", frames=2000, repetitions=5, methods=("original", "improved"), search_every=20,
-                 truth_stride=50, maximum_force=2.0, seed=1, true_counts=None):
+                 truth_stride=50, maximum_force=2.0, seed=1, true_counts=None, triangles=16_298):
     """A run of `frames` haptic frames in contact in its middle; the original loses LMDs now and then, the improved
     one follows truth, every other method equals it."""
     random = np.random.default_rng(seed)
@@ -38,15 +38,16 @@ def write_result(file, name="hard", frames=2000, repetitions=5, methods=("origin
             "title": f"synthetic {name}",
             "moving": {"mesh": "a"},
             "fixed": [{"mesh": "b"}],
-            "force": {"maximum_force_n": maximum_force, "cutoff_m": 0.001},
             "methods": [{"name": label, "label": label, "force_law": LAWS[label]} for label in methods],
             "driver": {"search_every_frames": search_every, "repetitions": repetitions},
         }
-        provenance["experiment"] = [json.dumps(experiment)]
+        dataset(provenance, "experiment", [json.dumps(experiment)], "1", "the experiment, JSON")
         provenance.create_group("machine").attrs["processor"] = "Synthetic"
         scene = h5.create_group("scene")
-        dataset(scene, "triangles", np.array([16_298, 16_298]), "1", "triangles of each mesh")
-        scene["warnings"] = ["synthetic data"]
+        scene.attrs.update({"maximum_force_n": maximum_force, "cutoff_m": 0.001, "device_maximum_force_n": 10.0})
+        for role in ("moving", "fixed_0"):
+            scene.create_group(role).attrs["triangles"] = triangles
+        dataset(scene, "warnings", ["synthetic data"], "1", "notes")
         path = h5.create_group("path")
         dataset(path, "time", time, "s", "time of each frame")
         all_methods = h5.create_group("methods")

@@ -18,6 +18,7 @@ HERE = os.path.dirname(os.path.abspath(__file__))
 SCRIPTS = os.path.dirname(HERE)
 sys.path[:0] = [HERE, SCRIPTS]
 
+import check_format  # noqa: E402
 import claim_rules  # noqa: E402
 import claims  # noqa: E402
 import figure7  # noqa: E402
@@ -124,6 +125,36 @@ class ReadingTest(ScriptsTest):
         file = self.edited("lacks.h5", lambda h5: h5["/methods/original"].__delitem__("force"))
         with self.assertRaisesRegex(ResultError, "lacks.h5: /methods/original/force: is missing"):
             Result(file).method("original").force_magnitude()
+
+
+class FormatTest(ScriptsTest):
+    def rows(self):
+        with open(check_format.README, encoding="utf-8") as stream:
+            return check_format.described(stream.read())
+
+    def test_the_description_is_read_in_full(self):
+        rows = self.rows()
+        self.assertEqual(rows["force"], (2, "N"))
+        self.assertEqual(rows["local_update_time"], (2, "s"))
+        self.assertEqual(rows["counters/node_pairs"], (1, "1"))
+        self.assertEqual(rows["/reference/force_linear"], (2, "N"))
+
+    def test_synthetic_results_have_the_described_format(self):
+        for file in (self.hard, self.soft, self.bare):
+            self.assertEqual(check_format.differences(Result(file), self.rows()), [])
+
+    def test_what_is_undescribed_or_different_is_found(self):
+        def change(h5):
+            h5["/methods/original"]["surprise"] = [1.0]
+            h5["/path/time"].attrs["units"] = "ms"
+            del h5["/path/time"].attrs["long_name"]
+            del h5["/methods/original/force"]
+            h5["/methods/original"].create_dataset("force", data=[1.0]).attrs["units"] = "N"
+
+        found = "\n".join(check_format.differences(Result(self.edited("changed.h5", change)), self.rows()))
+        for text in ("surprise: is not described", "/path/time: has units ms", "/path/time: has no long_name",
+                     "/methods/original/force: has 1 axes"):
+            self.assertIn(text, found)
 
 
 class FigureTest(ScriptsTest):
@@ -244,14 +275,13 @@ class ClaimsTest(ScriptsTest):
     def test_k5_sees_the_density(self):
         def denser(factor):
             def change(h5):
-                h5["/scene/triangles"][...] = 75_408
                 h5["/methods/improved/candidates"][...] = h5["/methods/improved/candidates"][...] * factor
             return change
 
-        more = Result(self.edited("more.h5", denser(2)))
+        more = Result(self.edited("more.h5", denser(2), triangles=75_408))
         claim = self.verdicts(self.hard, self.soft, others=[more])["K5"]
         self.assertEqual((claim.verdict, claim.because), ("reproduced", ""))
-        less = Result(self.edited("less.h5", denser(0.5)))
+        less = Result(self.edited("less.h5", denser(0.5), triangles=75_408))
         claim = self.verdicts(self.hard, self.soft, others=[less])["K5"]
         self.assertIn("larger for denser meshes", claim.because)
 
@@ -259,11 +289,9 @@ class ClaimsTest(ScriptsTest):
         def slow(h5):
             h5["/methods/improved/local_update_time"][...] += 1e-3
 
-        def small(h5):
-            h5["/scene/triangles"][...] = 500
-
         self.assertIn("above 1 kHz", self.verdicts(self.edited("slow.h5", slow), self.soft)["K9"].because)
-        self.assertIn("10,000 triangles", self.verdicts(self.edited("small.h5", small), self.soft)["K9"].because)
+        small = write_result(self.path("small.h5"), triangles=500)
+        self.assertIn("10,000 triangles", self.verdicts(small, self.soft)["K9"].because)
 
     def test_ledger_is_written_as_text_and_data(self):
         out = self.path("ledger")

@@ -11,8 +11,10 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <map>
 #include <set>
+#include <sstream>
 
 namespace lmdbench {
 
@@ -135,11 +137,11 @@ std::vector<std::pair<std::string, std::string>> machine_info() {
     const auto found = pairs.find(key);
     return found == pairs.end() ? std::string(UNKNOWN) : or_unknown(found->second);
   };
-  const std::string flags = " " + value_of(processor, "flags") + " ";
-  auto has_flag = [&](const std::string& flag) { return flags.find(" " + flag + " ") != std::string::npos; };
+  std::istringstream flag_list(value_of(processor, "flags"));
+  const std::set<std::string> flags{std::istream_iterator<std::string>(flag_list), {}};
   std::string simd;
   for (const char* flag : {"sse4_2", "avx", "avx2", "fma", "avx512f"}) {
-    if (has_flag(flag)) simd += (simd.empty() ? "" : " ") + std::string(flag);
+    if (flags.count(flag) > 0) simd += fmt::format("{}{}", simd.empty() ? "" : " ", flag);
   }
   struct utsname kernel {};
   const bool named = ::uname(&kernel) == 0;
@@ -153,7 +155,8 @@ std::vector<std::pair<std::string, std::string>> machine_info() {
       {"physical_cores", physical_cores()},
       {"usable_processors", usable_processors()},
       {"simd", or_unknown(simd)},
-      {"virtual_machine", flags == " unknown " ? UNKNOWN : (has_flag("hypervisor") ? "yes" : "no")},
+      {"virtual_machine",
+       flags.count(UNKNOWN) > 0 ? UNKNOWN : (flags.count("hypervisor") > 0 ? "yes" : "no")},
       {"l1_data_cache_bytes", cache_bytes(_SC_LEVEL1_DCACHE_SIZE)},
       {"l2_cache_bytes", cache_bytes(_SC_LEVEL2_CACHE_SIZE)},
       {"l3_cache_bytes", cache_bytes(_SC_LEVEL3_CACHE_SIZE)},
