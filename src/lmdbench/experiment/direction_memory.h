@@ -1,0 +1,29 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <lmdbench/lmd/lmd.h>
+
+#include <cstdint>
+
+namespace lmdbench {
+
+/// Decision E12, ours: triangles that touch have no direction between them, so an LMD at distance 0 keeps the
+/// last valid one: that of the same feature pair a frame ago, else that of the nearest LMD of that frame on
+/// the same fixed mesh, within reach of the cutoff. Without either it stays without direction and exerts no
+/// force.
+class DirectionMemory {
+ public:
+  /// @param cutoff how far the borrowed direction's LMD may lie from the one that borrows [m]
+  explicit DirectionMemory(double cutoff) : cutoff_(cutoff) {}
+
+  /// Gives the frame's LMDs directions and remembers them for the next frame.
+  /// @return how many LMDs had none of their own
+  std::int64_t complete(LmdSet& lmds);
+
+ private:
+  double cutoff_;
+  LmdSet last_;  ///< LMDs with a direction of the last frame that had any.
+};
+
+}  // namespace lmdbench

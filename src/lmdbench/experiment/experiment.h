@@ -1,0 +1,96 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <lmdbench/force/force_law.h>
+#include <lmdbench/geometry/pose.h>
+#include <lmdbench/lmd/method_options.h>
+#include <lmdbench/motion/interpolate.h>
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+/// An experiment file after checking, with every default filled in (schema: experiments/schema).
+namespace lmdbench {
+
+/// A mesh of the scene.
+struct MeshChoice {
+  std::string mesh;                  ///< Name in the manifest, generated shape or file.
+  std::optional<double> diagonal_m;  ///< Scaled to this bounding-box diagonal; unset: coordinates are metres.
+  Pose pose;                         ///< X_WF of a fixed mesh; identity for the moving one.
+};
+
+/// Constants of the force profile (decision E8: the paper states none of them). Some are relative to the
+/// moving mesh, so the profile exists only once that mesh is loaded.
+struct ForceChoice {
+  std::optional<double> cutoff_m;           ///< Exactly one of the two cutoffs is set.
+  std::optional<double> cutoff_diagonal;    ///< Share of the moving mesh's diagonal.
+  std::optional<double> saturation_m;       ///< At most one of the two saturations is set.
+  std::optional<double> saturation_cutoff;  ///< Share of the cutoff.
+  double maximum_force_n = 0.0;
+  double sharpness = 0.0;
+
+  /// Cutoff [m] for a moving mesh of the given bounding-box diagonal [m].
+  double cutoff(double moving_diagonal) const;
+  /// Saturation distance [m]; 0 where none is given.
+  double saturation(double moving_diagonal) const;
+};
+
+/// A method of the experiment. The same method may appear twice with other options under another label.
+struct MethodChoice {
+  std::string name;   ///< Name in the registry.
+  std::string label;  ///< Unique; group of the result.
+  ForceLaw force_law = ForceLaw::EXPONENTIAL;
+  MethodOptions options;
+  std::string options_json;  ///< The method's entry of the resolved experiment.
+};
+
+/// How searches and frames share the clock, see `lockstep.h`.
+struct DriverChoice {
+  std::int64_t search_every_frames = 0;
+  std::int64_t search_latency_frames = 0;
+  std::int64_t repetitions = 0;
+  std::int64_t block_frames = 0;
+};
+
+struct Experiment {
+  std::filesystem::path file;  ///< For messages; relative names are relative to its folder.
+  std::string name;
+  std::string title;
+  MeshChoice moving;
+  std::vector<MeshChoice> fixed;
+  std::filesystem::path path_file;
+  Interpolation interpolation = Interpolation::CUBIC;
+  double frame_rate_hz = 0.0;
+  std::optional<std::int64_t> frames;  ///< Run only this many frames from the start.
+  ForceChoice force;
+  std::vector<MethodChoice> methods;
+  DriverChoice driver;
+  std::string device;
+  std::int64_t truth_stride_frames = 0;  ///< 0: no truth probe.
+  std::int64_t fcl_stride_frames = 0;    ///< 0: no cross-check.
+  double fcl_tolerance_relative = 0.0;
+  bool record_lmds = false;
+  std::string resolved_json;  ///< The file with overrides and defaults, for the record.
+};
+
+/// One `--set /json/pointer=value`; the value is JSON, or else a string.
+using Override = std::string;
+
+/// Reads, overrides, checks and completes an experiment.
+/// @throws UsageError naming the JSON pointer at fault: not JSON, unknown or repeated key, wrong type, value
+/// out of
+///         range, unknown method or option, options that contradict each other
+Experiment load_experiment(const std::filesystem::path& file, const std::vector<Override>& overrides = {});
+
+/// The same from text; `file` serves messages and relative names.
+Experiment parse_experiment(const std::string& text, const std::filesystem::path& file,
+                            const std::vector<Override>& overrides = {});
+
+/// The JSON Schema that is compiled into the program.
+const std::string& experiment_schema_text();
+
+}  // namespace lmdbench

@@ -1,0 +1,80 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/crosscheck/fcl_crosscheck.h>
+#include <lmdbench/experiment/fcl_probe.h>
+#include <lmdbench/snch/minimum_distance.h>
+
+#include <cmath>
+#include <limits>
+#include <memory>
+
+namespace lmdbench {
+namespace {
+
+/// Exact minimum distance to any of the fixed meshes.
+double exact_minimum(const Scene& scene, const Pose& X_WM) {
+  double least = std::numeric_limits<double>::infinity();
+  for (const auto& fixed : scene.fixed) {
+    const NearestPair pair = nearest_pair(scene.moving->surface(), scene.moving->hierarchy(),
+                                          fixed->surface(), fixed->hierarchy(), X_WM, least);
+    if (pair.triangle_moving >= 0) least = std::min(least, pair.distance);
+  }
+  return least;
+}
+
+}  // namespace
+
+FclCheck probe_fcl(const Scene& scene, const LockstepInput& input, const std::vector<LockstepMethod>& methods,
+                   const std::vector<std::int64_t>& frames, double tolerance_relative,
+                   const Progress& progress) {
+  std::vector<const Surface*> fixed;
+  for (const auto& body : scene.fixed) fixed.push_back(&body->surface());
+  const FclCrosscheck fcl(scene.moving->surface(), fixed);
+  std::vector<std::unique_ptr<Method>> instances;
+  for (const LockstepMethod& method : methods) instances.push_back(method.make());
+
+  FclCheck check;
+  WorkCounters ignored;
+  LmdSet lmds;
+  for (const std::int64_t frame : frames) {
+    const Pose& X_WM = input.poses[static_cast<std::size_t>(frame)];
+    const FclResult theirs = fcl.distance(X_WM);
+    FclFrame row;
+    row.frame = frame;
+    row.distance = theirs.distance;
+    row.separated = theirs.separated;
+    row.triangle_moving = theirs.triangle_moving;
+    row.triangle_fixed = theirs.triangle_fixed;
+    row.fixed_body = theirs.fixed_body;
+    row.lmdbench_distance = exact_minimum(scene, X_WM);
+    const bool we_separate = row.lmdbench_distance > 0.0;
+    if (theirs.separated && we_separate)
+      row.relative_difference = std::abs(theirs.distance - row.lmdbench_distance) / row.lmdbench_distance;
+    row.agrees = theirs.separated == we_separate &&
+                 (!theirs.separated || row.relative_difference <= tolerance_relative);
+    const auto note = [&](const std::string& who, double distance) {
+      check.exceptions.push_back({frame, who, X_WM, distance, row.distance, row.lmdbench_distance,
+                                  row.triangle_moving, row.triangle_fixed, row.fixed_body});
+    };
+    if (!row.agrees) note("lmdbench", row.lmdbench_distance);
+    for (std::size_t i = 0; i < methods.size(); ++i) {
+      double difference = UNSET;
+      if (theirs.separated && theirs.distance * (1.0 + tolerance_relative) < scene.cutoff) {
+        lmds.clear();
+        instances[i]->search(X_WM, lmds, ignored);
+        const double ours = minimum_distance(lmds);
+        difference = std::isnan(ours) ? std::numeric_limits<double>::infinity()
+                                      : (ours - theirs.distance) / theirs.distance;
+        if (!(std::abs(difference) <= tolerance_relative)) note(methods[i].label, ours);
+      }
+      row.method_difference.push_back(difference);
+    }
+    check.frames.push_back(std::move(row));
+    if (progress &&
+        !progress(static_cast<std::int64_t>(check.frames.size()), static_cast<std::int64_t>(frames.size())))
+      throw Interrupted();
+  }
+  return check;
+}
+
+}  // namespace lmdbench

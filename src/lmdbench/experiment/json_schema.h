@@ -1,0 +1,31 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <nlohmann/json.hpp>
+
+#include <string>
+
+/// Checking and completing JSON documents against a draft-07 schema. Two things are done here instead of by
+/// the validator, because its messages could not help the user: unknown keys (with the nearest known one) and
+/// defaults.
+namespace lmdbench {
+
+/// Keys that the schema does not know are refused wherever it says "additionalProperties": false. A property
+/// with "x-applies-when": {"name": ["original"]} exists only where the sibling key has one of these values.
+/// @throws UsageError with the JSON pointer of the first such key
+void refuse_unknown_keys(const nlohmann::json& document, const nlohmann::json& schema,
+                         const std::string& file);
+
+/// @throws UsageError with the JSON pointer of the first violation
+void validate_against_schema(const nlohmann::json& document, const nlohmann::json& schema,
+                             const std::string& file);
+
+/// Adds every absent property that has a "default" (and applies), to any depth.
+void fill_defaults(nlohmann::json& document, const nlohmann::json& schema);
+
+/// The candidate nearest to `word` by edit distance, or an empty string when none is near enough to be a
+/// slip.
+std::string nearest_word(const std::string& word, const std::vector<std::string>& candidates);
+
+}  // namespace lmdbench

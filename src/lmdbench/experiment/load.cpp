@@ -1,0 +1,190 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/error.h>
+#include <lmdbench/experiment/experiment.h>
+#include <lmdbench/experiment/json_schema.h>
+#include <lmdbench/experiment/json_text.h>
+#include <lmdbench/lmd/registry.h>
+#include <lmdbench/motion/tum_file.h>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <iterator>
+#include <numbers>
+#include <set>
+
+namespace lmdbench {
+namespace {
+
+using Json = nlohmann::json;
+
+template <typename Value>
+std::optional<Value> optional_value(const Json& object, const char* key) {
+  const auto found = object.find(key);
+  return found == object.end() ? std::nullopt : std::optional<Value>(found->get<Value>());
+}
+
+MeshChoice mesh_choice(const Json& entry) {
+  return {entry["mesh"].get<std::string>(), optional_value<double>(entry, "diagonal_m"), Pose{}};
+}
+
+Pose pose_of(const Json& entry, const std::string& place, const std::string& file) {
+  const Json& p = entry["translation_m"];
+  const Json& q = entry["rotation_xyzw"];
+  Pose pose;
+  pose.translation = Vec3(p[0].get<double>(), p[1].get<double>(), p[2].get<double>());
+  pose.rotation =
+      Eigen::Quaterniond(q[3].get<double>(), q[0].get<double>(), q[1].get<double>(), q[2].get<double>());
+  if (!(std::abs(pose.rotation.norm() - 1.0) <= QUATERNION_LENGTH_TOLERANCE))
+    throw UsageError(file, place + "/rotation_xyzw",
+                     fmt::format("quaternion of length {:.6g}", pose.rotation.norm()),
+                     "give a unit quaternion in the order x, y, z, w");
+  pose.rotation.normalize();
+  return pose;
+}
+
+ForceChoice force_choice(const Json& entry, const std::string& file) {
+  ForceChoice force;
+  force.cutoff_m = optional_value<double>(entry, "cutoff_m");
+  force.cutoff_diagonal = optional_value<double>(entry, "cutoff_diagonal");
+  force.saturation_m = optional_value<double>(entry, "saturation_m");
+  force.saturation_cutoff = optional_value<double>(entry, "saturation_cutoff");
+  force.maximum_force_n = entry["maximum_force_n"].get<double>();
+  force.sharpness = entry["sharpness"].get<double>();
+  if (force.cutoff_m.has_value() == force.cutoff_diagonal.has_value())
+    throw UsageError(file, "/force", force.cutoff_m ? "two cutoffs" : "no cutoff",
+                     "give exactly one of cutoff_m and cutoff_diagonal");
+  if (force.saturation_m && force.saturation_cutoff)
+    throw UsageError(file, "/force", "two saturation distances",
+                     "give at most one of saturation_m and saturation_cutoff");
+  if (force.saturation_m && force.cutoff_m && *force.saturation_m >= *force.cutoff_m)
+    throw UsageError(file, "/force/saturation_m",
+                     fmt::format("saturation at {} m is not below the cutoff of {} m", *force.saturation_m,
+                                 *force.cutoff_m),
+                     "saturate nearer than the cutoff");
+  return force;
+}
+
+MethodChoice method_choice(const Json& entry) {
+  MethodChoice choice;
+  choice.name = entry["name"].get<std::string>();
+  choice.label = entry["label"].get<std::string>();
+  choice.force_law = entry["force_law"] == "linear" ? ForceLaw::LINEAR : ForceLaw::EXPONENTIAL;
+  choice.options_json = entry.dump();
+  MethodOptions& options = choice.options;
+  if (entry.contains("g5_tolerance_deg"))
+    options.g5_tolerance_rad = entry["g5_tolerance_deg"].get<double>() * std::numbers::pi / 180.0;
+  if (entry.contains("line_cone"))
+    options.line_cone = entry["line_cone"] == "two-sided" ? LineCone::TWO_SIDED : LineCone::ONE_SIDED;
+  if (entry.contains("visibility"))
+    options.visibility = entry["visibility"] == "orthogonal" ? Visibility::ORTHOGONAL
+                         : entry["visibility"] == "off"      ? Visibility::OFF
+                                                             : Visibility::VERTEX_NORMAL;
+  if (entry.contains("reduction"))
+    options.reduction = entry["reduction"] == "loss-free" ? Reduction::LOSS_FREE : Reduction::PUBLISHED;
+  if (entry.contains("literal_g3")) options.literal_g3 = entry["literal_g3"].get<bool>();
+  return choice;
+}
+
+void check_method_names(const Json& methods, const std::string& file) {
+  const std::vector<std::string> known(method_names().begin(), method_names().end());
+  for (std::size_t i = 0; i < methods.size(); ++i) {
+    const std::string name = methods[i]["name"].get<std::string>();
+    if (std::find(known.begin(), known.end(), name) != known.end()) continue;
+    const std::string near = nearest_word(name, known);
+    throw UsageError(file, fmt::format("/methods/{}/name", i), fmt::format("unknown method \"{}\"", name),
+                     near.empty() ? fmt::format("known methods: {}", fmt::join(known, ", "))
+                                  : fmt::format("did you mean \"{}\"?", near));
+  }
+}
+
+void check_labels(const std::vector<MethodChoice>& methods, const std::string& file) {
+  std::set<std::string> labels;
+  for (std::size_t i = 0; i < methods.size(); ++i) {
+    if (!labels.insert(methods[i].label).second)
+      throw UsageError(file, fmt::format("/methods/{}/label", i),
+                       fmt::format("two methods are called \"{}\"", methods[i].label),
+                       "give one of them another \"label\"");
+  }
+}
+
+Experiment from_json(Json document, const std::filesystem::path& path) {
+  const std::string file = path.string();
+  for (Json& method : document["methods"])
+    if (!method.contains("label")) method["label"] = method["name"];
+  check_method_names(document["methods"], file);
+
+  Experiment experiment;
+  experiment.file = path;
+  experiment.name = document["name"].get<std::string>();
+  experiment.title = document["title"].get<std::string>();
+  experiment.moving = mesh_choice(document["moving"]);
+  for (std::size_t i = 0; i < document["fixed"].size(); ++i) {
+    experiment.fixed.push_back(mesh_choice(document["fixed"][i]));
+    experiment.fixed.back().pose =
+        pose_of(document["fixed"][i]["pose"], fmt::format("/fixed/{}/pose", i), file);
+  }
+  experiment.path_file = path.parent_path() / document["path"]["file"].get<std::string>();
+  experiment.interpolation =
+      document["path"]["interpolation"] == "linear" ? Interpolation::LINEAR : Interpolation::CUBIC;
+  experiment.frame_rate_hz = document["frame_rate_hz"].get<double>();
+  experiment.frames = optional_value<std::int64_t>(document, "frames");
+  experiment.force = force_choice(document["force"], file);
+  for (const Json& method : document["methods"]) experiment.methods.push_back(method_choice(method));
+  check_labels(experiment.methods, file);
+  const Json& driver = document["driver"];
+  experiment.driver = {driver["search_every_frames"].get<std::int64_t>(),
+                       driver["search_latency_frames"].get<std::int64_t>(),
+                       driver["repetitions"].get<std::int64_t>(), driver["block_frames"].get<std::int64_t>()};
+  if (experiment.driver.search_latency_frames > experiment.driver.search_every_frames)
+    throw UsageError(
+        file, "/driver/search_latency_frames",
+        fmt::format("a search takes {} frames, but the next one starts after {}",
+                    experiment.driver.search_latency_frames, experiment.driver.search_every_frames),
+        "one thread searches: let the latency be at most search_every_frames");
+  experiment.device = document["device"].get<std::string>();
+  const Json& probes = document["probes"];
+  experiment.truth_stride_frames = probes["truth"]["stride_frames"].get<std::int64_t>();
+  experiment.fcl_stride_frames = probes["fcl"]["stride_frames"].get<std::int64_t>();
+  experiment.fcl_tolerance_relative = probes["fcl"]["tolerance_relative"].get<double>();
+  experiment.record_lmds = document["record"]["lmds"].get<bool>();
+  experiment.resolved_json = document.dump(2);
+  return experiment;
+}
+
+}  // namespace
+
+double ForceChoice::cutoff(double moving_diagonal) const {
+  return cutoff_m ? *cutoff_m : *cutoff_diagonal * moving_diagonal;
+}
+
+double ForceChoice::saturation(double moving_diagonal) const {
+  if (saturation_m) return *saturation_m;
+  return saturation_cutoff ? *saturation_cutoff * cutoff(moving_diagonal) : 0.0;
+}
+
+Experiment parse_experiment(const std::string& text, const std::filesystem::path& file,
+                            const std::vector<Override>& overrides) {
+  static const Json schema = Json::parse(experiment_schema_text());
+  Json document = parse_json(text, file.string());
+  for (const Override& entry : overrides) apply_override(document, entry);
+  // The validator goes last but one: a misspelt key would else be reported as a missing one.
+  refuse_unknown_keys(document, schema, file.string());
+  validate_against_schema(document, schema, file.string());
+  fill_defaults(document, schema);
+  return from_json(std::move(document), file);
+}
+
+Experiment load_experiment(const std::filesystem::path& file, const std::vector<Override>& overrides) {
+  std::ifstream stream(file, std::ios::binary);
+  if (!stream)
+    throw UsageError(file.string(), "", "cannot read the experiment file",
+                     "check the name and its permissions");
+  const std::string text{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+  return parse_experiment(text, file, overrides);
+}
+
+}  // namespace lmdbench

@@ -1,0 +1,62 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <lmdbench/experiment/experiment.h>
+#include <lmdbench/experiment/records.h>
+#include <lmdbench/force/force_law.h>
+#include <lmdbench/geometry/pose.h>
+#include <lmdbench/lmd/method.h>
+#include <lmdbench/phantom/virtual_phantom.h>
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+/// The lockstep driver: one clock instead of threads, so that results depend on the scene alone, while the
+/// staleness that threads would cause is an explicit number of frames. It steps through the path as the
+/// paper's threads would (sections 4.3 and 5):
+///  1. A search whose latency is over arrives: its set is tracked to this frame's pose (the second tracking
+///  of
+///     section 4.3) and replaces the working set.
+///  2. Every `search_every_frames` a global search starts at this frame's pose, followed by the first
+///  tracking
+///     (reduction) at the same pose. With a latency of 0 it arrives at once.
+///  3. The local part tracks the working set to this frame's pose.
+///  4. Force: LMDs within the cutoff are summed and clipped by the device.
+/// Methods without local tracking search in every frame instead.
+namespace lmdbench {
+
+/// A method under test: how to make a fresh instance, and its force profile.
+struct LockstepMethod {
+  std::string label;
+  std::function<std::unique_ptr<Method>()> make;
+  ForceProfile profile;
+};
+
+/// All that the driver needs to know of the scene.
+struct LockstepInput {
+  std::vector<Pose> poses;  ///< One a frame, X_WM.
+  double frame_rate_hz = 1000.0;
+  Vec3 reference_M = Vec3::Zero();  ///< Point of the moving mesh about which torque is taken.
+  VirtualPhantom device;
+  std::function<bool(std::int64_t frame)> keep_lmds;  ///< Frames whose LMD sets are to be kept.
+};
+
+/// Called after every block with frames done and frames to do, over all methods and repetitions; false stops
+/// the run.
+using Progress = std::function<bool(std::int64_t done, std::int64_t total)>;
+
+/// Thrown when `Progress` asked to stop.
+class Interrupted {};
+
+/// Runs every method along all poses, `repetitions` times. Methods take turns block by block, in alternating
+/// order, so that drifts of the machine's speed hit all alike; every repetition starts from fresh instances.
+/// @throws Error with ExitCode::INTERNAL when a repetition's forces, LMDs or counters differ from the first
+/// one's
+std::vector<MethodRecord> run_lockstep(const std::vector<LockstepMethod>& methods, const LockstepInput& input,
+                                       const DriverChoice& driver, const Progress& progress);
+
+}  // namespace lmdbench

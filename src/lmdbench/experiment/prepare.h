@@ -1,0 +1,43 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <lmdbench/experiment/experiment.h>
+#include <lmdbench/experiment/lockstep.h>
+#include <lmdbench/lmd/scene.h>
+#include <lmdbench/mesh/validity.h>
+#include <lmdbench/record/provenance.h>
+
+#include <string>
+#include <vector>
+
+namespace lmdbench {
+
+/// A mesh of the scene with what is worth knowing of it when one reads the result.
+struct MeshNote {
+  std::string role;  ///< "moving", "fixed_0", ...
+  std::string name;
+  ValidityReport report;
+};
+
+/// An experiment's inputs, loaded: all that a run works on.
+struct PreparedRun {
+  Scene scene;
+  LockstepInput input;
+  std::vector<double> times;  ///< Of the frames, from the start of the path [s].
+  ForceProfile profile;       ///< Its law is each method's own.
+  std::vector<MeshNote> meshes;
+  std::vector<InputFile> files;       ///< For the provenance.
+  bool starts_in_contact = false;     ///< Triangles touch in the first frame.
+  std::vector<std::string> warnings;  ///< Flaws that the methods can live with, in plain words.
+};
+
+/// Loads meshes and path. Open and non-manifold meshes and a start in contact are noted, not refused.
+/// @throws InputError for a mesh or path that cannot be used, UsageError for a profile that does not fit the
+/// mesh
+PreparedRun prepare(const Experiment& experiment);
+
+/// The experiment's methods on the prepared scene.
+std::vector<LockstepMethod> lockstep_methods(const Experiment& experiment, const PreparedRun& prepared);
+
+}  // namespace lmdbench

@@ -1,0 +1,73 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/experiment/query.h>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <chrono>
+
+namespace lmdbench {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json point_json(const Vec3& p) {
+  return {p.x(), p.y(), p.z()};
+}
+
+Json feature_json(const FeatureId& feature) {
+  return {{"kind", std::string(to_string(feature.kind))}, {"index", feature.index}};
+}
+
+}  // namespace
+
+QueryAnswer query(Method& method, const TimedPose& pose, double cutoff) {
+  QueryAnswer answer;
+  answer.time = pose.time;
+  answer.method = method.name();
+  const auto begin = std::chrono::steady_clock::now();
+  method.search(pose.pose, answer.lmds, answer.counters);
+  for (int i = 0; i < method.trackings_after_search(); ++i)
+    method.track(pose.pose, answer.lmds, answer.counters);
+  answer.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  answer.lmds = within_cutoff(answer.lmds, cutoff);
+  std::stable_sort(answer.lmds.begin(), answer.lmds.end(), lmd_less);
+  return answer;
+}
+
+std::string query_json(const QueryAnswer& answer) {
+  Json json;
+  json["time"] = answer.time;
+  json["method"] = answer.method;
+  json["minimum_distance"] = minimum_distance(answer.lmds);  // NaN becomes null
+  json["lmds"] = Json::array();
+  for (const Lmd& lmd : answer.lmds) {
+    json["lmds"].push_back({{"distance", lmd.distance},
+                            {"point_moving", point_json(lmd.point_moving)},
+                            {"point_fixed", point_json(lmd.point_fixed)},
+                            {"feature_moving", feature_json(lmd.feature_moving)},
+                            {"feature_fixed", feature_json(lmd.feature_fixed)}});
+  }
+  json["counters"] = Json::object();
+  for (std::size_t i = 0; i < COUNTER_COUNT; ++i)
+    json["counters"][std::string(counter_name(static_cast<Counter>(i)))] = answer.counters.values[i];
+  json["seconds"] = answer.seconds;
+  return json.dump();
+}
+
+std::string query_text(const QueryAnswer& answer) {
+  std::string text = fmt::format("time {} s, {}: {} LMDs, {:.3g} ms\n", answer.time, answer.method,
+                                 answer.lmds.size(), answer.seconds * 1e3);
+  for (const Lmd& lmd : answer.lmds) {
+    text += fmt::format(
+        "  {:<12.6g} {:>6} {:<8} ({:.6g}, {:.6g}, {:.6g})  {:>6} {:<8} ({:.6g}, {:.6g}, {:.6g})\n",
+        lmd.distance, to_string(lmd.feature_moving.kind), lmd.feature_moving.index, lmd.point_moving.x(),
+        lmd.point_moving.y(), lmd.point_moving.z(), to_string(lmd.feature_fixed.kind),
+        lmd.feature_fixed.index, lmd.point_fixed.x(), lmd.point_fixed.y(), lmd.point_fixed.z());
+  }
+  return text;
+}
+
+}  // namespace lmdbench

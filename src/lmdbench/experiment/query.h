@@ -1,0 +1,34 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <lmdbench/lmd/lmd.h>
+#include <lmdbench/lmd/method.h>
+#include <lmdbench/lmd/work_counters.h>
+#include <lmdbench/motion/path.h>
+
+#include <string>
+
+namespace lmdbench {
+
+/// The LMD set of one pose, from scratch.
+struct QueryAnswer {
+  double time = 0.0;  ///< Of the pose [s].
+  std::string method;
+  LmdSet lmds;  ///< Sorted by `lmd_less`, world coordinates.
+  WorkCounters counters;
+  double seconds = 0.0;  ///< What the method took.
+};
+
+/// Searches at the pose; methods that track after a search (the improved algorithm's reduction) do so at the
+/// same pose.
+QueryAnswer query(Method& method, const TimedPose& pose, double cutoff);
+
+/// One line of JSON without a line end (the contract of `lmdbench query --json`, design section 6). A
+/// distance of 0 is a number like any other; an empty set has the minimum distance null.
+std::string query_json(const QueryAnswer& answer);
+
+/// For people: a heading and one line an LMD.
+std::string query_text(const QueryAnswer& answer);
+
+}  // namespace lmdbench

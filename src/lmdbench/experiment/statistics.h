@@ -1,0 +1,22 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <vector>
+
+namespace lmdbench {
+
+/// The share p in [0, 1] of the values lies at or below the result, linearly interpolated between neighbours
+/// (numpy's default). NaN values are unset and do not count; NaN when nothing is left.
+double percentile(std::vector<double> values, double p);
+
+/// percentile(values, 0.5)
+double median(std::vector<double> values);
+
+/// Mean of the values that are set; NaN when none is.
+double mean(const std::vector<double>& values);
+
+/// Largest of the values that are set; NaN when none is.
+double maximum(const std::vector<double>& values);
+
+}  // namespace lmdbench

@@ -1,0 +1,85 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/experiment/truth_probe.h>
+#include <lmdbench/force/aggregate.h>
+#include <lmdbench/lmd/registry.h>
+
+#include <cmath>
+#include <cstddef>
+
+namespace lmdbench {
+namespace {
+
+/// Angle between two vectors [rad], accurate near 0 and pi (Kahan's formula is not needed: atan2 of the cross
+/// and dot products has no cancellation there); NaN where one of them vanishes.
+double angle_between(const Vec3& a, const Vec3& b) {
+  if (a.isZero(0.0) || b.isZero(0.0)) return UNSET;
+  return std::atan2(a.cross(b).norm(), a.dot(b));
+}
+
+}  // namespace
+
+std::vector<std::int64_t> probed_frames(std::int64_t frame_count, std::int64_t stride) {
+  std::vector<std::int64_t> frames;
+  if (stride <= 0) return frames;
+  for (std::int64_t frame = 0; frame + 1 < frame_count; frame += stride) frames.push_back(frame);
+  return frames;
+}
+
+std::vector<TruthFrame> probe_truth(const Scene& scene, const LockstepInput& input,
+                                    const ForceProfile& profile, const std::vector<std::int64_t>& frames,
+                                    const Progress& progress) {
+  const std::unique_ptr<Method> exhaustive = make_method("exhaustive", scene);
+  WorkCounters ignored;
+  const auto rendered = [&](const LmdSet& lmds, std::int64_t frame, ForceLaw law) {
+    ForceProfile with_law = profile;
+    with_law.law = law;
+    const Vec3 reference_W =
+        RigidTransform(input.poses[static_cast<std::size_t>(frame)]).point(input.reference_M);
+    return input.device.render(sum_forces(lmds, with_law, reference_W)).force;
+  };
+  std::vector<TruthFrame> truth;
+  LmdSet next;
+  for (const std::int64_t frame : frames) {
+    TruthFrame here;
+    here.frame = frame;
+    exhaustive->search(input.poses[static_cast<std::size_t>(frame)], here.lmds, ignored);
+    next.clear();
+    exhaustive->search(input.poses[static_cast<std::size_t>(frame) + 1], next, ignored);
+    for (const ForceLaw law : {ForceLaw::LINEAR, ForceLaw::EXPONENTIAL}) {
+      const auto index = static_cast<std::size_t>(law);
+      here.force[index] = rendered(here.lmds, frame, law);
+      here.force_jump[index] = (rendered(next, frame + 1, law) - here.force[index]).norm();
+    }
+    truth.push_back(std::move(here));
+    if (progress &&
+        !progress(static_cast<std::int64_t>(truth.size()), static_cast<std::int64_t>(frames.size())))
+      throw Interrupted();
+  }
+  return truth;
+}
+
+std::vector<TruthComparison> compare_with_truth(const std::vector<TruthFrame>& truth,
+                                                const MethodRecord& record, ForceLaw law,
+                                                const Scene& scene) {
+  std::vector<const Surface*> fixed;
+  for (const auto& body : scene.fixed) fixed.push_back(&body->surface());
+  std::vector<TruthComparison> comparisons;
+  for (const TruthFrame& here : truth) {
+    const LmdSet& lmds = record.lmds.at(here.frame);
+    const FrameRecord& frame = record.frames[static_cast<std::size_t>(here.frame)];
+    const FrameRecord& next = record.frames[static_cast<std::size_t>(here.frame) + 1];
+    const Vec3& true_force = here.force[static_cast<std::size_t>(law)];
+    TruthComparison comparison;
+    comparison.strict = strict_agreement(lmds, here.lmds);
+    comparison.adjacent = adjacent_agreement(lmds, here.lmds, scene.moving->surface(), fixed);
+    comparison.minimum_distance_error = minimum_distance(lmds) - minimum_distance(here.lmds);
+    comparison.force_error = (frame.force - true_force).norm();
+    comparison.force_angle_error = angle_between(frame.force, true_force);
+    comparison.force_jump = (next.force - frame.force).norm();
+    comparisons.push_back(comparison);
+  }
+  return comparisons;
+}
+
+}  // namespace lmdbench

@@ -1,0 +1,57 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <lmdbench/experiment/lockstep.h>
+#include <lmdbench/experiment/matching.h>
+#include <lmdbench/experiment/records.h>
+#include <lmdbench/force/force_law.h>
+#include <lmdbench/lmd/scene.h>
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+/// The truth probe: on a stride of frames the exhaustive LMD set is computed at the frame and at the next
+/// one, outside the timed frames, and every method is compared with it. Force errors compare rendered forces
+/// (clipped by the same device) under the method's own law, so that they show what the LMD set costs and not
+/// what the law changes.
+namespace lmdbench {
+
+/// The two force laws, for arrays indexed by ForceLaw.
+inline constexpr std::size_t FORCE_LAW_COUNT = 2;
+
+/// Truth at one frame.
+struct TruthFrame {
+  std::int64_t frame = 0;
+  LmdSet lmds;
+  std::array<Vec3, FORCE_LAW_COUNT> force;           ///< Rendered, under each law [N].
+  std::array<double, FORCE_LAW_COUNT> force_jump{};  ///< |force at the next frame - force| [N].
+};
+
+/// One method against one TruthFrame. NaN where a quantity does not exist.
+struct TruthComparison {
+  SetAgreement strict;
+  SetAgreement adjacent;
+  double minimum_distance_error = UNSET;  ///< Method's minus true [m]; NaN unless both see an LMD.
+  double force_error = UNSET;             ///< Length of the difference [N].
+  double force_angle_error = UNSET;       ///< Angle between the forces [rad]; NaN where one vanishes.
+  double force_jump = UNSET;              ///< The method's own |force at the next frame - force| [N].
+};
+
+/// Frames that a probe with this stride looks at: 0, stride, ... as long as the next frame exists. Empty for
+/// stride 0.
+std::vector<std::int64_t> probed_frames(std::int64_t frame_count, std::int64_t stride);
+
+/// Computes truth at the given frames.
+/// @param profile  the scene's; its law is ignored
+/// @param progress may stop the probe by returning false, which throws Interrupted
+std::vector<TruthFrame> probe_truth(const Scene& scene, const LockstepInput& input,
+                                    const ForceProfile& profile, const std::vector<std::int64_t>& frames,
+                                    const Progress& progress);
+
+/// @pre the record keeps the LMD sets of the truth's frames
+std::vector<TruthComparison> compare_with_truth(const std::vector<TruthFrame>& truth,
+                                                const MethodRecord& record, ForceLaw law, const Scene& scene);
+
+}  // namespace lmdbench

@@ -1,0 +1,297 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/experiment/write_result.h>
+#include <lmdbench/lmd/work_counters.h>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+namespace lmdbench {
+namespace {
+
+/// One column of a table of records; `project` gives a number or a Vec3 of a row.
+template <typename Row, typename Project>
+void write_column(ResultWriter& writer, const DatasetInfo& info, const std::vector<Row>& rows,
+                  Project project) {
+  using Value = std::decay_t<decltype(project(rows.front()))>;
+  if constexpr (std::is_same_v<Value, Vec3>) {
+    std::vector<double> values;
+    values.reserve(rows.size() * 3);
+    for (const Row& row : rows) {
+      const Vec3 value = project(row);
+      values.insert(values.end(), value.data(), value.data() + 3);
+    }
+    writer.write(info, std::span<const double>(values), {rows.size(), 3});
+  } else {
+    using Stored =
+        std::conditional_t<std::is_floating_point_v<Value>, double,
+                           std::conditional_t<std::is_same_v<Value, bool>, std::uint8_t, std::int64_t>>;
+    std::vector<Stored> values;
+    values.reserve(rows.size());
+    for (const Row& row : rows) values.push_back(static_cast<Stored>(project(row)));
+    writer.write(info, std::span<const Stored>(values), {rows.size()});
+  }
+}
+
+/// Counters of the rows, one dataset a counter.
+template <typename Row>
+void write_counters(ResultWriter& writer, const std::string& group, const std::vector<Row>& rows,
+                    const std::string& of) {
+  for (std::size_t i = 0; i < COUNTER_COUNT; ++i) {
+    const auto counter = static_cast<Counter>(i);
+    const std::string name(counter_name(counter));
+    write_column(writer, {group + "/" + name, "1", name + " of the " + of}, rows,
+                 [&](const Row& row) { return static_cast<std::int64_t>(row.counters[counter]); });
+  }
+}
+
+/// Times of all repetitions as a (repetition, column) array.
+void write_times(ResultWriter& writer, const DatasetInfo& info,
+                 const std::vector<RepetitionTimes>& repetitions,
+                 std::vector<double> RepetitionTimes::*times) {
+  std::vector<double> values;
+  for (const RepetitionTimes& repetition : repetitions)
+    values.insert(values.end(), (repetition.*times).begin(), (repetition.*times).end());
+  writer.write(info, std::span<const double>(values),
+               {repetitions.size(), (repetitions.front().*times).size()});
+}
+
+void write_frames(ResultWriter& writer, const std::string& group, const MethodRecord& record) {
+  const std::vector<FrameRecord>& frames = record.frames;
+  write_column(writer, {group + "/force", "N", "rendered force on the moving mesh, world frame"}, frames,
+               [](const FrameRecord& f) { return f.force; });
+  write_column(writer, {group + "/force_clipped", "1", "1 where the device clipped the force"}, frames,
+               [](const FrameRecord& f) { return f.force_clipped; });
+  write_column(writer,
+               {group + "/force_above_continuous", "1", "1 where the force exceeds what the device can hold"},
+               frames, [](const FrameRecord& f) { return f.force_above_continuous; });
+  write_column(writer, {group + "/torque", "N m", "torque about the moving mesh's centre, not rendered"},
+               frames, [](const FrameRecord& f) { return f.torque; });
+  write_column(writer, {group + "/lmd_count", "1", "LMDs within the cutoff"}, frames,
+               [](const FrameRecord& f) { return f.lmd_count; });
+  write_column(
+      writer,
+      {group + "/lmd_count_before_reduction", "1", "LMD candidates of the search behind the set in use"},
+      frames, [](const FrameRecord& f) { return f.lmd_count_before_reduction; });
+  write_column(writer, {group + "/reduction_ratio", "1", "LMD candidates divided by LMDs kept"}, frames,
+               [](const FrameRecord& f) {
+                 return f.lmd_count > 0 ? f.lmd_count_before_reduction / static_cast<double>(f.lmd_count)
+                                        : UNSET;
+               });
+  write_column(writer, {group + "/minimum_distance", "m", "smallest LMD distance"}, frames,
+               [](const FrameRecord& f) { return f.minimum_distance; });
+  write_column(writer, {group + "/lmd_age", "s", "time since the pose that the set in use was searched at"},
+               frames, [](const FrameRecord& f) { return f.lmd_age; });
+  write_column(writer, {group + "/effective_stiffness", "N/m", "slope of the force's length along the force"},
+               frames, [](const FrameRecord& f) { return f.effective_stiffness; });
+  write_column(
+      writer,
+      {group + "/contact_without_direction", "1", "LMDs at distance 0, which keep their last direction"},
+      frames, [](const FrameRecord& f) { return f.contact_without_direction; });
+  write_counters(writer, group + "/counters", frames, "frame's local part");
+  write_times(writer, {group + "/local_update_time", "s", "time of the frame's local part, by repetition"},
+              record.repetitions, &RepetitionTimes::local_update);
+}
+
+void write_searches(ResultWriter& writer, const std::string& group, const MethodRecord& record) {
+  const std::vector<SearchRecord>& searches = record.searches;
+  write_column(writer, {group + "/global_frame", "1", "frame that the global search started in"}, searches,
+               [](const SearchRecord& s) { return s.frame; });
+  write_column(writer, {group + "/candidates", "1", "LMD candidates that the search found"}, searches,
+               [](const SearchRecord& s) { return s.candidates; });
+  write_column(writer, {group + "/kept_after_reduction", "1", "LMDs left by the first tracking"}, searches,
+               [](const SearchRecord& s) { return s.kept_after_reduction; });
+  write_counters(writer, group + "/global_counters", searches, "global search and its trackings");
+  write_times(writer, {group + "/global_search_time", "s", "time of the global search, by repetition"},
+              record.repetitions, &RepetitionTimes::global_search);
+  write_times(writer, {group + "/first_reduction_time", "s", "time of the first tracking, by repetition"},
+              record.repetitions, &RepetitionTimes::first_reduction);
+  write_times(writer, {group + "/second_tracking_time", "s", "time of the second tracking, by repetition"},
+              record.repetitions, &RepetitionTimes::second_tracking);
+}
+
+void write_truth(ResultWriter& writer, const std::string& group, const std::vector<TruthFrame>& truth,
+                 const std::vector<TruthComparison>& rows) {
+  const auto column = [&](const std::string& name, const std::string& units, const std::string& long_name,
+                          auto project) {
+    write_column(writer, {group + "/" + name, units, long_name}, rows, project);
+  };
+  using Row = const TruthComparison&;
+  write_column(writer, {group + "/frame", "1", "frame that was compared with truth"}, truth,
+               [](const TruthFrame& t) { return t.frame; });
+  column("recall", "1", "share of true LMDs found, same features", [](Row r) { return r.strict.recall; });
+  column("precision", "1", "share of LMDs that are true, same features",
+         [](Row r) { return r.strict.precision; });
+  column("recall_adjacent", "1", "share of true LMDs found, adjacent features",
+         [](Row r) { return r.adjacent.recall; });
+  column("precision_adjacent", "1", "share of LMDs that are true, adjacent features",
+         [](Row r) { return r.adjacent.precision; });
+  column("minimum_distance_error", "m", "minimum distance minus the true one",
+         [](Row r) { return r.minimum_distance_error; });
+  column("force_error", "N", "length of the difference to the true rendered force under the same law",
+         [](Row r) { return r.force_error; });
+  column("force_angle_error", "rad", "angle to the true force", [](Row r) { return r.force_angle_error; });
+  column("force_jump", "N", "change of the method's force to the next frame",
+         [](Row r) { return r.force_jump; });
+}
+
+void write_lmd_lists(ResultWriter& writer, const std::string& group, const MethodRecord& record) {
+  std::vector<std::int64_t> offsets{0};
+  LmdSet rows;
+  for (std::int64_t frame = 0; frame < static_cast<std::int64_t>(record.frames.size()); ++frame) {
+    const LmdSet& lmds = record.lmds.at(frame);
+    rows.insert(rows.end(), lmds.begin(), lmds.end());
+    offsets.push_back(static_cast<std::int64_t>(rows.size()));
+  }
+  writer.write({group + "/frame_offset", "1", "frame f owns rows frame_offset[f] to frame_offset[f + 1] - 1"},
+               std::span<const std::int64_t>(offsets), {offsets.size()});
+  const auto column = [&](const std::string& name, const std::string& units, const std::string& long_name,
+                          auto project) {
+    write_column(writer, {group + "/" + name, units, long_name}, rows, project);
+  };
+  column("distance", "m", "distance of the pair", [](const Lmd& l) { return l.distance; });
+  column("point_moving", "m", "point on the moving mesh, world frame",
+         [](const Lmd& l) { return l.point_moving; });
+  column("point_fixed", "m", "point on the fixed mesh, world frame",
+         [](const Lmd& l) { return l.point_fixed; });
+  column("direction", "1", "unit vector from moving to fixed", [](const Lmd& l) { return l.direction; });
+  column("feature_moving_kind", "1", "0 vertex, 1 edge, 2 face",
+         [](const Lmd& l) { return static_cast<std::int64_t>(l.feature_moving.kind); });
+  column("feature_moving_index", "1", "index of the feature in its mesh",
+         [](const Lmd& l) { return static_cast<std::int64_t>(l.feature_moving.index); });
+  column("feature_fixed_kind", "1", "0 vertex, 1 edge, 2 face",
+         [](const Lmd& l) { return static_cast<std::int64_t>(l.feature_fixed.kind); });
+  column("feature_fixed_index", "1", "index of the feature in its mesh",
+         [](const Lmd& l) { return static_cast<std::int64_t>(l.feature_fixed.index); });
+  column("fixed_body", "1", "which of the fixed meshes",
+         [](const Lmd& l) { return std::int64_t{l.fixed_body}; });
+}
+
+void write_method(ResultWriter& writer, const Experiment& experiment, const RunResult& result,
+                  std::size_t index) {
+  const MethodChoice& choice = experiment.methods[index];
+  const MethodRecord& record = result.records[index];
+  const std::string group = "/methods/" + choice.label;
+  writer.attribute(group, "method", choice.name);
+  writer.attribute(group, "force_law",
+                   std::string(choice.force_law == ForceLaw::LINEAR ? "linear" : "exponential"));
+  writer.attribute(group, "options", choice.options_json);
+  writer.attribute(group, "result_hash", fmt::format("{:016x}", record.result_hash));
+  writer.attribute(group, "frames_in_contact",
+                   static_cast<std::int64_t>(
+                       std::count_if(record.frames.begin(), record.frames.end(),
+                                     [](const FrameRecord& f) { return f.contact_without_direction > 0; })));
+  write_frames(writer, group, record);
+  write_searches(writer, group, record);
+  if (!result.truth.empty()) write_truth(writer, group + "/truth", result.truth, result.comparisons[index]);
+  if (experiment.record_lmds) write_lmd_lists(writer, group + "/lmds", record);
+  if (result.fcl) {
+    write_column(writer, {group + "/fcl/frame", "1", "frame that was compared with FCL"}, result.fcl->frames,
+                 [](const FclFrame& f) { return f.frame; });
+    write_column(
+        writer,
+        {group + "/fcl/minimum_distance_difference_relative", "1",
+         "a fresh search's minimum distance minus FCL's, divided by FCL's; infinite where it found no pair"},
+        result.fcl->frames, [&](const FclFrame& f) { return f.method_difference[index]; });
+  }
+}
+
+void write_reference(ResultWriter& writer, const std::vector<TruthFrame>& truth) {
+  const auto column = [&](const std::string& name, const std::string& units, const std::string& long_name,
+                          auto project) {
+    write_column(writer, {"/reference/" + name, units, long_name}, truth, project);
+  };
+  constexpr auto LINEAR = static_cast<std::size_t>(ForceLaw::LINEAR);
+  constexpr auto EXPONENTIAL = static_cast<std::size_t>(ForceLaw::EXPONENTIAL);
+  column("frame", "1", "frame of the exhaustive set", [](const TruthFrame& t) { return t.frame; });
+  column("lmd_count", "1", "true LMDs within the cutoff",
+         [](const TruthFrame& t) { return static_cast<std::int64_t>(t.lmds.size()); });
+  column("minimum_distance", "m", "smallest true LMD distance",
+         [](const TruthFrame& t) { return minimum_distance(t.lmds); });
+  column("force_linear", "N", "rendered force of the true set, linear law",
+         [](const TruthFrame& t) { return t.force[LINEAR]; });
+  column("force_exponential", "N", "rendered force of the true set, exponential law",
+         [](const TruthFrame& t) { return t.force[EXPONENTIAL]; });
+  column("force_jump_linear", "N", "change of the true force to the next frame, linear law",
+         [](const TruthFrame& t) { return t.force_jump[LINEAR]; });
+  column("force_jump_exponential", "N", "change of the true force to the next frame, exponential law",
+         [](const TruthFrame& t) { return t.force_jump[EXPONENTIAL]; });
+}
+
+void write_poses(ResultWriter& writer, const std::string& group, const std::vector<Pose>& poses) {
+  write_column(writer, {group + "/position", "m", "origin of the moving mesh's frame, world frame"}, poses,
+               [](const Pose& p) { return p.translation; });
+  std::vector<double> orientations;
+  for (const Pose& pose : poses) {
+    const auto& q = pose.rotation.coeffs();  // x, y, z, w
+    orientations.insert(orientations.end(), q.data(), q.data() + 4);
+  }
+  writer.write({group + "/orientation", "1", "unit quaternion x, y, z, w of the moving mesh"},
+               std::span<const double>(orientations), {poses.size(), 4});
+}
+
+void write_fcl(ResultWriter& writer, const FclCheck& check, double tolerance) {
+  const std::string group = "/crosscheck/fcl";
+  writer.attribute(group, "tolerance_relative", tolerance);
+  const auto column = [&](const std::string& name, const std::string& units, const std::string& long_name,
+                          auto project) {
+    write_column(writer, {group + "/" + name, units, long_name}, check.frames, project);
+  };
+  column("frame", "1", "frame that was cross-checked", [](const FclFrame& f) { return f.frame; });
+  column("distance", "m", "FCL's minimum distance", [](const FclFrame& f) { return f.distance; });
+  column("lmdbench_distance", "m", "exact minimum distance",
+         [](const FclFrame& f) { return f.lmdbench_distance; });
+  column("relative_difference", "1", "difference of the two, relative to the exact one",
+         [](const FclFrame& f) { return f.relative_difference; });
+  column("separated", "1", "1 where FCL finds no contact", [](const FclFrame& f) { return f.separated; });
+  column("agrees", "1", "1 where the two agree", [](const FclFrame& f) { return f.agrees; });
+
+  const std::string exceptions = group + "/exceptions";
+  const auto exception = [&](const std::string& name, const std::string& units, const std::string& long_name,
+                             auto project) {
+    write_column(writer, {exceptions + "/" + name, units, long_name}, check.exceptions, project);
+  };
+  std::vector<std::string> who;
+  std::vector<Pose> poses;
+  for (const FclException& entry : check.exceptions) {
+    who.push_back(entry.who);
+    poses.push_back(entry.pose);
+  }
+  writer.write({exceptions + "/who", "1", "label of the method, or lmdbench for the exact nearest pair"},
+               who);
+  write_poses(writer, exceptions, poses);
+  using Row = const FclException&;
+  exception("frame", "1", "frame out of tolerance", [](Row e) { return e.frame; });
+  exception("distance", "m", "their minimum distance", [](Row e) { return e.distance; });
+  exception("fcl_distance", "m", "FCL's minimum distance", [](Row e) { return e.fcl_distance; });
+  exception("lmdbench_distance", "m", "exact minimum distance", [](Row e) { return e.lmdbench_distance; });
+  exception("triangle_moving", "1", "triangle of FCL's nearest pair",
+            [](Row e) { return e.triangle_moving; });
+  exception("triangle_fixed", "1", "triangle of FCL's nearest pair", [](Row e) { return e.triangle_fixed; });
+  exception("fixed_body", "1", "fixed mesh of FCL's nearest pair", [](Row e) { return e.fixed_body; });
+}
+
+}  // namespace
+
+void write_result(ResultWriter& writer, const Experiment& experiment, const RunResult& result) {
+  const PreparedRun& prepared = result.prepared;
+  writer.write({"/path/time", "s", "time of the haptic frame"}, std::span<const double>(prepared.times),
+               {prepared.times.size()});
+  write_poses(writer, "/path", prepared.input.poses);
+  write_scene(writer, result);
+  // With a single repetition nothing would be left after the warm-up, so it then counts, with a warning.
+  writer.attribute("/methods", "warm_up_repetitions",
+                   std::int64_t{experiment.driver.repetitions > 1 ? 1 : 0});
+  writer.attribute("/methods", "search_every_frames", experiment.driver.search_every_frames);
+  writer.attribute("/methods", "search_latency_frames", experiment.driver.search_latency_frames);
+  for (std::size_t i = 0; i < experiment.methods.size(); ++i) write_method(writer, experiment, result, i);
+  if (!result.truth.empty()) write_reference(writer, result.truth);
+  if (result.fcl) write_fcl(writer, *result.fcl, experiment.fcl_tolerance_relative);
+}
+
+}  // namespace lmdbench

@@ -1,0 +1,35 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/experiment/write_result.h>
+
+#include <nlohmann/json.hpp>
+
+#include <cstdint>
+
+namespace lmdbench {
+
+void write_scene(ResultWriter& writer, const RunResult& result) {
+  const PreparedRun& prepared = result.prepared;
+  writer.attribute("/scene", "frame_rate_hz", prepared.input.frame_rate_hz);
+  writer.attribute("/scene", "cutoff_m", prepared.scene.cutoff);
+  writer.attribute("/scene", "saturation_m", prepared.profile.saturation_distance);
+  writer.attribute("/scene", "maximum_force_n", prepared.profile.maximum_force);
+  writer.attribute("/scene", "sharpness", prepared.profile.sharpness);
+  const Device& device = prepared.input.device.device();
+  writer.attribute("/scene", "device", std::string(device.name));
+  writer.attribute("/scene", "device_maximum_force_n", device.maximum_force.value);
+  writer.attribute("/scene", "device_continuous_force_n", device.continuous_force.value);
+  for (const MeshNote& mesh : prepared.meshes) {
+    const std::string group = "/scene/" + mesh.role;
+    writer.attribute(group, "mesh", mesh.name);
+    writer.attribute(group, "triangles", mesh.report.triangles);
+    writer.attribute(group, "diagonal_m", mesh.report.diagonal);
+    writer.attribute(group, "closed", std::int64_t{mesh.report.closed});
+    writer.attribute(group, "manifold", std::int64_t{mesh.report.manifold});
+    writer.attribute(group, "validity", to_json(mesh.report).dump());
+  }
+  writer.attribute("/scene", "starts_in_contact", std::int64_t{prepared.starts_in_contact});
+  writer.write({"/scene/warnings", "1", "what a reader of this result must know"}, result.warnings);
+}
+
+}  // namespace lmdbench

@@ -1,0 +1,210 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/error.h>
+#include <lmdbench/experiment/experiment.h>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <filesystem>
+#include <numbers>
+#include <string>
+#include <vector>
+
+namespace lmdbench {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+
+const char* const MINIMAL = R"({
+  "name": "small",
+  "moving": {"mesh": "a"},
+  "fixed": [{"mesh": "b"}],
+  "path": {"file": "paths/p.tum"},
+  "force": {"cutoff_m": 0.01, "maximum_force_n": 2},
+  "methods": [{"name": "original", "force_law": "linear"}, {"name": "improved", "force_law": "exponential"}]
+})";
+
+Experiment parse(const std::string& text, const std::vector<Override>& overrides = {}) {
+  return parse_experiment(text, "/data/e.json", overrides);
+}
+
+/// Message of the usage error that loading raises.
+std::string message(const std::vector<Override>& overrides, const std::string& text = MINIMAL) {
+  try {
+    parse(text, overrides);
+  } catch (const UsageError& error) {
+    EXPECT_EQ(error.code(), ExitCode::USAGE);
+    return error.what();
+  }
+  return "no error";
+}
+
+TEST(LoadExperiment, FillsDefaultsFromTheSchema) {
+  const Experiment experiment = parse(MINIMAL);
+  EXPECT_EQ(experiment.name, "small");
+  EXPECT_EQ(experiment.frame_rate_hz, 1000.0);
+  EXPECT_FALSE(experiment.frames.has_value());
+  EXPECT_EQ(experiment.device, "phantom-desktop");
+  EXPECT_EQ(experiment.force.sharpness, 4.0);
+  EXPECT_EQ(experiment.driver.repetitions, 5);
+  EXPECT_EQ(experiment.driver.block_frames, 200);
+  EXPECT_EQ(experiment.truth_stride_frames, 100);
+  EXPECT_EQ(experiment.fcl_stride_frames, 0);
+  EXPECT_EQ(experiment.fcl_tolerance_relative, 1e-6);
+  EXPECT_FALSE(experiment.record_lmds);
+  EXPECT_TRUE(experiment.fixed[0].pose.translation.isZero(0.0));
+  ASSERT_EQ(experiment.methods.size(), 2u);
+  EXPECT_EQ(experiment.methods[0].label, "original");
+  EXPECT_EQ(experiment.methods[0].force_law, ForceLaw::LINEAR);
+  EXPECT_DOUBLE_EQ(experiment.methods[0].options.g5_tolerance_rad, 0.5);
+  EXPECT_EQ(experiment.methods[1].options.visibility, Visibility::VERTEX_NORMAL);
+}
+
+TEST(LoadExperiment, ResolvedJsonHasTheDefaultsAndResolvesToItself) {
+  const Experiment experiment = parse(MINIMAL);
+  const auto resolved = nlohmann::json::parse(experiment.resolved_json);
+  EXPECT_EQ(resolved["driver"]["block_frames"], 200);
+  EXPECT_EQ(resolved["methods"][0]["line_cone"], "one-sided");
+  EXPECT_FALSE(resolved["methods"][1].contains("line_cone")) << "an option of the original only";
+  EXPECT_EQ(parse(experiment.resolved_json).resolved_json, experiment.resolved_json);
+}
+
+TEST(LoadExperiment, PathIsRelativeToTheExperimentFile) {
+  EXPECT_EQ(parse(MINIMAL).path_file, std::filesystem::path("/data/paths/p.tum"));
+  EXPECT_EQ(parse(MINIMAL, {R"(/path/file="/elsewhere/q.tum")"}).path_file,
+            std::filesystem::path("/elsewhere/q.tum"));
+}
+
+TEST(LoadExperiment, OverridesTakeJsonOrStrings) {
+  const Experiment experiment = parse(
+      MINIMAL, {"/driver/repetitions=3", "/name=other", "/methods/0/line_cone=two-sided",
+                R"(/methods/-={"name":"exhaustive","force_law":"linear","label":"truth"})", "/title=a=b"});
+  EXPECT_EQ(experiment.driver.repetitions, 3);
+  EXPECT_EQ(experiment.name, "other");
+  EXPECT_EQ(experiment.methods[0].options.line_cone, LineCone::TWO_SIDED);
+  EXPECT_EQ(experiment.methods.at(2).label, "truth");
+  EXPECT_EQ(experiment.title, "a=b") << "only the first = separates";
+}
+
+TEST(LoadExperiment, RefusesMalformedOverrides) {
+  EXPECT_THAT(message({"driver/repetitions=3"}), HasSubstr("--set driver/repetitions=3: not of the form"));
+  EXPECT_THAT(message({"/driver/repetitions"}), HasSubstr("not of the form"));
+  EXPECT_THAT(message({""}), HasSubstr("not of the form"));
+  EXPECT_THAT(message({"/name/deeper=1"}), HasSubstr("does not lead to a value"));
+  EXPECT_THAT(message({"/methods/x/label=1"}), HasSubstr("does not lead to a value"));
+  EXPECT_THAT(message({"/methods/5={}"}), HasSubstr("has only 2 entries"));
+  EXPECT_THAT(message({"/driver~2=1"}), HasSubstr("does not lead to a value"));
+}
+
+TEST(LoadExperiment, UnknownKeysNameTheirPointerAndTheNearestKey) {
+  EXPECT_THAT(message({"/driver/repetition=3"}),
+              AllOf(HasSubstr("/data/e.json: /driver/repetition: unknown key"),
+                    HasSubstr("did you mean \"repetitions\"?")));
+  EXPECT_THAT(message({"/methods/1/visibilty=off"}), AllOf(HasSubstr("/methods/1/visibilty: unknown key"),
+                                                           HasSubstr("did you mean \"visibility\"?")));
+  EXPECT_THAT(message({"/zzz=1"}), AllOf(HasSubstr("/zzz: unknown key"), HasSubstr("known keys here: ")));
+  EXPECT_THAT(message({"/fixed/0/pose={\"rotation_wxyz\": [1,0,0,0]}"}),
+              AllOf(HasSubstr("/fixed/0/pose/rotation_wxyz: unknown key"), HasSubstr("rotation_xyzw")));
+}
+
+TEST(LoadExperiment, OptionsOfAnotherMethodAreRefused) {
+  EXPECT_THAT(message({"/methods/1/g5_tolerance_deg=10"}),
+              AllOf(HasSubstr("/methods/1/g5_tolerance_deg"),
+                    HasSubstr("only where \"name\" is one of [\"original\"]")));
+}
+
+TEST(LoadExperiment, SchemaViolationsNamePointerValueAndExpectation) {
+  EXPECT_THAT(message({"/driver/repetitions=0"}),
+              AllOf(HasSubstr("/driver/repetitions: "), HasSubstr("found 0"), HasSubstr("integer >= 1")));
+  EXPECT_THAT(message({"/driver/repetitions=2.5"}), HasSubstr("/driver/repetitions: "));
+  EXPECT_THAT(message({"/force/cutoff_m=0"}), AllOf(HasSubstr("/force/cutoff_m: "), HasSubstr("number > 0")));
+  EXPECT_THAT(message({"/force/cutoff_m=-0.1"}), HasSubstr("/force/cutoff_m: "));
+  EXPECT_THAT(message({"/force/cutoff_m=\"wide\""}), HasSubstr("/force/cutoff_m: "));
+  EXPECT_THAT(message({"/methods/0/force_law=cubic"}),
+              AllOf(HasSubstr("/methods/0/force_law: "), HasSubstr("[\"linear\",\"exponential\"]")));
+  EXPECT_THAT(message({"/methods=[]"}), HasSubstr("/methods: "));
+  EXPECT_THAT(message({"/fixed=[]"}), HasSubstr("/fixed: "));
+  EXPECT_THAT(message({"/driver/kind=realtime"}), AllOf(HasSubstr("/driver/kind: "), HasSubstr("lockstep")));
+  EXPECT_THAT(message({"/name=has blank"}), HasSubstr("/name: "));
+  EXPECT_THAT(message({"/methods/0/label=a/b"}), HasSubstr("/methods/0/label: "));
+  EXPECT_THAT(message({}, R"({"name": "x"})"), HasSubstr("Missing required property"));
+  EXPECT_THAT(message({}, "[1, 2]"), HasSubstr("/data/e.json: /: "));
+}
+
+TEST(LoadExperiment, SyntaxErrorsNameLineAndColumn) {
+  EXPECT_THAT(message({}, "{\n  \"name\": \"x\",\n  oops\n}"),
+              HasSubstr("/data/e.json: line 3, column 3: not JSON"));
+  EXPECT_THAT(message({}, ""), HasSubstr("line 1"));
+  EXPECT_THAT(message({}, R"({"frame_rate_hz": 1e999})"), HasSubstr("out of range"));
+}
+
+TEST(LoadExperiment, RepeatedKeysAreRefused) {
+  EXPECT_THAT(message({}, R"({"name": "x", "title": {"a": 1}, "name": "y"})"),
+              HasSubstr("\"name\" appears twice"));
+}
+
+TEST(LoadExperiment, ForceConstantsMustFitTogether) {
+  EXPECT_THAT(message({"/force/cutoff_diagonal=0.1"}), HasSubstr("/force: two cutoffs"));
+  EXPECT_THAT(message({R"(/force={"maximum_force_n": 1})"}), HasSubstr("/force: no cutoff"));
+  EXPECT_THAT(message({"/force/saturation_m=0.01"}), HasSubstr("/force/saturation_m: saturation at 0.01 m"));
+  EXPECT_THAT(message({"/force/saturation_m=0.001", "/force/saturation_cutoff=0.5"}),
+              HasSubstr("/force: two saturation distances"));
+  EXPECT_THAT(message({"/force/saturation_cutoff=1"}), HasSubstr("/force/saturation_cutoff: "));
+}
+
+TEST(LoadExperiment, ForceDistancesScaleWithTheDiagonal) {
+  const Experiment experiment = parse(
+      MINIMAL, {R"(/force={"cutoff_diagonal": 0.05, "saturation_cutoff": 0.25, "maximum_force_n": 1})"});
+  EXPECT_DOUBLE_EQ(experiment.force.cutoff(2.0), 0.1);
+  EXPECT_DOUBLE_EQ(experiment.force.saturation(2.0), 0.025);
+  EXPECT_DOUBLE_EQ(parse(MINIMAL).force.cutoff(2.0), 0.01);
+  EXPECT_EQ(parse(MINIMAL).force.saturation(2.0), 0.0);
+}
+
+TEST(LoadExperiment, UnknownMethodsAndRepeatedLabelsAreRefused) {
+  EXPECT_THAT(message({"/methods/1/name=improvd"}),
+              AllOf(HasSubstr("/methods/1/name: unknown method"), HasSubstr("did you mean \"improved\"?")));
+  EXPECT_THAT(message({"/methods/1/label=original"}), HasSubstr("/methods/1/label: two methods are called"));
+}
+
+TEST(LoadExperiment, OneMethodMayAppearTwiceUnderTwoLabels) {
+  const Experiment experiment = parse(
+      MINIMAL, {"/methods/1/name=original", "/methods/1/label=strict", "/methods/1/g5_tolerance_deg=180"});
+  EXPECT_EQ(experiment.methods[1].name, "original");
+  EXPECT_EQ(experiment.methods[1].label, "strict");
+  EXPECT_DOUBLE_EQ(experiment.methods[1].options.g5_tolerance_rad, std::numbers::pi);
+}
+
+TEST(LoadExperiment, LatencyIsAtMostTheSearchPeriod) {
+  EXPECT_THAT(message({"/driver/search_every_frames=5", "/driver/search_latency_frames=6"}),
+              HasSubstr("/driver/search_latency_frames: a search takes 6 frames"));
+  EXPECT_EQ(parse(MINIMAL, {"/driver/search_every_frames=5", "/driver/search_latency_frames=5"})
+                .driver.search_latency_frames,
+            5);
+}
+
+TEST(LoadExperiment, FixedPoseIsAUnitQuaternion) {
+  EXPECT_THAT(message({"/fixed/0/pose/rotation_xyzw=[0,0,0,2]"}),
+              HasSubstr("/fixed/0/pose/rotation_xyzw: quaternion of length 2"));
+  EXPECT_THAT(message({"/fixed/0/pose/rotation_xyzw=[0,0,0,0]"}), HasSubstr("quaternion of length 0"));
+  EXPECT_THAT(message({"/fixed/0/pose/translation_m=[0,0]"}), HasSubstr("/fixed/0/pose/translation_m: "));
+  const Experiment experiment =
+      parse(MINIMAL, {"/fixed/0/pose/rotation_xyzw=[0,0,1,0]", "/fixed/0/pose/translation_m=[1,2,3]"});
+  EXPECT_EQ(experiment.fixed[0].pose.rotation.z(), 1.0);
+  EXPECT_EQ(experiment.fixed[0].pose.translation, Vec3(1, 2, 3));
+}
+
+TEST(LoadExperiment, MissingFileIsAUsageError) {
+  try {
+    load_experiment("/nowhere/at/all.json");
+    FAIL() << "loaded a file that does not exist";
+  } catch (const UsageError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("/nowhere/at/all.json: cannot read"));
+  }
+}
+
+}  // namespace
+}  // namespace lmdbench
