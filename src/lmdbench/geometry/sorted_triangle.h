@@ -48,6 +48,13 @@ struct SortedTriangle {
     return edge(k);
   }
 
+  /// The caller's name of a feature of `corners`.
+  TriangleFeature original_feature(TriangleFeature feature) const {
+    if (is_vertex(feature)) return vertex(local_index(feature));
+    if (is_edge(feature)) return edge_feature((original[(local_index(feature) + 2) % 3] + 1) % 3);
+    return feature;
+  }
+
  private:
   void order(int i, int j) {
     if (!lexicographic_less(corners[j], corners[i])) return;

@@ -1,9 +1,11 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/geometry/certified_descent.h>
 #include <lmdbench/geometry/face_frame.h>
 #include <lmdbench/geometry/planar_overlap.h>
 #include <lmdbench/geometry/point_triangle.h>
 #include <lmdbench/geometry/segment_kernel.h>
+#include <lmdbench/geometry/shared_segment.h>
 #include <lmdbench/geometry/sorted_triangle.h>
 #include <lmdbench/geometry/tolerance.h>
 #include <lmdbench/geometry/triangle_distance.h>
@@ -128,6 +130,12 @@ TrianglePairDistance swapped(const TrianglePairDistance& pair) {
   return result;
 }
 
+/// Signed heights of three corners over the plane of a face.
+Vec3 heights_over(const FaceFrame& face, const Triangle& corners) {
+  const Vec3 normal = face.unit_normal();
+  return {normal.dot(corners[0] - face.a), normal.dot(corners[1] - face.a), normal.dot(corners[2] - face.a)};
+}
+
 /// The longest overlap of an edge of a with the face of b that is as near as `best`.
 void prefer_edge_over_face(const SortedTriangle& a, const FaceFrame& face_b, const Vec3& heights,
                            double tolerance, double limit, TrianglePairDistance& best) {
@@ -155,14 +163,9 @@ void prefer_edge_over_face(const SortedTriangle& a, const FaceFrame& face_b, con
 /// Replaces a single nearest pair by the middle of an overlap of parallel features that is as near.
 void prefer_whole_minimiser_set(const Query& query, const TrianglePairDistance& edge_overlap,
                                 TrianglePairDistance& best) {
-  const auto heights = [](const FaceFrame& face, const Triangle& corners) {
-    const Vec3 normal = face.unit_normal();
-    return Vec3(normal.dot(corners[0] - face.a), normal.dot(corners[1] - face.a),
-                normal.dot(corners[2] - face.a));
-  };
   const double limit = std::sqrt(best.squared_distance) + query.tolerance;
   if (query.face_a.has_face && query.face_b.has_face) {
-    const Vec3 z = heights(query.face_a, query.b.corners);
+    const Vec3 z = heights_over(query.face_a, query.b.corners);
     if (z.maxCoeff() - z.minCoeff() <= query.tolerance && z.cwiseAbs().minCoeff() <= limit) {
       const auto overlap = kernel::face_over_face(query.face_a, query.face_b, query.tolerance);
       const double squared_distance = (overlap.centroid_on_first - overlap.centroid_on_second).squaredNorm();
@@ -179,53 +182,81 @@ void prefer_whole_minimiser_set(const Query& query, const TrianglePairDistance& 
   }
   if (std::sqrt(edge_overlap.squared_distance) <= limit) best = edge_overlap;
   if (query.face_b.has_face) {
-    prefer_edge_over_face(query.a, query.face_b, heights(query.face_b, query.a.corners), query.tolerance,
+    prefer_edge_over_face(query.a, query.face_b, heights_over(query.face_b, query.a.corners), query.tolerance,
                           limit, best);
   }
   if (query.face_a.has_face) {
     TrianglePairDistance turned = swapped(best);
-    prefer_edge_over_face(query.b, query.face_a, heights(query.face_a, query.b.corners), query.tolerance,
+    prefer_edge_over_face(query.b, query.face_a, heights_over(query.face_a, query.b.corners), query.tolerance,
                           limit, turned);
     best = swapped(turned);
   }
 }
 
-/// The answer for triangles that share a point: the middle of the shared set.
-TrianglePairDistance answer_intersection(const Query& query, const TrianglePairDistance& nearest) {
-  TrianglePairDistance result = nearest;
-  Vec3 shared = nearest.point_a;
-  // Touching and coplanar triangles already have their shared point, segment or polygon as the nearest pair.
-  if (!(std::sqrt(nearest.squared_distance) <= query.tolerance && nearest.minimiser_dimension == 2)) {
-    if (const auto segment = intersection_segment(query.a.corners, query.b.corners)) {
-      shared = 0.5 * ((*segment)[0] + (*segment)[1]);
-      const double length = ((*segment)[1] - (*segment)[0]).norm();
-      result.minimiser_dimension = length > query.tolerance ? 1 : 0;
-      result.minimiser_measure = length > query.tolerance ? length : 0.0;
-    }
-  }
-  const auto on_a = point_triangle_distance(shared, query.a.corners);
-  const auto on_b = point_triangle_distance(shared, query.b.corners);
-  const auto original = [](const SortedTriangle& t, TriangleFeature feature) {
-    if (is_vertex(feature)) return t.vertex(local_index(feature));
-    if (is_edge(feature)) return edge_feature((t.original[(local_index(feature) + 2) % 3] + 1) % 3);
-    return feature;
-  };
-  if (is_vertex(on_a.feature)) {
-    shared = on_a.point;
-  } else if (is_vertex(on_b.feature)) {
-    shared = on_b.point;
-  }
-  result.point_a = result.point_b = shared;
-  result.feature_a = original(query.a, on_a.feature);
-  result.feature_b = original(query.b, on_b.feature);
+TrianglePairDistance shared_point(const Vec3& point, const std::optional<Segment>& segment,
+                                  double tolerance) {
+  TrianglePairDistance result;
   result.squared_distance = 0.0;
+  result.point_a = result.point_b = point;
   result.intersecting = true;
+  const double length = segment ? ((*segment)[1] - (*segment)[0]).norm() : 0.0;
+  if (length > tolerance) {
+    result.minimiser_dimension = 1;
+    result.minimiser_measure = length;
+  }
+  return result;
+}
+
+/// The answer for triangles that cross with the middle of the shared segment inside both: the usual
+/// intersection.
+std::optional<TrianglePairDistance> crossing_faces(const Query& query) {
+  if (!query.face_a.has_face || !query.face_b.has_face) return std::nullopt;
+  // Nearly coplanar triangles share a polygon rather than a segment.
+  const Vec3 heights = heights_over(query.face_a, query.b.corners);
+  if (!(heights.maxCoeff() - heights.minCoeff() > 2.0 * query.tolerance)) return std::nullopt;
+  const auto segment = kernel::shared_segment(query.a.corners, query.b.corners);
+  if (!segment) return std::nullopt;
+  const Vec3 middle = 0.5 * ((*segment)[0] + (*segment)[1]);
+  if (!query.face_a.is_interior(query.face_a.weights(middle))) return std::nullopt;
+  if (!query.face_b.is_interior(query.face_b.weights(middle))) return std::nullopt;
+  return shared_point(middle, segment, query.tolerance);
+}
+
+/// The answer for any triangles that share a point: the middle of the shared set.
+TrianglePairDistance answer_intersection(const Query& query, const TrianglePairDistance& nearest) {
+  Vec3 middle = nearest.point_a;
+  std::optional<Segment> segment;
+  // Coplanar triangles already have the middle of their shared polygon as the nearest pair.
+  const bool coplanar =
+      nearest.minimiser_dimension == 2 && std::sqrt(nearest.squared_distance) <= query.tolerance;
+  if (!coplanar) {
+    segment = kernel::shared_segment(query.a.corners, query.b.corners);
+    if (segment) middle = 0.5 * ((*segment)[0] + (*segment)[1]);
+  }
+  const auto on_a = point_triangle_distance(middle, query.a.corners);
+  const auto on_b = point_triangle_distance(middle, query.b.corners);
+  if (is_vertex(on_a.feature)) {
+    middle = on_a.point;
+  } else if (is_vertex(on_b.feature)) {
+    middle = on_b.point;
+  }
+  TrianglePairDistance result = shared_point(middle, segment, query.tolerance);
+  if (!segment) {
+    result.minimiser_dimension = nearest.minimiser_dimension;
+    result.minimiser_measure = nearest.minimiser_measure;
+  }
+  result.feature_a = query.a.original_feature(on_a.feature);
+  result.feature_b = query.b.original_feature(on_b.feature);
   return result;
 }
 
 /// @pre a before b in lexicographic order of sorted corners
 TrianglePairDistance ordered_distance(const SortedTriangle& a, const SortedTriangle& b, double magnitude) {
   const Query query(a, b, coincidence_length(magnitude));
+  const bool intersecting = triangles_intersect(a.corners, b.corners);
+  if (intersecting) {
+    if (const auto crossing = crossing_faces(query)) return *crossing;
+  }
   const EdgePairs edge_pairs = examine_edge_pairs(query);
   TrianglePairDistance best = edge_pairs.nearest;
   const TrianglePairDistance on_b = nearest_corner_of_a_to_face_of_b(a, query.face_b);
@@ -233,11 +264,11 @@ TrianglePairDistance ordered_distance(const SortedTriangle& a, const SortedTrian
   const TrianglePairDistance on_a = swapped(nearest_corner_of_a_to_face_of_b(b, query.face_a));
   if (better(on_a, best)) best = on_a;
   prefer_whole_minimiser_set(query, edge_pairs.overlap, best);
-  if (triangles_intersect(a.corners, b.corners)) return answer_intersection(query, best);
-  return best;
+  return intersecting ? answer_intersection(query, best) : best;
 }
 
 TrianglePairDistance distance_in_range(const Triangle& a, const Triangle& b, double magnitude) {
+  if (const auto proved = kernel::certified_descent(a, b, coincidence_length(magnitude))) return *proved;
   const SortedTriangle sorted_a(a);
   const SortedTriangle sorted_b(b);
   const bool b_first =

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/geometry/orientation.h>
+#include <lmdbench/geometry/shared_segment.h>
 #include <lmdbench/geometry/sorted_triangle.h>
 #include <lmdbench/geometry/tolerance.h>
 #include <lmdbench/geometry/triangle_intersection.h>
@@ -98,15 +99,50 @@ std::array<Segment, 3> edges(const Triangle& t) {
   return {Segment{t[0], t[1]}, Segment{t[1], t[2]}, Segment{t[2], t[0]}};
 }
 
-bool all_strictly_on_one_side(const Triangle& plane, const Triangle& points) {
-  const int side = orientation_3d(plane[0], plane[1], plane[2], points[0]);
-  return side != 0 && orientation_3d(plane[0], plane[1], plane[2], points[1]) == side &&
-         orientation_3d(plane[0], plane[1], plane[2], points[2]) == side;
+/// On which side of the other triangle's plane the corners of each triangle are.
+struct Sides {
+  std::array<int, 3> a{}, b{};
+
+  Sides(const Triangle& ta, const Triangle& tb) {
+    for (int k = 0; k < 3; ++k) b[k] = orientation_3d(ta[0], ta[1], ta[2], tb[k]);
+    if (apart(b)) return;
+    for (int k = 0; k < 3; ++k) a[k] = orientation_3d(tb[0], tb[1], tb[2], ta[k]);
+  }
+
+  static bool apart(const std::array<int, 3>& side) {
+    return side[0] != 0 && side[0] == side[1] && side[1] == side[2];
+  }
+  /// Some plane of the two has the other triangle strictly on one side.
+  bool planes_separate() const { return apart(b) || apart(a); }
+  /// No corner lies in the other's plane.
+  bool is_generic() const { return a[0] * a[1] * a[2] * b[0] * b[1] * b[2] != 0; }
+};
+
+int lone_corner(const std::array<int, 3>& side) {
+  return side[1] == side[2] ? 0 : side[2] == side[0] ? 1 : 2;
+}
+
+/// Each triangle cuts the line that the two planes share in a segment; do the segments overlap? p is the
+/// corner that is alone on its side, and both triangles are turned so that p of each is above the other's
+/// plane; then two orientations compare the ends of the segments (P. Guigue and O. Devillers, "Fast and
+/// robust triangle-triangle overlap test using orientation predicates", 2003).
+/// @pre sides.is_generic() and not sides.planes_separate()
+bool segments_on_common_line_overlap(const Triangle& a, const Triangle& b, const Sides& sides) {
+  const int lone_a = lone_corner(sides.a);
+  const int lone_b = lone_corner(sides.b);
+  const bool turn_a = sides.b[lone_b] < 0;
+  const bool turn_b = sides.a[lone_a] < 0;
+  const Vec3& pa = a[lone_a];
+  const Vec3& qa = a[(lone_a + (turn_a ? 2 : 1)) % 3];
+  const Vec3& ra = a[(lone_a + (turn_a ? 1 : 2)) % 3];
+  const Vec3& pb = b[lone_b];
+  const Vec3& qb = b[(lone_b + (turn_b ? 2 : 1)) % 3];
+  const Vec3& rb = b[(lone_b + (turn_b ? 1 : 2)) % 3];
+  return orientation_3d(pa, qa, pb, qb) <= 0 && orientation_3d(pa, ra, rb, pb) <= 0;
 }
 
 /// Point where an edge that meets the triangle's plane in one point does so.
-Vec3 piercing_point(const Segment& p, const Triangle& t) {
-  const Vec3 normal = (t[1] - t[0]).cross(t[2] - t[0]);
+Vec3 piercing_point(const Segment& p, const Triangle& t, const Vec3& normal) {
   const double height_0 = std::abs(normal.dot(p[0] - t[0]));
   const double height_1 = std::abs(normal.dot(p[1] - t[0]));
   const double sum = height_0 + height_1;
@@ -116,22 +152,45 @@ Vec3 piercing_point(const Segment& p, const Triangle& t) {
                               : Vec3(p[1] + (height_1 / sum) * (p[0] - p[1]));
 }
 
+/// The piece of the planes' common line that both triangles cover.
+/// @pre sides.is_generic() and the triangles intersect
+Segment overlap_on_common_line(const Triangle& first, const Triangle& second, const Sides& sides) {
+  const Vec3 normal_first = (first[1] - first[0]).cross(first[2] - first[0]);
+  const Vec3 normal_second = (second[1] - second[0]).cross(second[2] - second[0]);
+  const Vec3 along = normal_first.cross(normal_second);
+  const auto ends = [&along](const Triangle& t, int lone, const Triangle& other, const Vec3& normal) {
+    Segment segment{piercing_point({t[lone], t[(lone + 1) % 3]}, other, normal),
+                    piercing_point({t[lone], t[(lone + 2) % 3]}, other, normal)};
+    if (along.dot(segment[1] - segment[0]) < 0.0) std::swap(segment[0], segment[1]);
+    return segment;
+  };
+  const Segment on_first = ends(first, lone_corner(sides.a), second, normal_second);
+  const Segment on_second = ends(second, lone_corner(sides.b), first, normal_first);
+  Segment shared{along.dot(on_second[0] - on_first[0]) > 0.0 ? on_second[0] : on_first[0],
+                 along.dot(on_second[1] - on_first[1]) < 0.0 ? on_second[1] : on_first[1]};
+  if (lexicographic_less(shared[1], shared[0])) std::swap(shared[0], shared[1]);
+  return shared;
+}
+
 void collect_piercing_points(const Triangle& piercing, const Triangle& t, int axis,
                              std::array<Vec3, 6>& points, int& count) {
+  const Vec3 normal = (t[1] - t[0]).cross(t[2] - t[0]);
   for (const auto& ends : kernel::EDGE_ENDS) {
     const Segment edge{piercing[ends[0]], piercing[ends[1]]};
     if (!segment_meets_triangle(edge, t, axis)) continue;
     const bool in_plane =
         orientation_3d(t[0], t[1], t[2], edge[0]) == 0 && orientation_3d(t[0], t[1], t[2], edge[1]) == 0;
     // An edge in the other's plane: the pieces of the shared segment come from the other triangle's edges.
-    if (!in_plane) points[count++] = piercing_point(edge, t);
+    if (!in_plane) points[count++] = piercing_point(edge, t, normal);
   }
 }
 
 }  // namespace
 
 bool triangles_intersect(const Triangle& a, const Triangle& b) {
-  if (all_strictly_on_one_side(a, b) || all_strictly_on_one_side(b, a)) return false;
+  const Sides sides(a, b);
+  if (sides.planes_separate()) return false;
+  if (sides.is_generic()) return segments_on_common_line_overlap(a, b, sides);
   const int axis_a = projection_axis(a[0], a[1], a[2]);
   const int axis_b = projection_axis(b[0], b[1], b[2]);
   if (axis_a == COLLINEAR && axis_b == COLLINEAR) return segments_meet(collinear_hull(a), collinear_hull(b));
@@ -147,7 +206,6 @@ bool triangles_intersect(const Triangle& a, const Triangle& b) {
 }
 
 std::optional<Segment> intersection_segment(const Triangle& a, const Triangle& b) {
-  if (!triangles_intersect(a, b)) return std::nullopt;
   // Sorted, so that neither the order of corners nor that of the arguments changes a bit.
   Triangle first = kernel::SortedTriangle(a).corners;
   Triangle second = kernel::SortedTriangle(b).corners;
@@ -155,11 +213,19 @@ std::optional<Segment> intersection_segment(const Triangle& a, const Triangle& b
                                    lexicographic_less)) {
     std::swap(first, second);
   }
+  return triangles_intersect(first, second) ? kernel::shared_segment(first, second) : std::nullopt;
+}
+
+namespace kernel {
+
+std::optional<Segment> shared_segment(const Triangle& first, const Triangle& second) {
+  const Sides sides(first, second);
+  std::array<Vec3, 6> points;
+  int count = 0;
+  if (sides.is_generic()) return overlap_on_common_line(first, second, sides);
   const int axis_first = projection_axis(first[0], first[1], first[2]);
   const int axis_second = projection_axis(second[0], second[1], second[2]);
   if (axis_first == COLLINEAR || axis_second == COLLINEAR) return std::nullopt;
-  std::array<Vec3, 6> points;
-  int count = 0;
   collect_piercing_points(first, second, axis_second, points, count);
   collect_piercing_points(second, first, axis_first, points, count);
   if (count == 0) return std::nullopt;
@@ -179,5 +245,7 @@ std::optional<Segment> intersection_segment(const Triangle& a, const Triangle& b
   if (lexicographic_less(longest[1], longest[0])) std::swap(longest[0], longest[1]);
   return longest;
 }
+
+}  // namespace kernel
 
 }  // namespace lmdbench
