@@ -6,6 +6,7 @@ import contextlib
 import io
 import json
 import os
+import pathlib
 import subprocess
 import sys
 import tempfile
@@ -162,7 +163,7 @@ class FigureTest(ScriptsTest):
         contents = []
         for turn in ("first", "second"):
             self.printed(main, *arguments, "--out", self.path(turn))
-            contents.append([open(os.path.join(self.path(turn), name), "rb").read() for name in names])
+            contents.append([pathlib.Path(self.path(turn), name).read_bytes() for name in names])
         return contents
 
     def test_figure7_is_the_same_every_time(self):

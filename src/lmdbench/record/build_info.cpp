@@ -51,8 +51,8 @@ BuildInfo make_build_info() {
 }  // namespace
 
 const BuildInfo& build_info() {
-  static const BuildInfo info = make_build_info();
-  return info;
+  static const BuildInfo INFO = make_build_info();
+  return INFO;
 }
 
 }  // namespace lmdbench

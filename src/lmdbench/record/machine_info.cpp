@@ -118,7 +118,7 @@ std::string address_space_randomisation() {
   constexpr unsigned long ONLY_ASK = 0xffffffff;
   const int personality_now = ::personality(ONLY_ASK);
   if (personality_now >= 0 && (personality_now & ADDR_NO_RANDOMIZE) != 0) return "off";
-  const std::string value = first_line("/proc/sys/kernel/randomize_va_space");
+  std::string value = first_line("/proc/sys/kernel/randomize_va_space");
   if (value == UNKNOWN) return value;
   return value == "0" ? "off" : "on";
 }
