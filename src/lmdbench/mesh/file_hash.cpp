@@ -14,6 +14,32 @@
 
 namespace lmdbench {
 
+namespace {
+
+class Sha256 {
+ public:
+  Sha256() { check(context_ != nullptr && EVP_DigestInit_ex(context_.get(), EVP_sha256(), nullptr) == 1); }
+  void add(std::string_view bytes) {
+    check(EVP_DigestUpdate(context_.get(), bytes.data(), bytes.size()) == 1);
+  }
+  std::string hexadecimal() {
+    std::array<unsigned char, EVP_MAX_MD_SIZE> digest;
+    unsigned int length = 0;
+    check(EVP_DigestFinal_ex(context_.get(), digest.data(), &length) == 1);
+    std::string text;
+    for (unsigned int i = 0; i < length; ++i) text += fmt::format("{:02x}", digest[i]);
+    return text;
+  }
+
+ private:
+  static void check(bool done) {
+    if (!done) throw EnvironmentError("libcrypto", "", "offers no SHA-256", "check the OpenSSL installation");
+  }
+  std::unique_ptr<EVP_MD_CTX, decltype(&EVP_MD_CTX_free)> context_{EVP_MD_CTX_new(), &EVP_MD_CTX_free};
+};
+
+}  // namespace
+
 std::string sha256_of_file(const std::filesystem::path& file) {
   std::error_code status_error;
   if (std::filesystem::is_directory(file, status_error))
@@ -22,25 +48,19 @@ std::string sha256_of_file(const std::filesystem::path& file) {
   if (!stream)
     throw InputError(file.string(), "", fmt::format("cannot be opened: {}", std::strerror(errno)),
                      "check the name and the permissions");
-
-  const std::unique_ptr<EVP_MD_CTX, decltype(&EVP_MD_CTX_free)> context(EVP_MD_CTX_new(), &EVP_MD_CTX_free);
-  if (!context || EVP_DigestInit_ex(context.get(), EVP_sha256(), nullptr) != 1)
-    throw EnvironmentError(file.string(), "", "libcrypto offers no SHA-256", "use an OpenSSL with SHA-256");
+  Sha256 hash;
   std::array<char, 1 << 16> block;
-  while (stream.read(block.data(), block.size()), stream.gcount() > 0) {
-    if (EVP_DigestUpdate(context.get(), block.data(), static_cast<std::size_t>(stream.gcount())) != 1)
-      throw EnvironmentError(file.string(), "", "libcrypto failed to hash", "check the OpenSSL installation");
-  }
+  while (stream.read(block.data(), block.size()), stream.gcount() > 0)
+    hash.add({block.data(), static_cast<std::size_t>(stream.gcount())});
   if (stream.bad())
     throw InputError(file.string(), "", "cannot be read to its end", "check the disk and the permissions");
+  return hash.hexadecimal();
+}
 
-  std::array<unsigned char, EVP_MAX_MD_SIZE> digest;
-  unsigned int digest_length = 0;
-  if (EVP_DigestFinal_ex(context.get(), digest.data(), &digest_length) != 1)
-    throw EnvironmentError(file.string(), "", "libcrypto failed to hash", "check the OpenSSL installation");
-  std::string text;
-  for (unsigned int i = 0; i < digest_length; ++i) text += fmt::format("{:02x}", digest[i]);
-  return text;
+std::string sha256_of_text(std::string_view text) {
+  Sha256 hash;
+  hash.add(text);
+  return hash.hexadecimal();
 }
 
 }  // namespace lmdbench

@@ -4,11 +4,15 @@
 
 #include <filesystem>
 #include <string>
+#include <string_view>
 
 namespace lmdbench {
 
 /// SHA-256 of a file's bytes, lower-case hexadecimal.
 /// @throws InputError when the file cannot be read
 std::string sha256_of_file(const std::filesystem::path& file);
+
+/// SHA-256 of the bytes of a text, lower-case hexadecimal.
+std::string sha256_of_text(std::string_view text);
 
 }  // namespace lmdbench

@@ -144,14 +144,18 @@ std::optional<TriangleMesh> read_off(const std::filesystem::path& file) {
   return mesh;
 }
 
-void write_off(const std::filesystem::path& file, const TriangleMesh& mesh) {
+std::string to_off_text(const TriangleMesh& mesh) {
   fmt::memory_buffer text;
   const auto out = std::back_inserter(text);
   fmt::format_to(out, "OFF\n{} {} 0\n", mesh.vertices.size(), mesh.triangles.size());
   for (const Vec3& vertex : mesh.vertices)
     fmt::format_to(out, "{} {} {}\n", vertex.x(), vertex.y(), vertex.z());
   for (const auto& [a, b, c] : mesh.triangles) fmt::format_to(out, "3 {} {} {}\n", a, b, c);
-  write_file_atomically(file, {text.data(), text.size()});
+  return fmt::to_string(text);
+}
+
+void write_off(const std::filesystem::path& file, const TriangleMesh& mesh) {
+  write_file_atomically(file, to_off_text(mesh));
 }
 
 }  // namespace lmdbench

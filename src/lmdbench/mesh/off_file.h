@@ -6,6 +6,7 @@
 
 #include <filesystem>
 #include <optional>
+#include <string>
 
 namespace lmdbench {
 
@@ -17,8 +18,10 @@ namespace lmdbench {
 /// @throws InputError naming the line
 std::optional<TriangleMesh> read_off(const std::filesystem::path& file);
 
-/// Writes OFF text with the shortest decimals that read back to the same bits. Atomic: the file has its old
-/// content or the whole new one.
+/// OFF text with the shortest decimals that read back to the same bits.
+std::string to_off_text(const TriangleMesh& mesh);
+
+/// Writes `to_off_text` atomically: the file has its old content or the whole new one.
 /// @throws EnvironmentError when the file cannot be written
 void write_off(const std::filesystem::path& file, const TriangleMesh& mesh);
 

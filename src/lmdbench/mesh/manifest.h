@@ -1,0 +1,77 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <lmdbench/mesh/triangle_mesh.h>
+
+#include <nlohmann/json.hpp>
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace lmdbench {
+
+/// A third-party mesh file inside an archive of a Debian package: fetched at set-up, checked, never
+/// committed.
+struct MeshSource {
+  std::string name;
+  std::string package;  ///< Debian package, fetched with `apt-get download`
+  std::string archive;  ///< Path of a tar archive in the package
+  std::string path;     ///< Path of the mesh file in the archive
+  std::string sha256;   ///< Of the mesh file
+  std::string licence;  ///< As far as it is stated
+  std::string credit;
+};
+
+/// A mesh that experiments can name: a source, decimated or not, or a generated shape.
+struct ManifestEntry {
+  std::string name;
+  std::string description;
+  std::optional<MeshSource> source;              ///< Exactly one of source and shape.
+  std::optional<nlohmann::json> shape;           ///< Recipe for `make_shape`.
+  std::optional<std::int32_t> target_triangles;  ///< Decimation; absent: as it is.
+  std::int64_t triangles = 0;                    ///< Of the built mesh.
+  std::string
+      sha256;  ///< Of the built file: tells when a tool's new version makes another mesh. May be empty.
+};
+
+struct Manifest {
+  std::filesystem::path file;  ///< Where it was read from; built meshes stand in the same folder.
+  std::vector<ManifestEntry> entries;
+
+  const ManifestEntry* find(std::string_view name) const;
+  /// <folder>/<name>.off: OFF text with the shortest decimals that read back to the same bits (off_file.h).
+  std::filesystem::path built_file(const ManifestEntry& entry) const;
+};
+
+inline constexpr const char* DEFAULT_MESH_FOLDER = "meshes";
+
+/// Reads a manifest and checks it against its schema.
+/// @throws InputError naming the JSON pointer
+Manifest load_manifest(const std::filesystem::path& file);
+
+/// A mesh as an experiment or a command names it.
+struct ResolvedMesh {
+  std::string name;  ///< As it was named.
+  TriangleMesh mesh;
+  std::optional<std::filesystem::path> file;  ///< What was read; nothing for a generated shape.
+  std::string
+      sha256;  ///< Of that file; of a generated shape: of the file that `lmdbench mesh build` writes for it.
+};
+
+/// Whether the text can be a manifest name (lower-case letters, digits and dashes) rather than a path.
+bool is_mesh_name(std::string_view text);
+
+/// A manifest name: generated shapes are made in memory, fetched ones read from their built file. Or a path
+/// of any mesh file. A file that is called like a name needs "./" before it.
+/// @param folder  where manifest.json and the built meshes are; not looked at for a path
+/// @throws InputError when there is no such name or file; where a mesh is not built yet the remedy says how
+ResolvedMesh resolve_mesh(const std::string& name_or_path,
+                          const std::filesystem::path& folder = DEFAULT_MESH_FOLDER);
+ResolvedMesh resolve_mesh(const std::string& name_or_path, const Manifest& manifest);
+
+}  // namespace lmdbench
