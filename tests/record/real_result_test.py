@@ -1,0 +1,160 @@
+# SPDX-FileCopyrightText: The lmdbench authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Runs the program on a small scene of its own and lets every script of scripts/figures read what it left: the result
+has the format that results/README.md describes, and holds what the scripts need. Argument: the program."""
+
+import contextlib
+import io
+import json
+import math
+import os
+import subprocess
+import sys
+import tempfile
+import unittest
+
+HERE = os.path.dirname(os.path.abspath(__file__))
+sys.path.insert(0, os.path.join(HERE, "..", "..", "scripts", "figures"))
+
+import check_format  # noqa: E402
+import claims  # noqa: E402
+import figure7  # noqa: E402
+import numpy as np  # noqa: E402
+import summary  # noqa: E402
+import work_precision  # noqa: E402
+from lmdbench_results import Result, truth_of  # noqa: E402
+
+PROGRAM = None
+ROWS, COLUMNS = 12, 24  # of the bumpy sphere
+
+
+def write_bumpy_sphere(file):
+    """A closed sphere of radius 1 m with bumps of 5 %."""
+    vertices = [(0.0, 0.0, 1.0), (0.0, 0.0, -1.0)]
+    for i in range(1, ROWS):
+        for j in range(COLUMNS):
+            polar, turn = math.pi * i / ROWS, 2 * math.pi * j / COLUMNS
+            radius = 1.0 + 0.05 * math.cos(5 * polar) * math.cos(4 * turn)
+            vertices.append((radius * math.sin(polar) * math.cos(turn), radius * math.sin(polar) * math.sin(turn),
+                             radius * math.cos(polar)))
+
+    def vertex(i, j):
+        return 2 + (i - 1) * COLUMNS + j % COLUMNS
+
+    faces = []
+    for j in range(COLUMNS):
+        faces.append((0, vertex(1, j), vertex(1, j + 1)))
+        faces.append((1, vertex(ROWS - 1, j + 1), vertex(ROWS - 1, j)))
+        for i in range(1, ROWS - 1):
+            faces.append((vertex(i, j), vertex(i + 1, j), vertex(i + 1, j + 1)))
+            faces.append((vertex(i, j), vertex(i + 1, j + 1), vertex(i, j + 1)))
+    with open(file, "w", encoding="utf-8") as stream:
+        stream.write(f"OFF\n{len(vertices)} {len(faces)} 0\n")
+        stream.writelines(f"{x!r} {y!r} {z!r}\n" for x, y, z in vertices)
+        stream.writelines(f"3 {a} {b} {c}\n" for a, b, c in faces)
+
+
+def write_path(file):
+    """From free space to a gap of a few millimetres, turning, within 0.3 s."""
+    with open(file, "w", encoding="utf-8") as stream:
+        for i in range(31):
+            turn = 0.01 * i
+            height = 2.2 - 0.18 * min(1.0, i / 15)
+            stream.write(f"{0.01 * i!r} 0 0 {height!r} 0 0 {math.sin(turn / 2)!r} {math.cos(turn / 2)!r}\n")
+
+
+def experiment(name, cutoff, lists):
+    return {
+        "name": name,
+        "title": "two bumpy spheres",
+        "moving": {"mesh": "sphere.off"},
+        "fixed": [{"mesh": "sphere.off"}],
+        "path": {"file": "path.tum"},
+        "force": {"cutoff_m": cutoff, "maximum_force_n": 2.0},
+        "methods": [
+            {"name": "original", "force_law": "linear"},
+            {"name": "improved", "force_law": "exponential"},
+            {"name": "improved", "label": "improved-loss-free", "force_law": "exponential", "reduction": "loss-free"},
+            {"name": "exhaustive", "force_law": "exponential"},
+        ],
+        "driver": {"repetitions": 3, "search_every_frames": 20, "search_latency_frames": 5},
+        "probes": {"truth": {"stride_frames": 10}, "fcl": {"stride_frames": 50}},
+        "record": {"lmds": lists},
+    }
+
+
+class RealResultTest(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.directory = tempfile.TemporaryDirectory()
+        write_bumpy_sphere(cls.path("sphere.off"))
+        write_path(cls.path("path.tum"))
+        cls.hard = cls.run_program("hard", 0.2, True)
+        cls.soft = cls.run_program("soft", 0.4, False)
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.directory.cleanup()
+
+    @classmethod
+    def path(cls, name):
+        return os.path.join(cls.directory.name, name)
+
+    @classmethod
+    def run_program(cls, name, cutoff, lists):
+        with open(cls.path(name + ".json"), "w", encoding="utf-8") as stream:
+            json.dump(experiment(name, cutoff, lists), stream)
+        result = cls.path(name + ".h5")
+        done = subprocess.run([PROGRAM, "run", cls.path(name + ".json"), "--out", result], capture_output=True, text=True,
+                              check=False, stdin=subprocess.DEVNULL)
+        if done.returncode != 0:
+            raise AssertionError(f"lmdbench run left with {done.returncode}:\n{done.stderr}")
+        return result
+
+    def printed(self, main, *arguments):
+        stream = io.StringIO()
+        with contextlib.redirect_stdout(stream):
+            self.assertEqual(main(list(arguments)), 0, stream.getvalue())
+        return stream.getvalue()
+
+    def test_results_have_the_described_format(self):
+        text = self.printed(check_format.main, self.hard, self.soft)
+        self.assertIn(" 0 differences", text)
+
+    def test_everything_described_is_there(self):
+        with open(check_format.README, encoding="utf-8") as stream:
+            described = set(check_format.described(stream.read()))
+        found = set()
+        Result(self.hard).h5.visit(lambda name: found.add(check_format.documented_path("/" + name)))
+        self.assertEqual(described - found, set())
+
+    def test_the_exhaustive_method_agrees_with_truth(self):
+        for file in (self.hard, self.soft):
+            truth = truth_of(Result(file).method("exhaustive"))
+            self.assertGreater(truth.true_count.max(), 0)
+            self.assertEqual(truth.pooled_recall(), 1.0)
+            self.assertEqual(truth.pooled_precision(), 1.0)
+            self.assertEqual(truth.rms_force_error(), 0.0)
+
+    def test_times_and_forces_are_numbers(self):
+        result = Result(self.hard)
+        self.assertEqual(result.warm_up_repetitions, 1)
+        for method in result.methods.values():
+            self.assertTrue(np.all(np.isfinite(method.read("force"))))
+            times = method.times("local_update_time")
+            self.assertEqual(times.shape, (2, result.time.size))
+            self.assertTrue(np.all(times >= 0))
+
+    def test_scripts_read_them(self):
+        out = self.path("figures")
+        self.printed(figure7.main, self.hard, self.soft, "--out", out)
+        self.printed(work_precision.main, self.hard, self.soft, "--out", out)
+        self.assertIn("K10:", self.printed(claims.main, self.hard, self.soft, "--out", out))
+        self.assertIn("improved-loss-free", self.printed(summary.main, self.hard, self.soft))
+        self.assertEqual(sorted(os.listdir(out)), ["claims.json", "claims.md", "figure7.png", "figure7.svg",
+                                                   "work_precision.png", "work_precision.svg"])
+
+
+if __name__ == "__main__":
+    PROGRAM = os.path.abspath(sys.argv.pop(1))
+    unittest.main()
