@@ -4,6 +4,7 @@
 
 #include <lmdbench/mesh/surface.h>
 #include <lmdbench/snch/hierarchy.h>
+#include <lmdbench/snch/wide_hierarchy.h>
 
 #include <memory>
 #include <mutex>
@@ -26,12 +27,18 @@ class Body {
     std::call_once(hierarchy_once_, [this] { hierarchy_ = build_hierarchy(surface_); });
     return hierarchy_;
   }
+  const WideHierarchy& wide_hierarchy() const {
+    std::call_once(wide_hierarchy_once_, [this] { wide_hierarchy_ = build_wide_hierarchy(surface_); });
+    return wide_hierarchy_;
+  }
 
  private:
   std::string name_;
   Surface surface_;
   mutable std::once_flag hierarchy_once_;
   mutable Hierarchy hierarchy_;
+  mutable std::once_flag wide_hierarchy_once_;
+  mutable WideHierarchy wide_hierarchy_;
 };
 
 }  // namespace lmdbench

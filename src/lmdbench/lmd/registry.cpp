@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/error.h>
+#include <lmdbench/lmd/certified.h>
 #include <lmdbench/lmd/exhaustive.h>
 #include <lmdbench/lmd/improved.h>
 #include <lmdbench/lmd/original.h>
@@ -28,6 +29,10 @@ constexpr std::array REGISTRY{
     Registration{"improved",
                  [](const Scene& scene, const MethodOptions& options) -> std::unique_ptr<Method> {
                    return std::make_unique<Improved>(scene, options);
+                 }},
+    Registration{"certified",
+                 [](const Scene& scene, const MethodOptions&) -> std::unique_ptr<Method> {
+                   return std::make_unique<Certified>(scene);
                  }},
     Registration{"exhaustive",
                  [](const Scene& scene, const MethodOptions&) -> std::unique_ptr<Method> {

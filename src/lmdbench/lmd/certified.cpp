@@ -1,0 +1,157 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/geometry/triangle_distance.h>
+#include <lmdbench/lmd/certified.h>
+#include <lmdbench/lmd/first_order.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace lmdbench {
+
+namespace {
+
+/// Distance, relative to the coordinates, at or below which a direction is dominated by the rounding of the
+/// points.
+constexpr double RELATIVE_TOUCH = 1e-9;
+/// PairFilter::margin: above the error of a direction at half the touch distance (4 * 2.2e-16 / 5e-10).
+constexpr double FILTER_MARGIN = 1e-5;
+/// PairFilter::tiny relative to the coordinates: roundings of such a length's ends are well under the margin.
+constexpr double RELATIVE_TINY = 1e-8;
+/// Two minima whose distances differ by more than this part of them cannot be on one plateau (its tolerance
+/// is 1e-9).
+constexpr double APART = 1e-6;
+
+/// All corners of a are on one side of b's plane, farther than `touch` away.
+bool plane_separates(const Triangle& a, const Triangle& b, const Vec3& normal_b, double touch) {
+  if (normal_b.isZero(0.0)) return false;
+  const double h0 = normal_b.dot(a[0] - b[0]), h1 = normal_b.dot(a[1] - b[0]), h2 = normal_b.dot(a[2] - b[0]);
+  return std::min({h0, h1, h2}) > touch || std::max({h0, h1, h2}) < -touch;
+}
+
+}  // namespace
+
+Certified::Certified(Scene scene, WideKernel kernel) : scene_(std::move(scene)), kernel_(kernel) {
+  scene_.moving->wide_hierarchy();
+  for (const auto& body : scene_.fixed) body->wide_hierarchy();
+}
+
+bool Certified::evaluate(const PairFilter& filter, std::int32_t body, const TrianglePair& pair,
+                         LocalMinimum& minimum, WorkCounters& counters) const {
+  const Triangle a = filter.X_WM.triangle(filter.moving.mesh.triangle(pair.moving));
+  const TrianglePairDistance nearest = triangle_distance(a, filter.fixed.mesh.triangle(pair.fixed));
+  ++counters[Counter::TRIANGLE_DISTANCES];
+  if (!(nearest.squared_distance <= scene_.cutoff * scene_.cutoff)) {
+    ++counters[Counter::REJECTED_CUTOFF];
+    return false;
+  }
+  minimum = LocalMinimum{};
+  minimum.lmd.distance = std::sqrt(nearest.squared_distance);
+  minimum.lmd.point_moving = nearest.point_a;
+  minimum.lmd.point_fixed = nearest.point_b;
+  minimum.lmd.feature_moving = filter.moving.feature_of(pair.moving, nearest.feature_a);
+  minimum.lmd.feature_fixed = filter.fixed.feature_of(pair.fixed, nearest.feature_b);
+  minimum.lmd.triangle_moving = pair.moving;
+  minimum.lmd.triangle_fixed = pair.fixed;
+  minimum.lmd.fixed_body = body;
+  minimum.lmd.intersecting = nearest.intersecting;
+  if (minimum.lmd.distance > 0.0)
+    minimum.lmd.direction = (nearest.point_b - nearest.point_a) / minimum.lmd.distance;
+  minimum.dimension = nearest.minimiser_dimension;
+  minimum.measure = nearest.minimiser_measure;
+  ++counters[Counter::FIRST_ORDER_TESTS];
+  return is_local_minimum(filter.moving, filter.X_WM, filter.fixed, minimum.lmd);
+}
+
+void Certified::decide(const PairFilter& filter, std::int32_t body, WorkCounters& counters) {
+  for (const WidePair& candidate : scratch_.lmd_pairs) {
+    const FeatureId on_moving = candidate.a.feature_id(), on_fixed = candidate.b.feature_id();
+    const PairVerdict verdict = filter(on_moving, on_fixed);
+    if (verdict == PairVerdict::NO_LMD) continue;
+    const auto triangles_moving = filter.moving.incident_triangles(on_moving);
+    const auto triangles_fixed = filter.fixed.incident_triangles(on_fixed);
+    if (verdict == PairVerdict::LMD) {
+      LocalMinimum minimum;
+      if (evaluate(filter, body, {triangles_moving.front(), triangles_fixed.front()}, minimum, counters) &&
+          minimum.lmd.feature_moving == on_moving && minimum.lmd.feature_fixed == on_fixed) {
+        minima_.push_back(minimum);
+        continue;
+      }
+      // The kernel sees the pair otherwise (a triangle without area, say): leave nothing to one triangle
+      // pair.
+    }
+    for (const std::int32_t t_moving : triangles_moving)
+      for (const std::int32_t t_fixed : triangles_fixed) pending_.push_back({t_moving, t_fixed});
+  }
+}
+
+void Certified::decide_touching(const PairFilter& filter, std::int32_t body, WorkCounters& counters) {
+  for (const WidePair& candidate : scratch_.touch_pairs) {
+    const TrianglePair pair{candidate.a.feature_id().index, candidate.b.feature_id().index};
+    const Triangle a = filter.X_WM.triangle(filter.moving.mesh.triangle(pair.moving));
+    const Triangle b = filter.fixed.mesh.triangle(pair.fixed);
+    const Vec3 normal_a =
+        filter.X_WM.direction(filter.moving.face_normals[static_cast<std::size_t>(pair.moving)]);
+    const Vec3& normal_b = filter.fixed.face_normals[static_cast<std::size_t>(pair.fixed)];
+    if (plane_separates(a, b, normal_b, 2.0 * filter.touch) ||
+        plane_separates(b, a, normal_a, 2.0 * filter.touch))
+      continue;
+    pending_.push_back(pair);
+  }
+  std::sort(pending_.begin(), pending_.end());
+  pending_.erase(std::unique(pending_.begin(), pending_.end()), pending_.end());
+  LocalMinimum minimum;
+  for (const TrianglePair& pair : pending_)
+    if (evaluate(filter, body, pair, minimum, counters)) minima_.push_back(minimum);
+  pending_.clear();
+}
+
+void Certified::report(double coordinates, LmdSet& lmds) {
+  for (std::size_t i = 0; i < minima_.size(); ++i) {
+    for (std::size_t j = i + 1; j < minima_.size(); ++j) {
+      const double a = minima_[i].lmd.distance, b = minima_[j].lmd.distance;
+      if (std::abs(a - b) > APART * std::max(a, b) + RELATIVE_TOUCH * coordinates) continue;
+      merge_plateaus(scene_, minima_, lmds);
+      return;
+    }
+  }
+  lmds.clear();
+  for (const LocalMinimum& minimum : minima_) lmds.push_back(minimum.lmd);
+  std::sort(lmds.begin(), lmds.end(), lmd_less);
+}
+
+void Certified::search(const Pose& X_WM, LmdSet& lmds, WorkCounters& counters) {
+  const RigidTransform transform(X_WM);
+  const WideHierarchy& moving = scene_.moving->wide_hierarchy();
+  minima_.clear();
+  double coordinates = transform.point(moving.origin).cwiseAbs().maxCoeff() + moving.radius;
+  for (const auto& body : scene_.fixed) {
+    const WideHierarchy& fixed = body->wide_hierarchy();
+    coordinates = std::max(coordinates, fixed.origin.cwiseAbs().maxCoeff() + fixed.radius);
+  }
+  const double touch = RELATIVE_TOUCH * coordinates;
+
+  for (std::size_t body = 0; body < scene_.fixed.size(); ++body) {
+    const WideHierarchy& fixed = scene_.fixed[body]->wide_hierarchy();
+    const PairFilter filter{scene_.moving->surface(),
+                            transform,
+                            scene_.fixed[body]->surface(),
+                            scene_.cutoff,
+                            touch,
+                            FILTER_MARGIN,
+                            RELATIVE_TINY * coordinates};
+    const WideQuery query(moving, fixed, transform, scene_.cutoff, touch);
+    WideCounters work;
+    find_wide_pairs(moving, fixed, query, kernel_, scratch_, work);
+    counters[Counter::NODE_PAIRS] += work.node_pairs;
+    counters[Counter::REJECTED_G1] += work.rejected_g1;
+    counters[Counter::REJECTED_G2] += work.rejected_g2;
+    counters[Counter::REJECTED_G3] += work.rejected_g3;
+    counters[Counter::LEAF_PAIRS] += scratch_.lmd_pairs.size() + scratch_.touch_pairs.size();
+    decide(filter, static_cast<std::int32_t>(body), counters);
+    decide_touching(filter, static_cast<std::int32_t>(body), counters);
+  }
+  report(coordinates, lmds);
+}
+
+}  // namespace lmdbench

@@ -1,0 +1,74 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <lmdbench/lmd/certified_filter.h>
+#include <lmdbench/lmd/method.h>
+#include <lmdbench/lmd/plateau.h>
+#include <lmdbench/lmd/scene.h>
+#include <lmdbench/snch/wide_traversal.h>
+
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+namespace lmdbench {
+
+/// The third algorithm (design section 4): the exact and complete LMD set in every frame, without a second
+/// rate.
+///
+/// 1. Both meshes have a wide hierarchy over their features with non-empty outward polar cone
+/// (wide_hierarchy.h).
+///    Descending both finds every feature pair that bounds cannot reject (wide_traversal.h).
+/// 2. A closed-form test in double precision rejects nearly all of those (certified_filter.h).
+/// 3. What is left is decided by the predicates that define the ground truth: exact triangle distance,
+/// first-order
+///    test, plateau merging (first_order.h, plateau.h).
+///
+/// Why the set equals `exhaustive`'s. *Precision*: an LMD is reported only if a triangle pair within the
+/// cutoff passes the truth's own predicates (step 3). *Recall*: take a triangle pair that the truth accepts,
+/// with features f and g, points p and q and distance d.
+/// - d > touch (1e-9 of the coordinates). Then q - p is an accurate direction, and it lies in f's and g's
+/// polar cones
+///   up to 2e-6 (the truth's tolerance and the rounding of p and q). So both have a cap (polar_cap.h, empty
+///   only with that slack) and are leaves; the pair passes every bound above it (wide_node_test.h), and the
+///   filter, whose margin is larger than the slack. If the filter finds every condition to hold by more than
+///   the margin, (p, q) is the strict minimum of *every* incident triangle pair, |x - y|^2 being convex on
+///   each, and one of them gives the same points; else all incident triangle pairs are evaluated, the
+///   accepted one among them.
+/// - d <= touch, or the triangles intersect. Directions mean nothing there, but the two faces touch within
+/// the touch
+///   distance: every triangle is a leaf, even one without area, and the touch test looks at no cone.
+/// The merging of plateaus is the truth's, and it sees the same minima.
+class Certified : public Method {
+ public:
+  explicit Certified(Scene scene, WideKernel kernel = WideKernel::VECTOR);
+
+  std::string_view name() const override { return "certified"; }
+  bool tracks_locally() const override { return false; }
+  int trackings_after_search() const override { return 0; }
+  void search(const Pose& X_WM, LmdSet& lmds, WorkCounters& counters) override;
+  void track(const Pose& X_WM, LmdSet& lmds, WorkCounters& counters) override {
+    search(X_WM, lmds, counters);
+  }
+
+ private:
+  struct TrianglePair {
+    std::int32_t moving, fixed;
+    auto operator<=>(const TrianglePair&) const = default;
+  };
+
+  void decide(const PairFilter& filter, std::int32_t body, WorkCounters& counters);
+  void decide_touching(const PairFilter& filter, std::int32_t body, WorkCounters& counters);
+  bool evaluate(const PairFilter& filter, std::int32_t body, const TrianglePair& pair, LocalMinimum& minimum,
+                WorkCounters& counters) const;
+  void report(double coordinates, LmdSet& lmds);
+
+  Scene scene_;
+  WideKernel kernel_;
+  WideScratch scratch_;
+  std::vector<TrianglePair> pending_;
+  std::vector<LocalMinimum> minima_;
+};
+
+}  // namespace lmdbench

@@ -1,0 +1,37 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <lmdbench/mesh/surface.h>
+
+#include <optional>
+
+namespace lmdbench {
+
+/// Circular cone around a feature's outward polar cone (design section 2): every direction in which an LMD
+/// may leave the feature lies inside. Half angle phi below 90 degrees, kept as cosine and sine; where no such
+/// cone exists the axis is zero, which means all directions.
+struct PolarCap {
+  Vec3 axis = Vec3::Zero();  ///< unit in the mesh's frame, or zero for all directions
+  double cosine = 0.0;
+  double sine = 1.0;
+
+  bool is_all_directions() const { return axis.isZero(0.0); }
+};
+
+/// Angle [rad] by which the caps are wider than the polar cones. It covers what the first-order test allows a
+/// direction to leave its cone by: the angle tolerance (1e-10) and the rounding of two points whose distance
+/// is at least 1e-9 of their coordinates (8 * 2.2e-16 / 1e-9 = 1.8e-6).
+inline constexpr double POLAR_SLACK = 2e-6;
+
+/// Cap of a feature, or nothing when the polar cone is empty even with the slack: such a feature (a reflex
+/// edge, a saddle vertex, a pit) carries no LMD. A face without area carries none either.
+///
+/// The cone { n : n.e <= s |e| for all e } with e the edge directions (and the negated pseudo-normal where
+/// the feature has an outer side) is a spherical polygon. Its corners lie where two of the planes cross;
+/// those crossings that satisfy the other constraints up to the slack, amplified by how obliquely the two
+/// planes cross, bound it. Boundary and non-manifold features have no outer side and usually get all
+/// directions.
+std::optional<PolarCap> polar_cap(const Surface& surface, const FeatureId& feature);
+
+}  // namespace lmdbench

@@ -1,0 +1,254 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/snch/single_precision.h>
+#include <lmdbench/snch/wide_traversal.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <limits>
+
+// The rest of this file is compiled once for every instruction set.
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "lmdbench/snch/wide_traversal.cpp"
+#include <hwy/foreach_target.h>
+// After foreach_target.h:
+#include <hwy/highway.h>
+
+HWY_BEFORE_NAMESPACE();
+namespace lmdbench::HWY_NAMESPACE {
+
+namespace hn = hwy::HWY_NAMESPACE;
+
+/// Lanes per vector: eight, or four twice where vectors are 128 bits wide.
+using Lanes = hn::CappedTag<float, WIDE_WIDTH>;
+
+template <class Mask>
+HWY_INLINE std::uint32_t mask_bits(Lanes lanes, Mask mask, std::uint32_t first) {
+  alignas(8) std::uint8_t bytes[8] = {};
+  hn::StoreMaskBits(lanes, mask, bytes);
+  const std::uint32_t all = hn::Lanes(lanes) >= 8 ? 0xFFu : (1u << hn::Lanes(lanes)) - 1u;
+  return (bytes[0] & all) << first;
+}
+
+/// The same operations in the same order as test_lanes_scalar.
+struct VectorTest {
+  HWY_INLINE WideMasks operator()(const WideNode& node, const WideProbe& probe,
+                                  const WideLimits& limits) const {
+    const Lanes f;
+    const hn::RebindToUnsigned<Lanes> u;
+    const auto squared = [](auto x) HWY_ATTR { return hn::Mul(x, x); };
+    const auto zero = hn::Zero(f);
+    const auto rounding = hn::Set(f, limits.rounding);
+    const auto cutoff = hn::Set(f, limits.cutoff);
+    const auto touch_limit = hn::Set(f, limits.touch);
+    const auto direction_rounding = hn::Set(f, DIRECTION_ROUNDING);
+    const auto probe_axis_x = hn::Set(f, probe.axis[0]);
+    const auto probe_axis_y = hn::Set(f, probe.axis[1]);
+    const auto probe_axis_z = hn::Set(f, probe.axis[2]);
+    const auto probe_radius = hn::Set(f, probe.radius);
+    const auto probe_thickness = hn::Set(f, probe.thickness);
+    const auto probe_cosine = hn::Set(f, probe.cosine);
+    const auto probe_sine = hn::Set(f, probe.sine);
+
+    WideMasks masks;
+    for (std::uint32_t first = 0; first < WIDE_WIDTH; first += static_cast<std::uint32_t>(hn::Lanes(f))) {
+      const auto dx = hn::Sub(hn::Load(f, node.centre[0] + first), hn::Set(f, probe.centre[0]));
+      const auto dy = hn::Sub(hn::Load(f, node.centre[1] + first), hn::Set(f, probe.centre[1]));
+      const auto dz = hn::Sub(hn::Load(f, node.centre[2] + first), hn::Set(f, probe.centre[2]));
+      const auto ux = hn::Load(f, node.axis[0] + first);
+      const auto uy = hn::Load(f, node.axis[1] + first);
+      const auto uz = hn::Load(f, node.axis[2] + first);
+      const auto squared_distance = hn::Add(hn::Add(hn::Mul(dx, dx), hn::Mul(dy, dy)), hn::Mul(dz, dz));
+      const auto z_probe =
+          hn::Add(hn::Add(hn::Mul(dx, probe_axis_x), hn::Mul(dy, probe_axis_y)), hn::Mul(dz, probe_axis_z));
+      const auto z_lane = hn::Neg(hn::Add(hn::Add(hn::Mul(dx, ux), hn::Mul(dy, uy)), hn::Mul(dz, uz)));
+      const auto between =
+          hn::Add(hn::Add(hn::Mul(ux, probe_axis_x), hn::Mul(uy, probe_axis_y)), hn::Mul(uz, probe_axis_z));
+      const auto across = hn::Sqrt(
+          hn::Add(hn::Max(hn::Sub(hn::Set(f, 1.0F), hn::Mul(between, between)), zero), direction_rounding));
+      const auto along = hn::Abs(between);
+      const auto radius = hn::Load(f, node.radius + first);
+      const auto thickness = hn::Load(f, node.thickness + first);
+      const auto radii = hn::Add(hn::Add(radius, probe_radius), rounding);
+      const auto slab_probe = hn::Add(hn::Add(probe_thickness, rounding),
+                                      hn::Add(hn::Mul(thickness, along), hn::Mul(radius, across)));
+      const auto slab_lane = hn::Add(hn::Add(thickness, rounding),
+                                     hn::Add(hn::Mul(probe_thickness, along), hn::Mul(probe_radius, across)));
+
+      const auto touch = hn::And(hn::Le(squared_distance, squared(hn::Add(touch_limit, radii))),
+                                 hn::And(hn::Le(hn::Abs(z_probe), hn::Add(touch_limit, slab_probe)),
+                                         hn::Le(hn::Abs(z_lane), hn::Add(touch_limit, slab_lane))));
+      const auto near = hn::And(
+          hn::Le(squared_distance, squared(hn::Add(cutoff, radii))),
+          hn::And(hn::Le(z_probe, hn::Add(cutoff, slab_probe)), hn::Le(z_lane, hn::Add(cutoff, slab_lane))));
+
+      const auto cosine = hn::Load(f, node.cosine + first);
+      const auto sine = hn::Load(f, node.sine + first);
+      const auto collinear = hn::Ge(
+          hn::Neg(between),
+          hn::Sub(hn::Sub(hn::Mul(cosine, probe_cosine), hn::Mul(sine, probe_sine)), direction_rounding));
+
+      const auto least_squared_distance = hn::Mul(squared_distance, hn::Set(f, 1.0F - DIRECTION_ROUNDING));
+      const auto reach_probe = hn::Add(z_probe, slab_probe);
+      const auto reach_lane = hn::Add(z_lane, slab_lane);
+      const auto side_probe =
+          hn::Add(hn::Mul(radii, probe_cosine),
+                  hn::Mul(probe_sine, hn::Min(reach_probe, hn::Mul(cutoff, probe_cosine))));
+      const auto side_lane =
+          hn::Add(hn::Mul(radii, cosine), hn::Mul(sine, hn::Min(reach_lane, hn::Mul(cutoff, cosine))));
+      const auto directed = hn::And(
+          hn::And(hn::Ge(reach_probe, zero), hn::Ge(reach_lane, zero)),
+          hn::And(hn::Le(hn::Mul(hn::Sub(least_squared_distance, squared(z_probe)), squared(probe_cosine)),
+                         squared(side_probe)),
+                  hn::Le(hn::Mul(hn::Sub(least_squared_distance, squared(z_lane)), squared(cosine)),
+                         squared(side_lane))));
+
+      const auto used = hn::Ne(hn::Load(u, node.child + first), hn::Zero(u));
+      const std::uint32_t used_bits = mask_bits(f, hn::RebindMask(f, used), first);
+      const std::uint32_t touch_bits = mask_bits(f, touch, first) & used_bits;
+      const std::uint32_t near_bits = mask_bits(f, near, first) & used_bits;
+      const std::uint32_t collinear_bits = mask_bits(f, collinear, first);
+      const std::uint32_t directed_bits = mask_bits(f, directed, first);
+      masks.used |= used_bits;
+      masks.touch |= touch_bits;
+      masks.lmd |= near_bits & collinear_bits & directed_bits;
+      masks.beyond |= used_bits & ~touch_bits & ~near_bits;
+      masks.not_collinear |= near_bits & ~touch_bits & ~collinear_bits;
+    }
+    return masks;
+  }
+};
+
+struct ScalarTest {
+  WideMasks operator()(const WideNode& node, const WideProbe& probe, const WideLimits& limits) const {
+    return test_lanes_scalar(node, probe, limits);
+  }
+};
+
+template <class Test>
+void descend(const WideHierarchy& a, const WideHierarchy& b, const WideQuery& query, WideScratch& scratch,
+             WideCounters& counters) {
+  const Test test{};
+  const WideNode* const nodes_a = a.nodes.data();
+  const WideNode* const nodes_b = b.nodes.data();
+  scratch.stack.push_back({0, 0});
+  while (!scratch.stack.empty()) {
+    const WideSlots slots = scratch.stack.back();
+    scratch.stack.pop_back();
+    const WideNode& home_a = nodes_a[slots.a / WIDE_WIDTH];
+    const WideNode& home_b = nodes_b[slots.b / WIDE_WIDTH];
+    const std::uint32_t lane_a = slots.a % WIDE_WIDTH, lane_b = slots.b % WIDE_WIDTH;
+    const WideRef ref_a = WideRef::from_bits(home_a.child[lane_a]);
+    const WideRef ref_b = WideRef::from_bits(home_b.child[lane_b]);
+    // The larger child is opened; a feature cannot be.
+    const bool open_a =
+        ref_b.is_feature() || (!ref_a.is_feature() && home_a.radius[lane_a] > home_b.radius[lane_b]);
+    const WideProbe probe =
+        open_a ? make_probe(home_b, lane_b, query.b_in_a) : make_probe(home_a, lane_a, query.a_in_b);
+    const WideRef probe_ref = open_a ? ref_b : ref_a;
+    const std::uint32_t opened = open_a ? ref_a.node_index() : ref_b.node_index();
+    const WideNode& node = open_a ? nodes_a[opened] : nodes_b[opened];
+
+    const WideMasks masks = test(node, probe, query.limits);
+    ++counters.node_tests;
+    const std::uint32_t alive = masks.lmd | masks.touch;
+    counters.node_pairs += static_cast<std::uint64_t>(std::popcount(masks.used));
+    counters.rejected_g1 += static_cast<std::uint64_t>(std::popcount(masks.beyond));
+    counters.rejected_g2 += static_cast<std::uint64_t>(std::popcount(masks.not_collinear));
+    counters.rejected_g3 +=
+        static_cast<std::uint64_t>(std::popcount(masks.used & ~alive & ~masks.beyond & ~masks.not_collinear));
+    for (std::uint32_t left = alive; left != 0; left &= left - 1) {
+      const auto lane = static_cast<std::uint32_t>(std::countr_zero(left));
+      const WideRef child = WideRef::from_bits(node.child[lane]);
+      const bool may_be_lmd = (masks.lmd >> lane & 1u) != 0;
+      if (!child.is_feature() || !probe_ref.is_feature()) {
+        // What can only touch matters for faces alone.
+        if (!may_be_lmd && child.is_feature() && child.feature_id().kind != FeatureKind::FACE) continue;
+        const std::uint32_t slot = opened * WIDE_WIDTH + lane;
+        scratch.stack.push_back(open_a ? WideSlots{slot, slots.b} : WideSlots{slots.a, slot});
+        continue;
+      }
+      const WidePair pair = open_a ? WidePair{child, probe_ref} : WidePair{probe_ref, child};
+      if (may_be_lmd) scratch.lmd_pairs.push_back(pair);
+      if ((masks.touch >> lane & 1u) != 0 && child.feature_id().kind == FeatureKind::FACE &&
+          probe_ref.feature_id().kind == FeatureKind::FACE)
+        scratch.touch_pairs.push_back(pair);
+    }
+  }
+}
+
+void DescendVector(const WideHierarchy& a, const WideHierarchy& b, const WideQuery& query,
+                   WideScratch& scratch, WideCounters& counters) {
+  descend<VectorTest>(a, b, query, scratch, counters);
+}
+
+void DescendScalar(const WideHierarchy& a, const WideHierarchy& b, const WideQuery& query,
+                   WideScratch& scratch, WideCounters& counters) {
+  descend<ScalarTest>(a, b, query, scratch, counters);
+}
+
+void TestVector(const WideNode& node, const WideProbe& probe, const WideLimits& limits, WideMasks& masks) {
+  masks = VectorTest{}(node, probe, limits);
+}
+
+const char* TargetName() {
+  return hwy::TargetName(HWY_TARGET);
+}
+
+}  // namespace lmdbench::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+
+namespace lmdbench {
+
+HWY_EXPORT(DescendVector);
+HWY_EXPORT(DescendScalar);
+HWY_EXPORT(TestVector);
+HWY_EXPORT(TargetName);
+
+WideQuery::WideQuery(const WideHierarchy& a, const WideHierarchy& b, const RigidTransform& X_BA,
+                     double cutoff, double touch) {
+  const Vec3 p_BA = X_BA.point(a.origin) - b.origin;  // a's origin in b's hierarchy frame
+  const double between = p_BA.norm();
+  const double size = between + a.radius + b.radius;
+  possible = !a.nodes.empty() && !b.nodes.empty() &&
+             between <= (a.radius + b.radius + std::max(cutoff, touch)) * (1.0 + POSITION_ROUNDING);
+  if (!possible) return;
+  a_in_b = WideTransform(X_BA.rotation, p_BA);
+  b_in_a = WideTransform(X_BA.rotation.transpose(), -(X_BA.rotation.transpose() * p_BA));
+  // The rounding of the two origins in the mesh frames is that of double precision, but grows with their
+  // coordinates.
+  const double far_away = 1e-15 * (X_BA.translation.norm() + a.origin.norm() + b.origin.norm());
+  limits.cutoff = round_up_to_single(std::min(cutoff, 2.0 * size));
+  limits.touch = round_up_to_single(touch);
+  limits.rounding = round_up_to_single(POSITION_ROUNDING * size + far_away);
+}
+
+void find_wide_pairs(const WideHierarchy& a, const WideHierarchy& b, const WideQuery& query,
+                     WideKernel kernel, WideScratch& scratch, WideCounters& counters) {
+  scratch.stack.clear();
+  scratch.lmd_pairs.clear();
+  scratch.touch_pairs.clear();
+  if (!query.possible) return;
+  if (kernel == WideKernel::VECTOR) {
+    HWY_DYNAMIC_DISPATCH(DescendVector)(a, b, query, scratch, counters);
+  } else {
+    HWY_DYNAMIC_DISPATCH(DescendScalar)(a, b, query, scratch, counters);
+  }
+}
+
+WideMasks test_lanes_vector(const WideNode& node, const WideProbe& probe, const WideLimits& limits) {
+  WideMasks masks;
+  HWY_DYNAMIC_DISPATCH(TestVector)(node, probe, limits, masks);
+  return masks;
+}
+
+std::string_view wide_kernel_target() {
+  return HWY_DYNAMIC_DISPATCH(TargetName)();
+}
+
+}  // namespace lmdbench
+
+#endif  // HWY_ONCE

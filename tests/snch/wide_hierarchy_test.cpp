@@ -1,0 +1,302 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/mesh/polar_cone.h>
+#include <lmdbench/snch/polar_cap.h>
+#include <lmdbench/snch/wide_hierarchy.h>
+#include <lmdbench/snch/wide_traversal.h>
+
+#include <gtest/gtest.h>
+#include <support/scenes.h>
+
+#include <algorithm>
+#include <cstring>
+#include <functional>
+#include <random>
+#include <set>
+#include <vector>
+
+namespace lmdbench {
+namespace {
+
+using testing::random_direction;
+using testing::uniform;
+
+std::vector<TriangleMesh> shapes() {
+  return {make_blob(1.0, 0.3, 3),
+          make_torus(1.0, 0.4, 20, 10),
+          make_unequal(1.0, 6, 100.0),
+          make_needles(0.5, 2.0, 40),
+          make_patch(2.0, 8, 0.2),
+          make_box({1.0, 2.0, 3.0}, 3),
+          make_l_block(1.0),
+          make_sphere(1.0, 2),
+          translated(make_blob(1.0, 0.3, 2), {1e4, 0.0, 0.0})};
+}
+
+std::vector<FeatureId> all_features(const Surface& surface) {
+  std::vector<FeatureId> features;
+  const auto add = [&](FeatureKind kind, std::size_t count) {
+    for (std::size_t i = 0; i < count; ++i) features.push_back({kind, static_cast<std::int32_t>(i)});
+  };
+  add(FeatureKind::VERTEX, surface.mesh.vertices.size());
+  add(FeatureKind::EDGE, surface.adjacency.edges.size());
+  add(FeatureKind::FACE, surface.mesh.triangles.size());
+  return features;
+}
+
+TEST(PolarCap, HoldsThePolarCone) {
+  std::size_t narrow = 0, none = 0;
+  for (const TriangleMesh& mesh : shapes()) {
+    const Surface surface = build_surface(mesh);
+    for (const FeatureId& feature : all_features(surface)) {
+      const PolarCone cone = polar_cone(surface, feature);
+      const auto cap = polar_cap(surface, feature);
+      if (!cap) {
+        EXPECT_TRUE(cone.empty()) << to_string(feature.kind) << feature.index;
+        ++none;
+        continue;
+      }
+      if (cap->is_all_directions()) continue;
+      EXPECT_NEAR(cap->axis.norm(), 1.0, 1e-12);
+      for (const Vec3& generator : cone.generators) {
+        // The generators carry a tolerance of their own.
+        EXPECT_GE(cap->axis.dot(generator), cap->cosine - POLAR_CONE_TOLERANCE)
+            << to_string(feature.kind) << feature.index;
+        EXPECT_LE(cap->axis.cross(generator).norm(), cap->sine + POLAR_CONE_TOLERANCE);
+      }
+      if (cap->cosine > 0.5) ++narrow;
+    }
+  }
+  EXPECT_GT(narrow, 1000u);
+  EXPECT_GT(none, 1000u);
+}
+
+TEST(PolarCap, IsTight) {
+  const Surface box = build_surface(make_box({1.0, 1.0, 1.0}));
+  for (const FeatureId& feature : all_features(box)) {
+    const auto cap = polar_cap(box, feature);
+    ASSERT_TRUE(cap);
+    const auto expected = [&] {
+      if (feature.kind == FeatureKind::FACE) return 1.0;
+      if (feature.kind == FeatureKind::VERTEX) return 1.0 / std::sqrt(3.0);
+      const auto triangles = box.incident_triangles(feature);
+      const bool flat = box.face_normals[static_cast<std::size_t>(triangles[0])].dot(
+                            box.face_normals[static_cast<std::size_t>(triangles[1])]) > 0.5;
+      return flat ? 1.0 : std::sqrt(0.5);
+    }();
+    EXPECT_NEAR(cap->cosine, expected, 1e-4) << to_string(feature.kind) << feature.index;
+  }
+}
+
+/// Calls visit(node, lane, features below).
+std::vector<FeatureId> visit_lanes(
+    const WideHierarchy& hierarchy, std::uint32_t node_index,
+    const std::function<void(const WideNode&, std::size_t, const std::vector<FeatureId>&)>& visit) {
+  std::vector<FeatureId> all;
+  const WideNode& node = hierarchy.nodes[node_index];
+  for (std::size_t lane = 0; lane < WIDE_WIDTH; ++lane) {
+    const WideRef ref = WideRef::from_bits(node.child[lane]);
+    if (ref.is_empty()) continue;
+    const std::vector<FeatureId> below = ref.is_feature() ? std::vector<FeatureId>{ref.feature_id()}
+                                                          : visit_lanes(hierarchy, ref.node_index(), visit);
+    visit(node, lane, below);
+    all.insert(all.end(), below.begin(), below.end());
+  }
+  return all;
+}
+
+TEST(WideHierarchy, OwnsEveryFeatureOnceAndBoundsIt) {
+  for (const WideSplit split : {WideSplit::POSITION, WideSplit::NORMAL, WideSplit::ORDER}) {
+    for (const bool full : {true, false}) {
+      for (const TriangleMesh& mesh : shapes()) {
+        const Surface surface = build_surface(mesh);
+        WideBuildOptions options;
+        options.split = split;
+        options.full_nodes = full;
+        const WideHierarchy hierarchy = build_wide_hierarchy(surface, options);
+        const auto check = [&](const WideNode& node, std::size_t lane, const std::vector<FeatureId>& below) {
+          const Vec3 centre(node.centre[0][lane], node.centre[1][lane], node.centre[2][lane]);
+          const Vec3 axis(node.axis[0][lane], node.axis[1][lane], node.axis[2][lane]);
+          for (const FeatureId& feature : below) {
+            const auto triangles = surface.incident_triangles(feature);
+            for (const std::int32_t corner : surface.mesh.triangles[static_cast<std::size_t>(triangles[0])]) {
+              if (feature.kind == FeatureKind::VERTEX && corner != feature.index) continue;
+              if (feature.kind == FeatureKind::EDGE) {
+                const auto& ends = surface.adjacency.edges[static_cast<std::size_t>(feature.index)];
+                if (corner != ends[0] && corner != ends[1]) continue;
+              }
+              const Vec3 p = surface.mesh.vertices[static_cast<std::size_t>(corner)] - hierarchy.origin;
+              ASSERT_LE((p - centre).norm(), static_cast<double>(node.radius[lane]));
+              ASSERT_LE(std::abs((p - centre).dot(axis)), static_cast<double>(node.thickness[lane]));
+            }
+            if (axis.isZero(0.0)) continue;
+            for (const Vec3& direction : polar_cone(surface, feature).generators)
+              ASSERT_GE(direction.dot(axis), static_cast<double>(node.cosine[lane]));
+          }
+        };
+        std::vector<FeatureId> owned = visit_lanes(hierarchy, 0, check);
+        std::sort(owned.begin(), owned.end());
+        std::vector<FeatureId> expected;
+        for (const FeatureId& feature : all_features(surface))
+          if (feature.kind == FeatureKind::FACE || polar_cap(surface, feature)) expected.push_back(feature);
+        EXPECT_EQ(owned, expected);
+        EXPECT_EQ(hierarchy.feature_count, expected.size());
+      }
+    }
+  }
+}
+
+TEST(WideHierarchy, IsTheSameEveryTime) {
+  const Surface surface =
+      build_surface(make_blob(1.0, 0.3, 5));  // large enough to be built by several threads
+  const WideHierarchy a = build_wide_hierarchy(surface), b = build_wide_hierarchy(surface);
+  ASSERT_EQ(a.nodes.size(), b.nodes.size());
+  EXPECT_EQ(std::memcmp(a.nodes.data(), b.nodes.data(), a.bytes()), 0);
+}
+
+TEST(WideHierarchy, IsCompact) {
+  const Surface surface = build_surface(make_blob(1.0, 0.3, 5));
+  const WideHierarchy hierarchy = build_wide_hierarchy(surface);
+  EXPECT_LE(static_cast<double>(hierarchy.bytes()) / static_cast<double>(surface.mesh.triangles.size()),
+            140.0);
+}
+
+TEST(WideHierarchy, OfAnEmptyMeshIsEmpty) {
+  EXPECT_TRUE(build_wide_hierarchy(build_surface(TriangleMesh{})).nodes.empty());
+}
+
+/// A random rotation between two hierarchies with the moving one at about `distance`.
+RigidTransform random_pose(double distance, std::mt19937_64& random) {
+  return RigidTransform(Pose{distance * random_direction(random), testing::random_rotation(random)});
+}
+
+TEST(WideNodeTest, VectorAndScalarAgreeBitForBit) {
+  std::mt19937_64 random(1);
+  std::size_t alive = 0;
+  for (const TriangleMesh& mesh : shapes()) {
+    const WideHierarchy hierarchy = build_wide_hierarchy(build_surface(mesh));
+    for (int i = 0; i < 2000; ++i) {
+      const WideQuery query(hierarchy, hierarchy, random_pose(uniform(random), random), 0.3 * uniform(random),
+                            1e-9);
+      const auto& node = hierarchy.nodes[random() % hierarchy.nodes.size()];
+      const auto& home = hierarchy.nodes[random() % hierarchy.nodes.size()];
+      const auto lane = static_cast<std::uint32_t>(random() % WIDE_WIDTH);
+      if (!query.possible || home.child[lane] == 0) continue;
+      const WideProbe probe = make_probe(home, lane, query.a_in_b);
+      const WideMasks scalar = test_lanes_scalar(node, probe, query.limits);
+      const WideMasks vector = test_lanes_vector(node, probe, query.limits);
+      ASSERT_EQ(scalar.lmd, vector.lmd);
+      ASSERT_EQ(scalar.touch, vector.touch);
+      ASSERT_EQ(scalar.used, vector.used);
+      ASSERT_EQ(scalar.beyond, vector.beyond);
+      ASSERT_EQ(scalar.not_collinear, vector.not_collinear);
+      if (scalar.lmd != 0) ++alive;
+    }
+  }
+  EXPECT_GT(alive, 100u);
+}
+
+/// Fills a lane with a random body and cone, and draws a point and a direction inside.
+struct Sample {
+  Vec3 centre, axis, point, direction;
+  double radius, thickness, cosine;
+
+  explicit Sample(std::mt19937_64& random) {
+    centre = uniform(random) * random_direction(random);
+    axis = random_direction(random);
+    radius = 0.3 * uniform(random) * uniform(random);
+    thickness = radius * uniform(random) * uniform(random);
+    cosine = 1.0 - uniform(random) * uniform(random);
+    do {
+      point = radius * uniform(random) * random_direction(random);
+    } while (std::abs(point.dot(axis)) > thickness);
+    point += centre;
+    Vec3 across = axis.unitOrthogonal();
+    across = Eigen::AngleAxisd(2.0 * std::numbers::pi * uniform(random), axis) * across;
+    const double c = cosine + (1.0 - cosine) * uniform(random);
+    direction = c * axis + std::sqrt(1.0 - c * c) * across;
+  }
+
+  void store(WideNode& node, std::size_t lane) const {
+    for (int k = 0; k < 3; ++k) {
+      node.centre[k][lane] = static_cast<float>(centre[k]);
+      node.axis[k][lane] = static_cast<float>(axis[k]);
+    }
+    node.radius[lane] = static_cast<float>(radius + 1e-6);
+    node.thickness[lane] = static_cast<float>(thickness + 1e-6);
+    node.cosine[lane] = std::max(0.0F, static_cast<float>(cosine - 5e-7));
+    node.sine[lane] = std::min(1.0F, static_cast<float>(std::sqrt(1.0 - cosine * cosine) + 5e-7));
+    node.child[lane] = 1;
+  }
+};
+
+TEST(WideNodeTest, NeverRejectsAPairOfOppositeDirections) {
+  // The lane is placed so that the direction from the probe's point to the lane's lies in both cones at a
+  // distance within the cutoff: whatever the bodies, the pair must survive. Distance at most the touch
+  // distance: must touch.
+  std::mt19937_64 random(2);
+  std::size_t rejected = 0;
+  for (int i = 0; i < 200000; ++i) {
+    const Sample a(random);
+    Sample b(random);
+    const double cutoff = 0.2 * uniform(random);
+    const double distance = cutoff * (i % 2 == 0 ? 1.0 : uniform(random));
+    // Turn b so that its direction is the opposite of a's, then move its point to a's point + distance.
+    const Mat3 turn = Eigen::Quaterniond::FromTwoVectors(b.direction, -a.direction).toRotationMatrix();
+    const Vec3 offset = a.point + distance * a.direction - turn * b.point;
+    b.centre = turn * b.centre + offset;
+    b.axis = turn * b.axis;
+    WideNode home{}, node{};
+    a.store(home, 0);
+    b.store(node, 3);
+    const WideProbe probe = make_probe(home, 0, WideTransform(Mat3::Identity(), Vec3::Zero()));
+    const double size = 1.0 + b.centre.norm();
+    const WideLimits limits{static_cast<float>(cutoff * (1.0 + 1e-7)),
+                            static_cast<float>(distance * (1.0 + 1e-7)),
+                            static_cast<float>(POSITION_ROUNDING * size)};
+    const WideMasks masks = test_lanes_scalar(node, probe, limits);
+    ASSERT_EQ(masks.lmd, 8u) << i;
+    ASSERT_EQ(masks.touch, 8u) << i;
+    // A slightly larger gap than the cutoff along a's axis is what the test is for.
+    WideLimits shorter = limits;
+    shorter.cutoff *= 0.5F;
+    shorter.touch = 0.0F;
+    if (test_lanes_scalar(node, probe, shorter).lmd == 0) ++rejected;
+  }
+  EXPECT_GT(rejected, 10000u);
+}
+
+TEST(WideTraversal, VectorAndScalarFindTheSamePairs) {
+  std::mt19937_64 random(3);
+  std::size_t pairs = 0;
+  for (const TriangleMesh& mesh : shapes()) {
+    const WideHierarchy hierarchy = build_wide_hierarchy(build_surface(mesh));
+    for (int i = 0; i < 30; ++i) {
+      const WideQuery query(hierarchy, hierarchy,
+                            random_pose(2.0 * hierarchy.radius * uniform(random), random),
+                            0.2 * uniform(random), 1e-9);
+      WideScratch vector, scalar;
+      WideCounters of_vector, of_scalar;
+      find_wide_pairs(hierarchy, hierarchy, query, WideKernel::VECTOR, vector, of_vector);
+      find_wide_pairs(hierarchy, hierarchy, query, WideKernel::SCALAR, scalar, of_scalar);
+      ASSERT_EQ(vector.lmd_pairs.size(), scalar.lmd_pairs.size());
+      for (std::size_t k = 0; k < vector.lmd_pairs.size(); ++k) {
+        ASSERT_EQ(vector.lmd_pairs[k].a, scalar.lmd_pairs[k].a);
+        ASSERT_EQ(vector.lmd_pairs[k].b, scalar.lmd_pairs[k].b);
+      }
+      EXPECT_EQ(vector.touch_pairs.size(), scalar.touch_pairs.size());
+      EXPECT_EQ(of_vector.node_pairs, of_scalar.node_pairs);
+      EXPECT_EQ(of_vector.rejected_g1, of_scalar.rejected_g1);
+      EXPECT_EQ(of_vector.rejected_g2, of_scalar.rejected_g2);
+      EXPECT_EQ(of_vector.rejected_g3, of_scalar.rejected_g3);
+      pairs += vector.lmd_pairs.size();
+      std::set<std::pair<std::uint32_t, std::uint32_t>> unique;
+      for (const WidePair& pair : vector.lmd_pairs) unique.emplace(pair.a.bits(), pair.b.bits());
+      EXPECT_EQ(unique.size(), vector.lmd_pairs.size());
+    }
+  }
+  EXPECT_GT(pairs, 1000u);
+}
+
+}  // namespace
+}  // namespace lmdbench
