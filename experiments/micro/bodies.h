@@ -11,7 +11,7 @@
 
 namespace lmdbench::micro {
 
-/// A mesh of the manifest (`lmdbench mesh build`) or a mesh file, its bounding box centred on the origin and
+/// A mesh of the manifest or a mesh file (see `resolve_mesh`), its bounding box centred on the origin and
 /// scaled to the given diagonal [m].
 std::shared_ptr<const Body> load_body(const std::string& mesh, const std::filesystem::path& meshes,
                                       double diagonal);
