@@ -72,11 +72,18 @@ experiment_files() {
   ((count > 0 && bad == 0))
 }
 
+figure_scripts() {
+  local python
+  python="$(find_python h5py matplotlib numpy)" || return
+  (cd "$ROOT" && "$python" -m unittest discover scripts/figures/tests </dev/null)
+}
+
 if ! step "Set-up" "$ROOT/scripts/setup.sh"; then
   die "$EXIT_ENVIRONMENT" "set-up failed, see above"
 fi
 
 check "Format and shell scripts" "$ROOT/scripts/lint.sh" --quick
+check "Figure scripts" figure_scripts
 if check "Build (release, warnings are errors)" build_preset release -DLMDBENCH_WARNINGS_AS_ERRORS=ON; then
   tests "Tests (release)" release
   check "Experiment files" experiment_files
