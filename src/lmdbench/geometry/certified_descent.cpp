@@ -68,29 +68,32 @@ double squared(double x) {
 Outlook look_out(const Triangle& t, const Carriers& carriers, const Vec3& d, double squared_d,
                  double squared_margin) {
   Outlook outlook;
-  double steepest = 0.0;
-  const auto judge = [&](int corner, const Vec3& way) {
+  double steepest = 0.0, squared_way_of_steepest = 1.0;
+  const auto judge = [&](int corner, const Vec3& way, double squared_scale) {
     const double ahead = way.dot(d);
     const double squared_way = way.squaredNorm();
-    const bool clear = squared(ahead) > squared_margin * (squared_way + squared_d);
-    if (!(clear && ahead < 0.0)) outlook.all_behind = false;
-    if (clear && ahead > 0.0 && squared(ahead) > steepest * squared_way) {
-      steepest = squared(ahead) / squared_way;
+    const bool clear = squared(ahead) > squared_margin * (squared_way + squared_scale * squared_d);
+    outlook.all_behind &= clear && ahead < 0.0;
+    if (clear && ahead > 0.0 && squared(ahead) * squared_way_of_steepest > steepest * squared_way) {
+      steepest = squared(ahead);
+      squared_way_of_steepest = squared_way;
       outlook.ahead = corner;
     }
   };
   const int first = carriers.corner[0];
   if (carriers.count == 1) {
-    for (int step = 1; step < 3; ++step) {
-      const int corner = (first + step) % 3;
-      judge(corner, t[corner] - t[first]);
-    }
+    const int second = first == 2 ? 0 : first + 1;
+    const int third = 3 - first - second;
+    judge(second, t[second] - t[first], 1.0);
+    judge(third, t[third] - t[first], 1.0);
   } else if (carriers.count == 2) {
-    // The way to the third corner across the edge: along the edge d says nothing but rounding.
+    // The way to the third corner across the edge: along the edge d says nothing but rounding. Times |e|^2,
+    // which saves the division.
     const int corner = 3 - first - carriers.corner[1];
     const Vec3 e = t[carriers.corner[1]] - t[first];
     const Vec3 way = t[corner] - t[first];
-    judge(corner, way - (way.dot(e) / e.squaredNorm()) * e);
+    const double squared_e = e.squaredNorm();
+    judge(corner, squared_e * way - way.dot(e) * e, squared(squared_e));
   }
   return outlook;
 }
@@ -98,9 +101,10 @@ Outlook look_out(const Triangle& t, const Carriers& carriers, const Vec3& d, dou
 /// Ends of the edge between two carriers, lower first.
 struct OrderedEdge {
   int low, high;
-  OrderedEdge(const Triangle& t, const Carriers& carriers)
-      : low(carriers.corner[0]), high(carriers.corner[1]) {
-    if (lexicographic_less(t[high], t[low])) std::swap(low, high);
+  OrderedEdge(const Triangle& t, const Carriers& carriers) {
+    const bool turn = lexicographic_less(t[carriers.corner[1]], t[carriers.corner[0]]);
+    low = carriers.corner[turn ? 1 : 0];
+    high = carriers.corner[turn ? 0 : 1];
   }
 };
 
@@ -120,7 +124,7 @@ struct Pair {
 void solve_edge_to_corner(const Triangle& t, Carriers& carriers, const Vec3& x, double tolerance, Vec3& point,
                           double& squared_distance) {
   const OrderedEdge edge(t, carriers);
-  const PointSegmentDistance nearest = project_on_segment(x, t[edge.low], t[edge.high], tolerance);
+  const PointOnSegment nearest = project_on_segment(x, t[edge.low], t[edge.high], tolerance);
   reduce(carriers, edge, nearest.feature);
   point = nearest.point;
   squared_distance = nearest.squared_distance;
@@ -130,15 +134,16 @@ void solve_edge_to_edge(const Triangle& a, Carriers& carriers_a, const Triangle&
                         double tolerance, Pair& pair) {
   const OrderedEdge edge_a(a, carriers_a);
   const OrderedEdge edge_b(b, carriers_b);
-  const SegmentPairDistance nearest =
-      segment_pair(a[edge_a.low], a[edge_a.high], b[edge_b.low], b[edge_b.high], tolerance);
-  reduce(carriers_a, edge_a, nearest.feature_a);
-  reduce(carriers_b, edge_b, nearest.feature_b);
-  pair.point_a = nearest.point_a;
-  pair.point_b = nearest.point_b;
+  PointsOnSegments nearest;
+  const bool a_first =
+      segment_pair(a[edge_a.low], a[edge_a.high], b[edge_b.low], b[edge_b.high], tolerance, nearest);
+  reduce(carriers_a, edge_a, a_first ? nearest.feature_p : nearest.feature_q);
+  reduce(carriers_b, edge_b, a_first ? nearest.feature_q : nearest.feature_p);
+  pair.point_a = a_first ? nearest.p : nearest.q;
+  pair.point_b = a_first ? nearest.q : nearest.p;
   // Overlapping parallel edges have no single nearest pair: not a number keeps every margin from being met.
   pair.squared_distance =
-      nearest.minimiser_dimension == 0 ? nearest.squared_distance : std::numeric_limits<double>::quiet_NaN();
+      nearest.overlap_length > 0.0 ? std::numeric_limits<double>::quiet_NaN() : nearest.squared_distance;
 }
 
 void solve_face_to_corner(const Triangle& t, Carriers& carriers, const Vec3& x, double tolerance, Vec3& point,
@@ -177,30 +182,34 @@ bool solve_face_to_edge(const Triangle& t, Carriers& carriers_t, const Triangle&
   const double height_low = normal.dot(other[edge.low] - frame.a);
   const double height_high = normal.dot(other[edge.high] - frame.a);
   if (std::abs(height_low) == std::abs(height_high)) return false;  // parallel, or the order would decide
-  const bool low_is_nearer = std::abs(height_low) < std::abs(height_high);
-  if (height_low * height_high > 0.0) {
-    // Over the face, the end nearer to the plane is the nearest point of the edge.
-    const int nearer = low_is_nearer ? edge.low : edge.high;
-    const auto weights = frame.weights(other[nearer]);
-    if (frame.is_interior(weights)) {
-      carriers_other.keep_only(nearer);
-      pair.point_a = frame.point(weights);
-      pair.point_b = other[nearer];
-      pair.squared_distance = (pair.point_a - pair.point_b).squaredNorm();
-      pair.widening = 1.0 + (frame.squared_e + pair.squared_distance) / frame.squared_h;
-      return true;
-    }
-  } else {
-    const double part = height_low / (height_low - height_high);
-    if (frame.is_interior(frame.weights(other[edge.low] + part * (other[edge.high] - other[edge.low]))))
-      return false;
+  // Nearest to the plane is an end of the edge, or the point where it crosses the plane.
+  const bool crosses = !(height_low * height_high > 0.0);
+  const int nearer = std::abs(height_low) < std::abs(height_high) ? edge.low : edge.high;
+  Vec3 nearest_to_plane = other[nearer];
+  if (crosses) {
+    nearest_to_plane =
+        other[edge.low] + height_low / (height_low - height_high) * (other[edge.high] - other[edge.low]);
   }
+  const auto weights = frame.weights(nearest_to_plane);
+  if (frame.is_interior(weights)) {
+    if (crosses) return false;
+    carriers_other.keep_only(nearer);
+    pair.point_a = frame.point(weights);
+    pair.point_b = other[nearer];
+    pair.squared_distance = (pair.point_a - pair.point_b).squaredNorm();
+    pair.widening = 1.0 + (frame.squared_e + pair.squared_distance) / frame.squared_h;
+    return true;
+  }
+  // Otherwise the border of the face is nearest, in the common case where it is on the way out of the face.
+  const std::array<double, 3> weight{weights.a, weights.b, weights.c};
   Pair best;
   best.squared_distance = std::numeric_limits<double>::infinity();
   Carriers best_t = carriers_t;
   Carriers best_other = carriers_other;
   for (int k = 0; k < 3; ++k) {
-    Carriers side = Carriers::two(k, (k + 1) % 3);
+    if (weight[k] > 0.0) continue;
+    Carriers side =
+        Carriers::two(sorted.original[frame.corner[(k + 1) % 3]], sorted.original[frame.corner[(k + 2) % 3]]);
     Carriers end = carriers_other;
     Pair candidate;
     solve_edge_to_edge(t, side, other, end, tolerance, candidate);
@@ -228,29 +237,25 @@ TriangleFeature feature_of(const Carriers& carriers) {
   }
 }
 
+int farthest_along(const Triangle& t, const Vec3& direction) {
+  const double h0 = t[0].dot(direction), h1 = t[1].dot(direction), h2 = t[2].dot(direction);
+  const int first = h1 > h0 ? 1 : 0;
+  return h2 > (h1 > h0 ? h1 : h0) ? 2 : first;
+}
+
 }  // namespace
 
 std::optional<TrianglePairDistance> certified_descent(const Triangle& a, const Triangle& b,
                                                       double tolerance) {
-  int start_a = 0, start_b = 0;
-  double least = std::numeric_limits<double>::infinity();
-  bool tie = false;
-  for (int i = 0; i < 3; ++i) {
-    for (int j = 0; j < 3; ++j) {
-      const double squared_distance = (b[j] - a[i]).squaredNorm();
-      tie = squared_distance < least ? false : tie | (squared_distance == least);
-      start_a = squared_distance < least ? i : start_a;
-      start_b = squared_distance < least ? j : start_b;
-      least = squared_distance < least ? squared_distance : least;
-    }
-  }
-  if (tie) return std::nullopt;  // the order of the corners would decide
+  const Vec3 toward_b = (b[0] + b[1] + b[2]) - (a[0] + a[1] + a[2]);
+  const int start_a = farthest_along(a, toward_b);
+  const int start_b = farthest_along(b, -toward_b);
   Carriers carriers_a = Carriers::one(start_a);
   Carriers carriers_b = Carriers::one(start_b);
   Pair pair;
   pair.point_a = a[start_a];
   pair.point_b = b[start_b];
-  pair.squared_distance = least;
+  pair.squared_distance = (pair.point_b - pair.point_a).squaredNorm();
   const double squared_margin = 2.0 * tolerance * tolerance;
   for (int step = 0; step < MAX_STEPS; ++step) {
     const Vec3 d = pair.point_b - pair.point_a;
@@ -267,7 +272,9 @@ std::optional<TrianglePairDistance> certified_descent(const Triangle& a, const T
       return result;
     }
     if (from_a.ahead >= 0) carriers_a.add(from_a.ahead);
-    if (from_b.ahead >= 0) carriers_b.add(from_b.ahead);
+    // Two faces at once have no closed form; the face of a and the edge of b do, and b's corner can still
+    // come.
+    if (from_b.ahead >= 0 && carriers_a.count + carriers_b.count < 5) carriers_b.add(from_b.ahead);
     if (from_a.ahead < 0 && from_b.ahead < 0) return std::nullopt;
     pair.widening = 1.0;
     if (carriers_a.count == 2 && carriers_b.count == 2) {

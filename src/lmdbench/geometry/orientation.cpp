@@ -36,21 +36,42 @@ int exact_orientation_3d(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3
       .sign();
 }
 
+/// The plane through a, b and c with what the filter needs to bound the rounding error of a height.
+struct PlaneThrough {
+  const Vec3 &a, &b, &c;
+  Vec3 normal;      ///< (b - a) x (c - a)
+  Vec3 magnitudes;  ///< per coordinate of the normal, the sum of its absolute products
+
+  PlaneThrough(const Vec3& corner_a, const Vec3& corner_b, const Vec3& corner_c)
+      : a(corner_a), b(corner_b), c(corner_c) {
+    const Vec3 u = b - a;
+    const Vec3 v = c - a;
+    const double u1v2 = u[1] * v[2], u2v1 = u[2] * v[1];
+    const double u2v0 = u[2] * v[0], u0v2 = u[0] * v[2];
+    const double u0v1 = u[0] * v[1], u1v0 = u[1] * v[0];
+    normal = {u1v2 - u2v1, u2v0 - u0v2, u0v1 - u1v0};
+    magnitudes = {std::abs(u1v2) + std::abs(u2v1), std::abs(u2v0) + std::abs(u0v2),
+                  std::abs(u0v1) + std::abs(u1v0)};
+  }
+
+  int side(const Vec3& d) const {
+    const Vec3 w = d - a;
+    const double determinant = w.dot(normal);
+    const double permanent = w.cwiseAbs().dot(magnitudes);
+    if (std::abs(determinant) > ORIENT_3D_BOUND * permanent) return sign(determinant);
+    return exact_orientation_3d(a, b, c, d);
+  }
+};
+
 }  // namespace
 
+std::array<int, 3> sides_of_plane(const Triangle& t, const Triangle& points) {
+  const PlaneThrough plane(t[0], t[1], t[2]);
+  return {plane.side(points[0]), plane.side(points[1]), plane.side(points[2])};
+}
+
 int orientation_3d(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
-  const Vec3 u = b - a;
-  const Vec3 v = c - a;
-  const Vec3 w = d - a;
-  const double u1v2 = u[1] * v[2], u2v1 = u[2] * v[1];
-  const double u2v0 = u[2] * v[0], u0v2 = u[0] * v[2];
-  const double u0v1 = u[0] * v[1], u1v0 = u[1] * v[0];
-  const double determinant = w[0] * (u1v2 - u2v1) + w[1] * (u2v0 - u0v2) + w[2] * (u0v1 - u1v0);
-  const double permanent = std::abs(w[0]) * (std::abs(u1v2) + std::abs(u2v1)) +
-                           std::abs(w[1]) * (std::abs(u2v0) + std::abs(u0v2)) +
-                           std::abs(w[2]) * (std::abs(u0v1) + std::abs(u1v0));
-  if (std::abs(determinant) > ORIENT_3D_BOUND * permanent) return sign(determinant);
-  return exact_orientation_3d(a, b, c, d);
+  return PlaneThrough(a, b, c).side(d);
 }
 
 int orientation_2d(const Vec3& a, const Vec3& b, const Vec3& c, int dropped_axis) {

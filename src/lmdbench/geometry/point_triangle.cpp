@@ -27,7 +27,7 @@ PointTriangleDistance point_triangle_distance(const Vec3& point, const Triangle&
   best.squared_distance = std::numeric_limits<double>::infinity();
   for (int k = 0; k < 3; ++k) {
     const auto& ends = kernel::EDGE_ENDS[k];
-    const PointSegmentDistance candidate =
+    const kernel::PointOnSegment candidate =
         kernel::project_on_segment(point, sorted.corners[ends[0]], sorted.corners[ends[1]], tolerance);
     const TriangleFeature feature = sorted.edge_part(k, candidate.feature);
     const bool nearer = candidate.squared_distance < best.squared_distance;

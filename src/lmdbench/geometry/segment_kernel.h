@@ -8,14 +8,30 @@
 #include <algorithm>
 #include <cmath>
 
-/// Inner functions of the distance queries, inline because the triangle kernel calls them 9 and more times a
+/// Inner functions of the distance queries, inline because the triangle kernel calls them up to nine times a
 /// pair. Every segment comes with its ends in lexicographic order, so that an edge seen from two neighbouring
-/// triangles gives the same bits; `tolerance` is coincidence_length of the coordinates at hand.
+/// triangles gives the same bits; `tolerance` is coincidence_length of the coordinates at hand. The result
+/// types leave their members unset on purpose: every path sets all of them, and filling them first costs a
+/// tenth of a query.
 namespace lmdbench::kernel {
 
+struct PointOnSegment {
+  Vec3 point;
+  double squared_distance;
+  SegmentFeature feature;
+};
+
+/// Closest points p and q of two segments, with what minimiser_dimension and minimiser_measure say.
+struct PointsOnSegments {
+  Vec3 p, q;
+  double squared_distance;
+  double overlap_length;  ///< 0 where the minimiser is a single pair
+  SegmentFeature feature_p, feature_q;
+};
+
 /// Nearest point of the segment p0 p1 to x. Ends win within `tolerance`, and are then copied.
-inline PointSegmentDistance project_on_segment(const Vec3& x, const Vec3& p0, const Vec3& p1,
-                                               double tolerance) {
+inline PointOnSegment project_on_segment(const Vec3& x, const Vec3& p0, const Vec3& p1, double tolerance) {
+  PointOnSegment result;
   const Vec3 d = p1 - p0;
   const double squared_length = d.squaredNorm();
   // Distances along the segment from both ends, times its length: each is accurate near its own end.
@@ -24,7 +40,6 @@ inline PointSegmentDistance project_on_segment(const Vec3& x, const Vec3& p0, co
   const double squared_limit = tolerance * tolerance * squared_length;
   const bool at_p0 = from_p0 <= 0.0 || from_p0 * from_p0 <= squared_limit;
   const bool at_p1 = from_p1 <= 0.0 || from_p1 * from_p1 <= squared_limit;
-  PointSegmentDistance result;
   if (at_p0 || at_p1) {
     const double to_p0 = (x - p0).squaredNorm();
     const double to_p1 = (x - p1).squaredNorm();
@@ -34,47 +49,51 @@ inline PointSegmentDistance project_on_segment(const Vec3& x, const Vec3& p0, co
     result.feature = first ? SegmentFeature::V0 : SegmentFeature::V1;
     return result;
   }
-  if (from_p0 <= from_p1) {
-    result.point = p0 + (from_p0 / squared_length) * d;
-  } else {
-    result.point = p1 - (from_p1 / squared_length) * d;
-  }
+  // From the nearer end, where the division is the more accurate.
+  const bool first = from_p0 <= from_p1;
+  const double part = (first ? from_p0 : -from_p1) / squared_length;
+  result.point = (first ? p0 : p1) + part * d;
   result.squared_distance = (x - result.point).squaredNorm();
+  result.feature = SegmentFeature::EDGE;
   return result;
 }
 
-/// Closest pair with an end q of one segment (`end_feature`) or, where q is nearest to an end of p, of that
+/// Closest pair given that it has the end `end_of_q` of q, or, where that end is nearest to an end of p, that
 /// end.
-inline SegmentPairDistance pair_from_end(const Vec3& p0, const Vec3& p1, const Vec3& q0, const Vec3& q1,
-                                         SegmentFeature end_of_q, double tolerance) {
-  SegmentPairDistance result;
+inline void pair_from_end_of_q(const Vec3& p0, const Vec3& p1, const Vec3& q0, const Vec3& q1,
+                               SegmentFeature end_of_q, double tolerance, PointsOnSegments& result) {
   const Vec3& q = end_of_q == SegmentFeature::V0 ? q0 : q1;
-  const PointSegmentDistance on_p = project_on_segment(q, p0, p1, tolerance);
-  result.point_a = on_p.point;
-  result.feature_a = on_p.feature;
+  const PointOnSegment on_p = project_on_segment(q, p0, p1, tolerance);
+  result.p = on_p.point;
+  result.feature_p = on_p.feature;
+  result.overlap_length = 0.0;
   if (on_p.feature == SegmentFeature::EDGE) {
-    result.point_b = q;
-    result.feature_b = end_of_q;
+    result.q = q;
+    result.feature_q = end_of_q;
     result.squared_distance = on_p.squared_distance;
   } else {
-    const PointSegmentDistance on_q = project_on_segment(on_p.point, q0, q1, tolerance);
-    result.point_b = on_q.point;
-    result.feature_b = on_q.feature;
+    const PointOnSegment on_q = project_on_segment(on_p.point, q0, q1, tolerance);
+    result.q = on_q.point;
+    result.feature_q = on_q.feature;
     result.squared_distance = on_q.squared_distance;
   }
-  return result;
 }
 
-inline SegmentPairDistance swapped(const SegmentPairDistance& pair) {
-  SegmentPairDistance result = pair;
-  std::swap(result.point_a, result.point_b);
-  std::swap(result.feature_a, result.feature_b);
-  return result;
+/// Closest pair given that it has the end p of one segment: the other segment need only be projected on.
+inline void pair_from_end_of_p(const Vec3& p, SegmentFeature end_of_p, const Vec3& q0, const Vec3& q1,
+                               double tolerance, PointsOnSegments& result) {
+  const PointOnSegment on_q = project_on_segment(p, q0, q1, tolerance);
+  result.p = p;
+  result.feature_p = end_of_p;
+  result.q = on_q.point;
+  result.feature_q = on_q.feature;
+  result.squared_distance = on_q.squared_distance;
+  result.overlap_length = 0.0;
 }
 
 /// Segments that drift apart by less than `tolerance` over the length of q; p is the longer one.
-inline SegmentPairDistance parallel_segments(const Vec3& p0, const Vec3& p1, const Vec3& q0, const Vec3& q1,
-                                             double squared_length, double tolerance) {
+inline void parallel_segments(const Vec3& p0, const Vec3& p1, const Vec3& q0, const Vec3& q1,
+                              double squared_length, double tolerance, PointsOnSegments& result) {
   const Vec3 d = p1 - p0;
   const double along_q0 = (q0 - p0).dot(d) / squared_length;
   const double along_q1 = (q1 - p0).dot(d) / squared_length;
@@ -84,19 +103,18 @@ inline SegmentPairDistance parallel_segments(const Vec3& p0, const Vec3& p1, con
   if (overlap > tolerance) {
     const double middle = 0.5 * (begin + end);
     const double t = std::clamp((middle - along_q0) / (along_q1 - along_q0), 0.0, 1.0);
-    SegmentPairDistance result;
-    result.point_a = p0 + middle * d;
-    result.point_b = q0 + t * (q1 - q0);
-    result.squared_distance = (result.point_a - result.point_b).squaredNorm();
-    result.minimiser_dimension = 1;
-    result.minimiser_measure = overlap;
-    return result;
+    result.p = p0 + middle * d;
+    result.q = q0 + t * (q1 - q0);
+    result.squared_distance = (result.p - result.q).squaredNorm();
+    result.overlap_length = overlap;
+    result.feature_p = result.feature_q = SegmentFeature::EDGE;
+    return;
   }
   // They overlap in a point at most, or q is shorter than the tolerance: some end is a minimiser.
-  SegmentPairDistance best = pair_from_end(p0, p1, q0, q1, SegmentFeature::V0, tolerance);
-  const SegmentPairDistance other = pair_from_end(p0, p1, q0, q1, SegmentFeature::V1, tolerance);
-  if (other.squared_distance < best.squared_distance) best = other;
-  return best;
+  pair_from_end_of_q(p0, p1, q0, q1, SegmentFeature::V0, tolerance, result);
+  PointsOnSegments other;
+  pair_from_end_of_q(p0, p1, q0, q1, SegmentFeature::V1, tolerance, other);
+  if (other.squared_distance < result.squared_distance) result = other;
 }
 
 /// Closest points of the segments p0 p1 and q0 q1, p being the longer one.
@@ -109,61 +127,67 @@ inline SegmentPairDistance parallel_segments(const Vec3& p0, const Vec3& p1, con
 /// - Clamp t, project on p, clamp, project back (C. Ericson, "Real-Time Collision Detection", 2005,
 /// section 5.1.9):
 ///   each step is a feasible pair and the last is the minimum of a convex function over the box.
-inline SegmentPairDistance ordered_segment_distance(const Vec3& p0, const Vec3& p1, const Vec3& q0,
-                                                    const Vec3& q1, double squared_length_p,
-                                                    double squared_length_q, double tolerance) {
+inline void ordered_segment_distance(const Vec3& p0, const Vec3& p1, const Vec3& q0, const Vec3& q1,
+                                     double squared_length_p, double squared_length_q, double tolerance,
+                                     PointsOnSegments& result) {
   const Vec3 d1 = p1 - p0;
   const Vec3 d2 = q1 - q0;
   const Vec3 r = q0 - p0;
-  const double mu = d1.dot(d2) / squared_length_p;
+  const double squared_tolerance = tolerance * tolerance;
+  if (!(squared_length_p > squared_tolerance)) {
+    // Both are points up to rounding; their lengths are nothing to divide by.
+    pair_from_end_of_p(p0, SegmentFeature::V0, q0, q1, tolerance, result);
+    PointsOnSegments other;
+    pair_from_end_of_p(p1, SegmentFeature::V1, q0, q1, tolerance, other);
+    if (other.squared_distance < result.squared_distance) result = other;
+    return;
+  }
+  const double inverse = 1.0 / squared_length_p;
+  const double mu = d1.dot(d2) * inverse;
+  const double sigma = d1.dot(r) * inverse;
   const Vec3 d2_across = d2 - mu * d1;
   const double squared_across = d2_across.squaredNorm();
-  // Also true when p, and with it q, is a point; the negated form would let 0 / 0 through.
-  if (!(squared_across > tolerance * tolerance)) {
-    if (!(squared_length_p > 0.0)) {
-      SegmentPairDistance points;
-      points.point_a = p0;
-      points.point_b = q0;
-      points.feature_a = points.feature_b = SegmentFeature::V0;
-      points.squared_distance = r.squaredNorm();
-      return points;
-    }
-    return parallel_segments(p0, p1, q0, q1, squared_length_p, tolerance);
+  if (squared_across <= squared_tolerance) {
+    return parallel_segments(p0, p1, q0, q1, squared_length_p, tolerance, result);
   }
-  const double sigma = d1.dot(r) / squared_length_p;
   const Vec3 r_across = r - sigma * d1;
   const double t = -r_across.dot(d2_across) / squared_across;
-  const double squared_tolerance = tolerance * tolerance;
   if (t <= 0.0 || t * t * squared_length_q <= squared_tolerance) {
-    return pair_from_end(p0, p1, q0, q1, SegmentFeature::V0, tolerance);
+    return pair_from_end_of_q(p0, p1, q0, q1, SegmentFeature::V0, tolerance, result);
   }
   if (t >= 1.0 || (1.0 - t) * (1.0 - t) * squared_length_q <= squared_tolerance) {
-    return pair_from_end(p0, p1, q0, q1, SegmentFeature::V1, tolerance);
+    return pair_from_end_of_q(p0, p1, q0, q1, SegmentFeature::V1, tolerance, result);
   }
   const double s = sigma + t * mu;
   if (s <= 0.0 || s * s * squared_length_p <= squared_tolerance) {
-    return swapped(pair_from_end(q0, q1, p0, p1, SegmentFeature::V0, tolerance));
+    return pair_from_end_of_p(p0, SegmentFeature::V0, q0, q1, tolerance, result);
   }
   if (s >= 1.0 || (1.0 - s) * (1.0 - s) * squared_length_p <= squared_tolerance) {
-    return swapped(pair_from_end(q0, q1, p0, p1, SegmentFeature::V1, tolerance));
+    return pair_from_end_of_p(p1, SegmentFeature::V1, q0, q1, tolerance, result);
   }
-  SegmentPairDistance result;
-  result.point_a = p0 + s * d1;
-  result.point_b = q0 + t * d2;
-  result.squared_distance = (result.point_a - result.point_b).squaredNorm();
-  return result;
+  result.p = p0 + s * d1;
+  result.q = q0 + t * d2;
+  result.squared_distance = (result.p - result.q).squaredNorm();
+  result.overlap_length = 0.0;
+  result.feature_p = result.feature_q = SegmentFeature::EDGE;
 }
 
-/// As above for segments in any order of length; the order of the arguments does not matter.
-inline SegmentPairDistance segment_pair(const Vec3& p0, const Vec3& p1, const Vec3& q0, const Vec3& q1,
-                                        double tolerance) {
-  const double squared_length_p = (p1 - p0).squaredNorm();
-  const double squared_length_q = (q1 - q0).squaredNorm();
-  const bool p_first = squared_length_p != squared_length_q ? squared_length_p > squared_length_q
-                       : p0 != q0                           ? lexicographic_less(p0, q0)
-                                                            : lexicographic_less(p1, q1);
-  if (p_first) return ordered_segment_distance(p0, p1, q0, q1, squared_length_p, squared_length_q, tolerance);
-  return swapped(ordered_segment_distance(q0, q1, p0, p1, squared_length_q, squared_length_p, tolerance));
+/// Two segments in any order of length. The longer one takes the role p of the result, ties are broken by
+/// coordinates, so the order of the arguments does not matter.
+/// @returns true when the first segment has the role p
+inline bool segment_pair(const Vec3& a0, const Vec3& a1, const Vec3& b0, const Vec3& b1, double tolerance,
+                         PointsOnSegments& result) {
+  const double squared_length_a = (a1 - a0).squaredNorm();
+  const double squared_length_b = (b1 - b0).squaredNorm();
+  bool a_first = squared_length_a > squared_length_b;
+  if (squared_length_a == squared_length_b) {
+    a_first = a0 != b0 ? lexicographic_less(a0, b0) : lexicographic_less(a1, b1);
+  }
+  // Selected by address: which edge is longer is a coin toss that no branch should depend on.
+  ordered_segment_distance(a_first ? a0 : b0, a_first ? a1 : b1, a_first ? b0 : a0, a_first ? b1 : a1,
+                           a_first ? squared_length_a : squared_length_b,
+                           a_first ? squared_length_b : squared_length_a, tolerance, result);
+  return a_first;
 }
 
 }  // namespace lmdbench::kernel

@@ -5,7 +5,9 @@
 #include <lmdbench/geometry/types.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <span>
 
@@ -18,32 +20,38 @@ namespace lmdbench {
 /// 1e-14 of the coordinates.
 inline constexpr double COINCIDENCE_TOLERANCE = 16.0 * std::numeric_limits<double>::epsilon();
 
-/// Largest absolute coordinate; NaN or infinite where a coordinate is.
+/// Largest absolute coordinate; a coordinate that is not a number is passed over, see all_finite.
 inline double largest_coordinate(std::span<const Vec3> points) {
-  double largest = 0.0;
+  // One running maximum an axis: three short chains that the processor overlaps.
+  double x = 0.0, y = 0.0, z = 0.0;
   for (const Vec3& point : points) {
-    for (int axis = 0; axis < 3; ++axis) {
-      const double magnitude = std::abs(point[axis]);
-      largest =
-          magnitude <= largest ? largest : magnitude;  // takes a NaN over, and the next finite one keeps it
-      if (std::isnan(magnitude)) return magnitude;
-    }
+    x = std::abs(point[0]) > x ? std::abs(point[0]) : x;
+    y = std::abs(point[1]) > y ? std::abs(point[1]) : y;
+    z = std::abs(point[2]) > z ? std::abs(point[2]) : z;
   }
-  return largest;
+  return std::max(x, std::max(y, z));
+}
+
+inline bool all_finite(std::span<const Vec3> points) {
+  return std::all_of(points.begin(), points.end(), [](const Vec3& point) { return point.allFinite(); });
 }
 
 /// COINCIDENCE_TOLERANCE times the coordinate magnitude rounded down to a power of two, so that queries which
 /// share features but not all corners nearly always decide by the same length.
+/// @param magnitude not negative; a denormal one gives 0
 inline double coincidence_length(double magnitude) {
-  if (!(magnitude > 0.0)) return 0.0;
-  return COINCIDENCE_TOLERANCE * std::ldexp(1.0, std::ilogb(magnitude));
+  constexpr std::uint64_t EXPONENT_BITS = 0x7FF0000000000000U;
+  return COINCIDENCE_TOLERANCE *
+         std::bit_cast<double>(std::bit_cast<std::uint64_t>(magnitude) & EXPONENT_BITS);
 }
 
-/// Lexicographic order of coordinates: the canonical order of corners.
+/// Lexicographic order of coordinates: the canonical order of corners. Without branches, because the outcome
+/// is a coin toss for the branch predictor.
 inline bool lexicographic_less(const Vec3& a, const Vec3& b) {
-  if (a[0] != b[0]) return a[0] < b[0];
-  if (a[1] != b[1]) return a[1] < b[1];
-  return a[2] < b[2];
+  const bool less_0 = a[0] < b[0], equal_0 = a[0] == b[0];
+  const bool less_1 = a[1] < b[1], equal_1 = a[1] == b[1];
+  const bool less_2 = a[2] < b[2];
+  return less_0 | (equal_0 & (less_1 | (equal_1 & less_2)));
 }
 
 }  // namespace lmdbench

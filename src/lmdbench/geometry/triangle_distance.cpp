@@ -9,7 +9,6 @@
 #include <lmdbench/geometry/sorted_triangle.h>
 #include <lmdbench/geometry/tolerance.h>
 #include <lmdbench/geometry/triangle_distance.h>
-#include <lmdbench/geometry/triangle_intersection.h>
 
 #include <algorithm>
 #include <array>
@@ -37,7 +36,8 @@ using kernel::SortedTriangle;
 
 /// Products of four coordinates must neither overflow nor lose digits to underflow; outside this range of the
 /// largest coordinate the triangles are scaled by a power of two, which is exact.
-constexpr int LARGEST_EXPONENT = 100;
+constexpr double SMALLEST_MAGNITUDE = 0x1p-100;
+constexpr double LARGEST_MAGNITUDE = 0x1p+100;
 
 int dimension(TriangleFeature feature) {
   return is_face(feature) ? 2 : is_edge(feature) ? 1 : 0;
@@ -87,16 +87,17 @@ EdgePairs examine_edge_pairs(const Query& query) {
     const Vec3& a0 = query.a.corners[EDGE_ENDS[i][0]];
     const Vec3& a1 = query.a.corners[EDGE_ENDS[i][1]];
     for (int j = 0; j < 3; ++j) {
-      const SegmentPairDistance pair = kernel::segment_pair(
-          a0, a1, query.b.corners[EDGE_ENDS[j][0]], query.b.corners[EDGE_ENDS[j][1]], query.tolerance);
+      kernel::PointsOnSegments pair;
+      const bool a_first = kernel::segment_pair(a0, a1, query.b.corners[EDGE_ENDS[j][0]],
+                                                query.b.corners[EDGE_ENDS[j][1]], query.tolerance, pair);
       TrianglePairDistance candidate;
       candidate.squared_distance = pair.squared_distance;
-      candidate.point_a = pair.point_a;
-      candidate.point_b = pair.point_b;
-      candidate.feature_a = query.a.edge_part(i, pair.feature_a);
-      candidate.feature_b = query.b.edge_part(j, pair.feature_b);
-      candidate.minimiser_dimension = pair.minimiser_dimension;
-      candidate.minimiser_measure = pair.minimiser_measure;
+      candidate.point_a = a_first ? pair.p : pair.q;
+      candidate.point_b = a_first ? pair.q : pair.p;
+      candidate.feature_a = query.a.edge_part(i, a_first ? pair.feature_p : pair.feature_q);
+      candidate.feature_b = query.b.edge_part(j, a_first ? pair.feature_q : pair.feature_p);
+      candidate.minimiser_dimension = pair.overlap_length > 0.0 ? 1 : 0;
+      candidate.minimiser_measure = pair.overlap_length;
       if (better(candidate, result.nearest)) result.nearest = candidate;
       if (candidate.minimiser_dimension == 1 && nearer(candidate, result.overlap)) result.overlap = candidate;
     }
@@ -209,12 +210,12 @@ TrianglePairDistance shared_point(const Vec3& point, const std::optional<Segment
 
 /// The answer for triangles that cross with the middle of the shared segment inside both: the usual
 /// intersection.
-std::optional<TrianglePairDistance> crossing_faces(const Query& query) {
+std::optional<TrianglePairDistance> crossing_faces(const Query& query, const kernel::Sides& sides) {
   if (!query.face_a.has_face || !query.face_b.has_face) return std::nullopt;
   // Nearly coplanar triangles share a polygon rather than a segment.
   const Vec3 heights = heights_over(query.face_a, query.b.corners);
   if (!(heights.maxCoeff() - heights.minCoeff() > 2.0 * query.tolerance)) return std::nullopt;
-  const auto segment = kernel::shared_segment(query.a.corners, query.b.corners);
+  const auto segment = kernel::shared_segment(query.a.corners, query.b.corners, sides);
   if (!segment) return std::nullopt;
   const Vec3 middle = 0.5 * ((*segment)[0] + (*segment)[1]);
   if (!query.face_a.is_interior(query.face_a.weights(middle))) return std::nullopt;
@@ -223,14 +224,15 @@ std::optional<TrianglePairDistance> crossing_faces(const Query& query) {
 }
 
 /// The answer for any triangles that share a point: the middle of the shared set.
-TrianglePairDistance answer_intersection(const Query& query, const TrianglePairDistance& nearest) {
+TrianglePairDistance answer_intersection(const Query& query, const kernel::Sides& sides,
+                                         const TrianglePairDistance& nearest) {
   Vec3 middle = nearest.point_a;
   std::optional<Segment> segment;
   // Coplanar triangles already have the middle of their shared polygon as the nearest pair.
   const bool coplanar =
       nearest.minimiser_dimension == 2 && std::sqrt(nearest.squared_distance) <= query.tolerance;
   if (!coplanar) {
-    segment = kernel::shared_segment(query.a.corners, query.b.corners);
+    segment = kernel::shared_segment(query.a.corners, query.b.corners, sides);
     if (segment) middle = 0.5 * ((*segment)[0] + (*segment)[1]);
   }
   const auto on_a = point_triangle_distance(middle, query.a.corners);
@@ -253,9 +255,10 @@ TrianglePairDistance answer_intersection(const Query& query, const TrianglePairD
 /// @pre a before b in lexicographic order of sorted corners
 TrianglePairDistance ordered_distance(const SortedTriangle& a, const SortedTriangle& b, double magnitude) {
   const Query query(a, b, coincidence_length(magnitude));
-  const bool intersecting = triangles_intersect(a.corners, b.corners);
+  const kernel::Sides sides(a.corners, b.corners);
+  const bool intersecting = kernel::triangles_intersect(a.corners, b.corners, sides);
   if (intersecting) {
-    if (const auto crossing = crossing_faces(query)) return *crossing;
+    if (const auto crossing = crossing_faces(query, sides)) return *crossing;
   }
   const EdgePairs edge_pairs = examine_edge_pairs(query);
   TrianglePairDistance best = edge_pairs.nearest;
@@ -264,11 +267,11 @@ TrianglePairDistance ordered_distance(const SortedTriangle& a, const SortedTrian
   const TrianglePairDistance on_a = swapped(nearest_corner_of_a_to_face_of_b(b, query.face_a));
   if (better(on_a, best)) best = on_a;
   prefer_whole_minimiser_set(query, edge_pairs.overlap, best);
-  return intersecting ? answer_intersection(query, best) : best;
+  return intersecting ? answer_intersection(query, sides, best) : best;
 }
 
+/// By all candidates.
 TrianglePairDistance distance_in_range(const Triangle& a, const Triangle& b, double magnitude) {
-  if (const auto proved = kernel::certified_descent(a, b, coincidence_length(magnitude))) return *proved;
   const SortedTriangle sorted_a(a);
   const SortedTriangle sorted_b(b);
   const bool b_first =
@@ -305,12 +308,15 @@ TrianglePairDistance distance_out_of_range(const Triangle& a, const Triangle& b,
 }  // namespace
 
 TrianglePairDistance triangle_distance(const Triangle& a, const Triangle& b) {
-  const double magnitude_a = largest_coordinate(a);
-  const double magnitude_b = largest_coordinate(b);
-  if (!std::isfinite(magnitude_a) || !std::isfinite(magnitude_b)) return {};
-  const double magnitude = std::max(magnitude_a, magnitude_b);
-  const bool in_range = magnitude == 0.0 || std::abs(std::ilogb(magnitude)) <= LARGEST_EXPONENT;
-  return in_range ? distance_in_range(a, b, magnitude) : distance_out_of_range(a, b, magnitude);
+  const double magnitude = std::max(largest_coordinate(a), largest_coordinate(b));
+  const bool in_range = magnitude >= SMALLEST_MAGNITUDE && magnitude <= LARGEST_MAGNITUDE;
+  if (in_range) {
+    // Proves nothing where a coordinate is not a number.
+    if (const auto proved = kernel::certified_descent(a, b, coincidence_length(magnitude))) return *proved;
+  }
+  if (!all_finite(a) || !all_finite(b)) return {};
+  return in_range || magnitude == 0.0 ? distance_in_range(a, b, magnitude)
+                                      : distance_out_of_range(a, b, magnitude);
 }
 
 }  // namespace lmdbench

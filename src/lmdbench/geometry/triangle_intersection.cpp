@@ -19,6 +19,8 @@
 namespace lmdbench {
 namespace {
 
+using kernel::Sides;
+
 constexpr int COLLINEAR = -1;
 
 /// A coordinate axis along which abc projects to a triangle with area; COLLINEAR when there is none.
@@ -99,25 +101,6 @@ std::array<Segment, 3> edges(const Triangle& t) {
   return {Segment{t[0], t[1]}, Segment{t[1], t[2]}, Segment{t[2], t[0]}};
 }
 
-/// On which side of the other triangle's plane the corners of each triangle are.
-struct Sides {
-  std::array<int, 3> a{}, b{};
-
-  Sides(const Triangle& ta, const Triangle& tb) {
-    for (int k = 0; k < 3; ++k) b[k] = orientation_3d(ta[0], ta[1], ta[2], tb[k]);
-    if (apart(b)) return;
-    for (int k = 0; k < 3; ++k) a[k] = orientation_3d(tb[0], tb[1], tb[2], ta[k]);
-  }
-
-  static bool apart(const std::array<int, 3>& side) {
-    return side[0] != 0 && side[0] == side[1] && side[1] == side[2];
-  }
-  /// Some plane of the two has the other triangle strictly on one side.
-  bool planes_separate() const { return apart(b) || apart(a); }
-  /// No corner lies in the other's plane.
-  bool is_generic() const { return a[0] * a[1] * a[2] * b[0] * b[1] * b[2] != 0; }
-};
-
 int lone_corner(const std::array<int, 3>& side) {
   return side[1] == side[2] ? 0 : side[2] == side[0] ? 1 : 2;
 }
@@ -188,7 +171,30 @@ void collect_piercing_points(const Triangle& piercing, const Triangle& t, int ax
 }  // namespace
 
 bool triangles_intersect(const Triangle& a, const Triangle& b) {
-  const Sides sides(a, b);
+  return kernel::triangles_intersect(a, b, Sides(a, b));
+}
+
+std::optional<Segment> intersection_segment(const Triangle& a, const Triangle& b) {
+  // Sorted, so that neither the order of corners nor that of the arguments changes a bit.
+  Triangle first = kernel::SortedTriangle(a).corners;
+  Triangle second = kernel::SortedTriangle(b).corners;
+  if (std::lexicographical_compare(second.begin(), second.end(), first.begin(), first.end(),
+                                   lexicographic_less)) {
+    std::swap(first, second);
+  }
+  const Sides sides(first, second);
+  if (!kernel::triangles_intersect(first, second, sides)) return std::nullopt;
+  return kernel::shared_segment(first, second, sides);
+}
+
+namespace kernel {
+
+Sides::Sides(const Triangle& ta, const Triangle& tb) {
+  b = sides_of_plane(ta, tb);
+  if (!apart(b)) a = sides_of_plane(tb, ta);
+}
+
+bool triangles_intersect(const Triangle& a, const Triangle& b, const Sides& sides) {
   if (sides.planes_separate()) return false;
   if (sides.is_generic()) return segments_on_common_line_overlap(a, b, sides);
   const int axis_a = projection_axis(a[0], a[1], a[2]);
@@ -205,21 +211,7 @@ bool triangles_intersect(const Triangle& a, const Triangle& b) {
   return false;
 }
 
-std::optional<Segment> intersection_segment(const Triangle& a, const Triangle& b) {
-  // Sorted, so that neither the order of corners nor that of the arguments changes a bit.
-  Triangle first = kernel::SortedTriangle(a).corners;
-  Triangle second = kernel::SortedTriangle(b).corners;
-  if (std::lexicographical_compare(second.begin(), second.end(), first.begin(), first.end(),
-                                   lexicographic_less)) {
-    std::swap(first, second);
-  }
-  return triangles_intersect(first, second) ? kernel::shared_segment(first, second) : std::nullopt;
-}
-
-namespace kernel {
-
-std::optional<Segment> shared_segment(const Triangle& first, const Triangle& second) {
-  const Sides sides(first, second);
+std::optional<Segment> shared_segment(const Triangle& first, const Triangle& second, const Sides& sides) {
   std::array<Vec3, 6> points;
   int count = 0;
   if (sides.is_generic()) return overlap_on_common_line(first, second, sides);
