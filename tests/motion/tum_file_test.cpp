@@ -189,8 +189,9 @@ TEST_F(WriteTum, RefusesWhatCouldNotBeReadBackAndKeepsTheOldFile) {
   expect_same_bits(read_tum(file), good);
 }
 
-TEST_F(WriteTum, MissingFolderIsAnEnvironmentError) {
-  EXPECT_THROW(write_tum(folder_ / "none" / "a.tum", random_path(1)), EnvironmentError);
+TEST_F(WriteTum, UnwritablePlaceIsAnEnvironmentError) {
+  std::ofstream(folder_ / "file") << "not a folder";
+  EXPECT_THROW(write_tum(folder_ / "file" / "a.tum", random_path(1)), EnvironmentError);
 }
 
 TEST(TumText, DecimalsAreFixedAndTrailingZerosCut) {

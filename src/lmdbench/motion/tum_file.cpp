@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/error.h>
+#include <lmdbench/mesh/atomic_file.h>
 #include <lmdbench/motion/tum_file.h>
 
 #include <fmt/format.h>
@@ -14,7 +15,6 @@
 #include <sstream>
 #include <stdexcept>
 #include <string_view>
-#include <system_error>
 #include <vector>
 
 namespace lmdbench {
@@ -153,22 +153,7 @@ std::string tum_text(const Path& path, const std::string& comment, std::optional
 
 void write_tum(const std::filesystem::path& file, const Path& path, const std::string& comment,
                std::optional<int> decimals) {
-  const std::string text = tum_text(path, comment, decimals);
-  std::filesystem::path part = file;
-  part += ".part";
-  {
-    std::ofstream stream(part, std::ios::binary | std::ios::trunc);
-    stream.write(text.data(), static_cast<std::streamsize>(text.size()));
-    stream.flush();
-    if (!stream)
-      throw EnvironmentError(part.string(), "", "cannot be written",
-                             "check that the folder exists and has room");
-  }
-  std::error_code error;
-  std::filesystem::rename(part, file, error);
-  if (error)
-    throw EnvironmentError(file.string(), "", "cannot be replaced: " + error.message(),
-                           "check the permissions of the folder");
+  write_file_atomically(file, tum_text(path, comment, decimals));
 }
 
 }  // namespace lmdbench

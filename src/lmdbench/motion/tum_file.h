@@ -35,9 +35,8 @@ Path read_tum(std::istream& stream, const std::string& name);
 std::string tum_text(const Path& path, const std::string& comment = "",
                      std::optional<int> decimals = std::nullopt);
 
-/// Writes `tum_text` to a file. The text goes to `<file>.part`, which then takes the name: an earlier file
-/// stays whole until then.
-/// @throws EnvironmentError when the file cannot be written
+/// Writes `tum_text` to a file, atomically (`write_file_atomically`): an earlier file stays whole until then.
+/// @throws EnvironmentError when the file cannot be written; std::invalid_argument as `tum_text`
 void write_tum(const std::filesystem::path& file, const Path& path, const std::string& comment = "",
                std::optional<int> decimals = std::nullopt);
 

@@ -1,0 +1,208 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/cli/path_command.h>
+#include <lmdbench/cli/progress_bar.h>
+#include <lmdbench/cli/talk.h>
+#include <lmdbench/error.h>
+#include <lmdbench/mesh/atomic_file.h>
+#include <lmdbench/mesh/manifest.h>
+#include <lmdbench/mesh/placement.h>
+#include <lmdbench/motion/generate.h>
+#include <lmdbench/motion/interpolate.h>
+#include <lmdbench/motion/mesh_scene.h>
+#include <lmdbench/motion/path_facts.h>
+#include <lmdbench/motion/path_spec.h>
+#include <lmdbench/motion/tum_file.h>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+#include <spdlog/spdlog.h>
+
+#include <filesystem>
+#include <memory>
+#include <numbers>
+#include <optional>
+#include <sstream>
+#include <string>
+
+namespace lmdbench {
+namespace {
+
+/// Decimals of a generated path's numbers: nanometres and nanoradians keep the file small. What is checked is
+/// the rounded path.
+constexpr int STORED_DECIMALS = 9;
+
+/// More frames than this are no path of a hand: its times are likely not in seconds.
+constexpr double MOST_FRAMES = 1e8;
+
+constexpr double DEGREES = 180.0 / std::numbers::pi;
+
+struct PathArguments {
+  std::string spec;
+  std::string path;
+  std::string mesh_folder = DEFAULT_MESH_FOLDER;
+  double rate = 1000.0;
+  bool json = false;
+};
+
+TriangleMesh place(const PlacedMesh& placed, const PathArguments& arguments) {
+  const std::filesystem::path beside_spec = std::filesystem::path(arguments.spec).parent_path() / placed.mesh;
+  return scaled_to_diagonal(is_mesh_name(placed.mesh) ? resolve_mesh(placed.mesh, arguments.mesh_folder).mesh
+                                                      : resolve_mesh(beside_spec.string()).mesh,
+                            placed.diagonal);
+}
+
+PathScene load_scene(const PathSpec& spec, const PathArguments& arguments) {
+  return mesh_scene(place(spec.moving, arguments), place(spec.fixed, arguments));
+}
+
+ProgressFunction progress_on(ProgressBar& bar, const std::string& phase) {
+  return [&bar, phase](std::size_t done, std::size_t all) {
+    bar.update(phase, static_cast<std::int64_t>(done), static_cast<std::int64_t>(all));
+  };
+}
+
+struct GapNote {
+  double smallest = 0.0;  ///< Fraction of the diagonal, as all here.
+  double time_of_smallest = 0.0;
+  double floor = 0.0;
+  std::size_t intersecting_frames = 0;
+
+  bool sound() const { return intersecting_frames == 0 && smallest >= floor; }
+};
+
+GapNote note_gaps(const PathInterpolator& interpolator, const PathSpec& spec, const PathScene& scene) {
+  ProgressBar bar(progress_welcome());
+  const Path frames = resample(interpolator, spec.frame_rate);
+  const GapMeasure measure = measure_gaps(frames, scene.distance, progress_on(bar, "check"));
+  return {.smallest = measure.smallest() / scene.diagonal,
+          .time_of_smallest = frames[measure.nearest_frame].time,
+          .floor = spec.gap_floor,
+          .intersecting_frames = measure.frames_within(0.0)};
+}
+
+void print_facts(const std::string& file, const PathFacts& facts, double rate,
+                 const std::optional<GapNote>& gaps, bool json) {
+  if (json) {
+    const auto corner = [](const Vec3& p) { return nlohmann::ordered_json::array({p.x(), p.y(), p.z()}); };
+    nlohmann::ordered_json line{
+        {"path", file},
+        {"poses", facts.pose_count},
+        {"start_time_s", facts.start_time},
+        {"duration_s", facts.duration},
+        {"frame_rate_hz", rate},
+        {"frames", facts.frame_count},
+        {"length_m", facts.length},
+        {"turning_deg", facts.turning * DEGREES},
+        {"maximum_speed_m_per_s", facts.maximum_speed},
+        {"maximum_acceleration_m_per_s2", facts.maximum_acceleration},
+        {"maximum_angular_speed_deg_per_s", facts.maximum_angular_speed * DEGREES},
+        {"maximum_angular_acceleration_deg_per_s2", facts.maximum_angular_acceleration * DEGREES},
+        {"lower_corner_m", corner(facts.lower_corner)},
+        {"upper_corner_m", corner(facts.upper_corner)}};
+    if (gaps)
+      line.update({{"smallest_gap_diagonal", gaps->smallest},
+                   {"time_of_smallest_gap_s", gaps->time_of_smallest},
+                   {"gap_floor_diagonal", gaps->floor},
+                   {"intersecting_frames", gaps->intersecting_frames}});
+    fmt::print("{}\n", line.dump());
+    return;
+  }
+  fmt::print("{}: {} poses, {:.6g} s from {:.6g} s; {} frames at {:g} Hz\n", file, facts.pose_count,
+             facts.duration, facts.start_time, facts.frame_count, rate);
+  fmt::print("  way {:.4g} m, turning {:.4g} deg\n", facts.length, facts.turning * DEGREES);
+  fmt::print("  at most {:.3g} m/s, {:.3g} m/s^2, {:.3g} deg/s, {:.3g} deg/s^2\n", facts.maximum_speed,
+             facts.maximum_acceleration, facts.maximum_angular_speed * DEGREES,
+             facts.maximum_angular_acceleration * DEGREES);
+  if (gaps)
+    fmt::print("  smallest gap {:.4g} % of the diagonal, at {:.6g} s (floor {:.4g} %); {} frames intersect\n",
+               100.0 * gaps->smallest, gaps->time_of_smallest, 100.0 * gaps->floor,
+               gaps->intersecting_frames);
+}
+
+void generate(const PathArguments& arguments) {
+  const PathSpec spec = read_path_spec(arguments.spec);
+  const PathScene scene = load_scene(spec, arguments);
+  Path path;
+  {
+    ProgressBar bar(progress_welcome());
+    path = generate_path(spec, scene, progress_on(bar, "generate"));
+  }
+  const std::string comment =
+      fmt::format("{} ({:g} m) past {} ({:g} m), made by 'lmdbench path generate {}'", spec.moving.mesh,
+                  spec.moving.diagonal, spec.fixed.mesh, spec.fixed.diagonal,
+                  std::filesystem::path(arguments.spec).filename().string());
+  const std::string text = tum_text(path, comment, STORED_DECIMALS);
+  // What counts is what readers will see: the rounded poses, interpolated.
+  std::istringstream stream(text);
+  const PathInterpolator interpolator(read_tum(stream, arguments.path));
+  const GapNote gaps = note_gaps(interpolator, spec, scene);
+  if (!gaps.sound())
+    throw UsageError(
+        arguments.spec, "/gap_floor",
+        fmt::format("at {:.6g} s the path comes to {:.4g} of the diagonal, below {:.4g}; nothing was "
+                    "written",
+                    gaps.time_of_smallest, gaps.smallest, gaps.floor),
+        "store more poses a second, move more slowly, or keep the gaps further above the floor");
+  write_file_atomically(arguments.path, text);
+  spdlog::info("wrote {}", arguments.path);
+  print_facts(arguments.path, path_facts(interpolator, spec.frame_rate), spec.frame_rate, gaps,
+              arguments.json);
+}
+
+void info(const PathArguments& arguments) {
+  const PathInterpolator interpolator(read_tum(std::filesystem::path(arguments.path)));
+  double rate = arguments.rate;
+  std::optional<GapNote> gaps;
+  if (!arguments.spec.empty()) {
+    const PathSpec spec = read_path_spec(arguments.spec);
+    rate = spec.frame_rate;
+    gaps = note_gaps(interpolator, spec, load_scene(spec, arguments));
+  }
+  const double duration = interpolator.end_time() - interpolator.start_time();
+  if (!(duration * rate < MOST_FRAMES))
+    throw InputError(arguments.path, "",
+                     fmt::format("lasts {:g} s, too long at {:g} frames a second", duration, rate),
+                     "give times in seconds, or a lower rate");
+  print_facts(arguments.path, path_facts(interpolator, rate), rate, gaps, arguments.json);
+  if (gaps && !gaps->sound())
+    throw Error(
+        ExitCode::CHECK_FAILED, arguments.path, fmt::format("time {:.6g}", gaps->time_of_smallest),
+        fmt::format("the gap falls to {:.4g} of the diagonal, below the specification's floor of {:.4g}",
+                    gaps->smallest, gaps->floor),
+        "generate the path again, with the meshes that its specification names");
+}
+
+}  // namespace
+
+void add_path_command(CLI::App& app) {
+  CLI::App* path = app.add_subcommand("path", "Make paths that keep a wanted gap, and describe paths");
+  path->require_subcommand(1);
+  const auto arguments = std::make_shared<PathArguments>();
+  const auto add_common = [&](CLI::App* command) {
+    command->add_option("--dir", arguments->mesh_folder, "folder of manifest.json and of the built meshes")
+        ->capture_default_str();
+    command->add_flag("--json", arguments->json, "one JSON object");
+  };
+
+  CLI::App* generate_command =
+      path->add_subcommand("generate", "make a path from its specification and check every frame's gap");
+  generate_command->add_option("SPEC", arguments->spec, "specification (JSON)")->required();
+  generate_command->add_option("--out", arguments->path, "path file to write (TUM)")->required();
+  add_common(generate_command);
+  generate_command->callback([arguments] { generate(*arguments); });
+
+  CLI::App* info_command = path->add_subcommand("info", "describe a path: times, ways, speeds, and its gaps");
+  info_command->add_option("FILE", arguments->path, "path file (TUM)")->required();
+  info_command->add_option("--spec", arguments->spec,
+                           "specification of the path: check every frame's gap; exit code 1 below its floor");
+  info_command
+      ->add_option("--rate", arguments->rate, "frames a second for the speeds; the specification's if given")
+      ->check(CLI::Range(1e-3, 1e6))
+      ->capture_default_str();
+  add_common(info_command);
+  info_command->callback([arguments] { info(*arguments); });
+}
+
+}  // namespace lmdbench

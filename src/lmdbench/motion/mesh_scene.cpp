@@ -1,0 +1,68 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/geometry/triangle_distance.h>
+#include <lmdbench/mesh/surface.h>
+#include <lmdbench/motion/mesh_scene.h>
+#include <lmdbench/snch/hierarchy.h>
+#include <lmdbench/snch/minimum_distance.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <utility>
+
+namespace lmdbench {
+namespace {
+
+class MeshPair {
+ public:
+  MeshPair(TriangleMesh moving, TriangleMesh fixed)
+      : moving_(build_surface(std::move(moving))),
+        fixed_(build_surface(std::move(fixed))),
+        moving_hierarchy_(build_hierarchy(moving_)),
+        fixed_hierarchy_(build_hierarchy(fixed_)) {}
+
+  double distance(const Pose& X_WM) {
+    const double bound = distance_of_last_pair(X_WM);
+    const NearestPair nearest =
+        nearest_pair(moving_, moving_hierarchy_, fixed_, fixed_hierarchy_, X_WM, bound);
+    if (nearest.triangle_moving < 0) return bound;  // Nothing is nearer than the last pair.
+    last_moving_ = nearest.triangle_moving;
+    last_fixed_ = nearest.triangle_fixed;
+    return nearest.distance;
+  }
+
+ private:
+  double distance_of_last_pair(const Pose& X_WM) const {
+    if (last_moving_ < 0) return std::numeric_limits<double>::infinity();
+    const Triangle triangle_W = RigidTransform(X_WM).triangle(moving_.mesh.triangle(last_moving_));
+    return std::sqrt(triangle_distance(triangle_W, fixed_.mesh.triangle(last_fixed_)).squared_distance);
+  }
+
+  Surface moving_;
+  Surface fixed_;
+  Hierarchy moving_hierarchy_;
+  Hierarchy fixed_hierarchy_;
+  std::int32_t last_moving_ = -1;
+  std::int32_t last_fixed_ = -1;
+};
+
+double radius_about_origin(const TriangleMesh& mesh) {
+  double radius = 0.0;
+  for (const Vec3& vertex : mesh.vertices) radius = std::max(radius, vertex.norm());
+  return radius;
+}
+
+}  // namespace
+
+PathScene mesh_scene(TriangleMesh moving, TriangleMesh fixed) {
+  PathScene scene;
+  scene.diagonal = bounding_box_diagonal(moving);
+  scene.moving_radius = radius_about_origin(moving);
+  scene.fixed_radius = radius_about_origin(fixed);
+  const auto pair = std::make_shared<MeshPair>(std::move(moving), std::move(fixed));
+  scene.distance = [pair](const Pose& X_WM) { return pair->distance(X_WM); };
+  return scene;
+}
+
+}  // namespace lmdbench
