@@ -14,11 +14,15 @@ namespace lmdbench {
 
 namespace {
 
-// Point i of n on the unit circle. Single precision: see the header.
+// Nearest multiple of 2^-30: see the header.
+double rounded(double value) {
+  return std::ldexp(std::round(std::ldexp(value, 30)), -30);
+}
+
+// Point i of n on the unit circle.
 std::array<double, 2> circle_point(int i, int n) {
   const double angle = 2.0 * std::numbers::pi * i / n;
-  return {static_cast<double>(static_cast<float>(std::cos(angle))),
-          static_cast<double>(static_cast<float>(std::sin(angle)))};
+  return {rounded(std::cos(angle)), rounded(std::sin(angle))};
 }
 
 // Surface of the box spanned by three ascending rows of coordinates, with a vertex on every surface lattice
@@ -159,7 +163,7 @@ TriangleMesh make_blob(double radius, double bump_height, int subdivisions) {
 TriangleMesh make_unequal(double radius, int cells, double ratio) {
   assert(cells >= 2 && ratio > 1.0);
   // Geometric steps; their factor is rounded like the sines.
-  const double growth = static_cast<double>(static_cast<float>(std::pow(ratio, 1.0 / (cells - 1))));
+  const double growth = rounded(std::pow(ratio, 1.0 / (cells - 1)));
   std::vector<double> row{0.0};
   for (double step = 1.0; static_cast<int>(row.size()) <= cells; step *= growth)
     row.push_back(row.back() + step);

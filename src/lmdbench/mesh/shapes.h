@@ -6,8 +6,8 @@
 
 /// Generated shapes: for tests and for work without a network. All lengths are metres, all triangles
 /// counter-clockwise seen from outside, every shape centred at the origin. The same arguments give the same
-/// bits on every processor: sines come rounded to single precision, because their last bits depend on the
-/// processor's instruction set. Counts below their least useful value are a programming error (asserted).
+/// bits on every processor: sines are rounded to multiples of 2^-30, because their last bits depend
+/// on the processor's instruction set. Counts below their least useful value are a programming error (asserted).
 namespace lmdbench {
 
 /// Icosphere: 20 * 4^subdivisions triangles, nearly equal.
