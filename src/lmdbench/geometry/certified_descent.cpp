@@ -21,7 +21,8 @@
 //   kernels go wrong.
 // - otherwise the corner that is farthest ahead joins the carriers; every step brings the points nearer.
 //
-// Every number is the same for every order of corners and arguments, so is the path and its outcome.
+// The path may depend on the order of corners and arguments; its outcome does not, because a proved minimum
+// is unique and its two points come from functions of its features alone.
 
 namespace lmdbench::kernel {
 namespace {
@@ -171,45 +172,43 @@ void solve_face_to_corner(const Triangle& t, Carriers& carriers, const Vec3& x, 
   }
 }
 
-/// Nearest points of the face of t and an edge of the other triangle; false where the edge pierces the face.
+/// Nearest points of the face of t and an edge of the other triangle; false where the edge seems to pierce
+/// the face. Which pair of parts to try is a guess in plain arithmetic: a wrong guess costs time, never an
+/// answer.
 bool solve_face_to_edge(const Triangle& t, Carriers& carriers_t, const Triangle& other,
                         Carriers& carriers_other, double tolerance, Pair& pair) {
-  const SortedTriangle sorted(t);
-  const FaceFrame frame(sorted.corners, tolerance);
-  if (!frame.has_face) return false;
   const OrderedEdge edge(other, carriers_other);
-  const Vec3 normal = frame.e.cross(frame.h);
-  const double height_low = normal.dot(other[edge.low] - frame.a);
-  const double height_high = normal.dot(other[edge.high] - frame.a);
-  if (std::abs(height_low) == std::abs(height_high)) return false;  // parallel, or the order would decide
+  const Vec3 normal = (t[1] - t[0]).cross(t[2] - t[0]);
+  const double height_low = normal.dot(other[edge.low] - t[0]);
+  const double height_high = normal.dot(other[edge.high] - t[0]);
   // Nearest to the plane is an end of the edge, or the point where it crosses the plane.
   const bool crosses = !(height_low * height_high > 0.0);
   const int nearer = std::abs(height_low) < std::abs(height_high) ? edge.low : edge.high;
   Vec3 nearest_to_plane = other[nearer];
   if (crosses) {
-    nearest_to_plane =
-        other[edge.low] + height_low / (height_low - height_high) * (other[edge.high] - other[edge.low]);
+    const double part = height_low / (height_low - height_high);
+    nearest_to_plane = other[edge.low] + part * (other[edge.high] - other[edge.low]);
   }
-  const auto weights = frame.weights(nearest_to_plane);
-  if (frame.is_interior(weights)) {
+  std::array<bool, 3> is_beyond;  // edge k, which joins corners k and k + 1
+  for (int k = 0; k < 3; ++k) {
+    const Vec3& from = t[k];
+    is_beyond[k] = !(normal.dot((t[(k + 1) % 3] - from).cross(nearest_to_plane - from)) > 0.0);
+  }
+  if (!is_beyond[0] && !is_beyond[1] && !is_beyond[2]) {
     if (crosses) return false;
     carriers_other.keep_only(nearer);
-    pair.point_a = frame.point(weights);
     pair.point_b = other[nearer];
-    pair.squared_distance = (pair.point_a - pair.point_b).squaredNorm();
-    pair.widening = 1.0 + (frame.squared_e + pair.squared_distance) / frame.squared_h;
+    solve_face_to_corner(t, carriers_t, pair.point_b, tolerance, pair.point_a, pair.squared_distance,
+                         pair.widening);
     return true;
   }
-  // Otherwise the border of the face is nearest, in the common case where it is on the way out of the face.
-  const std::array<double, 3> weight{weights.a, weights.b, weights.c};
   Pair best;
   best.squared_distance = std::numeric_limits<double>::infinity();
   Carriers best_t = carriers_t;
   Carriers best_other = carriers_other;
   for (int k = 0; k < 3; ++k) {
-    if (weight[k] > 0.0) continue;
-    Carriers side =
-        Carriers::two(sorted.original[frame.corner[(k + 1) % 3]], sorted.original[frame.corner[(k + 2) % 3]]);
+    if (!is_beyond[k]) continue;
+    Carriers side = Carriers::two(k, (k + 1) % 3);
     Carriers end = carriers_other;
     Pair candidate;
     solve_edge_to_edge(t, side, other, end, tolerance, candidate);
@@ -245,8 +244,7 @@ int farthest_along(const Triangle& t, const Vec3& direction) {
 
 }  // namespace
 
-std::optional<TrianglePairDistance> certified_descent(const Triangle& a, const Triangle& b,
-                                                      double tolerance) {
+bool certified_descent(const Triangle& a, const Triangle& b, double tolerance, TrianglePairDistance& result) {
   const Vec3 toward_b = (b[0] + b[1] + b[2]) - (a[0] + a[1] + a[2]);
   const int start_a = farthest_along(a, toward_b);
   const int start_b = farthest_along(b, -toward_b);
@@ -263,19 +261,21 @@ std::optional<TrianglePairDistance> certified_descent(const Triangle& a, const T
     const Outlook from_a = look_out(a, carriers_a, d, pair.squared_distance, margin);
     const Outlook from_b = look_out(b, carriers_b, -d, pair.squared_distance, margin);
     if (from_a.all_behind && from_b.all_behind) {
-      TrianglePairDistance result;
       result.squared_distance = pair.squared_distance;
       result.point_a = pair.point_a;
       result.point_b = pair.point_b;
       result.feature_a = feature_of(carriers_a);
       result.feature_b = feature_of(carriers_b);
-      return result;
+      result.intersecting = false;
+      result.minimiser_dimension = 0;
+      result.minimiser_measure = 0.0;
+      return true;
     }
     if (from_a.ahead >= 0) carriers_a.add(from_a.ahead);
     // Two faces at once have no closed form; the face of a and the edge of b do, and b's corner can still
     // come.
     if (from_b.ahead >= 0 && carriers_a.count + carriers_b.count < 5) carriers_b.add(from_b.ahead);
-    if (from_a.ahead < 0 && from_b.ahead < 0) return std::nullopt;
+    if (from_a.ahead < 0 && from_b.ahead < 0) return false;
     pair.widening = 1.0;
     if (carriers_a.count == 2 && carriers_b.count == 2) {
       solve_edge_to_edge(a, carriers_a, b, carriers_b, tolerance, pair);
@@ -296,15 +296,15 @@ std::optional<TrianglePairDistance> certified_descent(const Triangle& a, const T
                              pair.widening);
       }
     } else if (carriers_b.count == 2) {
-      if (!solve_face_to_edge(a, carriers_a, b, carriers_b, tolerance, pair)) return std::nullopt;
+      if (!solve_face_to_edge(a, carriers_a, b, carriers_b, tolerance, pair)) return false;
     } else if (carriers_a.count == 2) {
-      if (!solve_face_to_edge(b, carriers_b, a, carriers_a, tolerance, pair)) return std::nullopt;
+      if (!solve_face_to_edge(b, carriers_b, a, carriers_a, tolerance, pair)) return false;
       std::swap(pair.point_a, pair.point_b);
     } else {
-      return std::nullopt;  // two faces that face each other: contact, parallel, or nearly so
+      return false;  // two faces that face each other: contact, parallel, or nearly so
     }
   }
-  return std::nullopt;
+  return false;
 }
 
 }  // namespace lmdbench::kernel

@@ -5,15 +5,14 @@
 #include <lmdbench/geometry/triangle_distance.h>
 #include <lmdbench/geometry/types.h>
 
-#include <optional>
-
 namespace lmdbench::kernel {
 
 /// Nearest pair of two triangles where it is unique by a clear margin, found by descent over features and
-/// proved by the signs of six dot products; empty where nothing was proved: contact, parallel features, exact
-/// ties, degenerate triangles, coordinates that are not finite. What it returns is bit for bit what the
-/// examination of all candidates gives.
+/// proved by the signs of a few dot products. What it gives is bit for bit what the examination of all
+/// candidates gives.
 /// @param tolerance coincidence_length of the largest coordinate
-std::optional<TrianglePairDistance> certified_descent(const Triangle& a, const Triangle& b, double tolerance);
+/// @returns false, with `result` untouched, where nothing was proved: contact, parallel features, exact ties,
+///   degenerate triangles, coordinates that are not finite
+bool certified_descent(const Triangle& a, const Triangle& b, double tolerance, TrianglePairDistance& result);
 
 }  // namespace lmdbench::kernel

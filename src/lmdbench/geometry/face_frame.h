@@ -37,11 +37,9 @@ struct FaceFrame {
     const double squared_01 = (corners[1] - corners[0]).squaredNorm();
     const double squared_12 = (corners[2] - corners[1]).squaredNorm();
     const double squared_20 = (corners[0] - corners[2]).squaredNorm();
-    if (squared_12 > squared_01 && squared_12 >= squared_20) {
-      corner = {1, 2, 0};
-    } else if (squared_20 > squared_01) {
-      corner = {2, 0, 1};
-    }
+    const int from_12 = squared_12 > squared_01;
+    const int first = squared_20 > (from_12 ? squared_12 : squared_01) ? 2 : from_12;
+    corner = {first, (first + 1) % 3, (first + 2) % 3};
     a = corners[corner[0]];
     e = corners[corner[1]] - a;
     ca = corners[corner[2]] - a;

@@ -8,7 +8,6 @@
 #include <lmdbench/geometry/types.h>
 
 #include <array>
-#include <utility>
 
 namespace lmdbench::kernel {
 
@@ -20,12 +19,18 @@ inline constexpr std::array<std::array<int, 2>, 3> EDGE_ENDS{{{0, 1}, {1, 2}, {0
 /// that a permutation of the corners cannot change a bit of the result.
 struct SortedTriangle {
   Triangle corners;
-  std::array<int, 3> original{0, 1, 2};
+  std::array<int, 3> original;
 
-  explicit SortedTriangle(const Triangle& triangle) : corners(triangle) {
-    order(0, 1);
-    order(1, 2);
-    order(0, 1);
+  explicit SortedTriangle(const Triangle& triangle) {
+    // The rank of a corner is the number of corners below it, equal ones counted by index; no branches, as in
+    // lexicographic_less.
+    const int below_10 = lexicographic_less(triangle[1], triangle[0]);
+    const int below_20 = lexicographic_less(triangle[2], triangle[0]);
+    const int below_21 = lexicographic_less(triangle[2], triangle[1]);
+    original[below_10 + below_20] = 0;
+    original[1 - below_10 + below_21] = 1;
+    original[2 - below_20 - below_21] = 2;
+    for (int k = 0; k < 3; ++k) corners[k] = triangle[original[k]];
   }
 
   TriangleFeature vertex(int corner) const { return vertex_feature(original[corner]); }
@@ -53,13 +58,6 @@ struct SortedTriangle {
     if (is_vertex(feature)) return vertex(local_index(feature));
     if (is_edge(feature)) return edge_feature((original[(local_index(feature) + 2) % 3] + 1) % 3);
     return feature;
-  }
-
- private:
-  void order(int i, int j) {
-    if (!lexicographic_less(corners[j], corners[i])) return;
-    std::swap(corners[i], corners[j]);
-    std::swap(original[i], original[j]);
   }
 };
 

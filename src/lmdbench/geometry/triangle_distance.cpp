@@ -213,8 +213,13 @@ TrianglePairDistance shared_point(const Vec3& point, const std::optional<Segment
 std::optional<TrianglePairDistance> crossing_faces(const Query& query, const kernel::Sides& sides) {
   if (!query.face_a.has_face || !query.face_b.has_face) return std::nullopt;
   // Nearly coplanar triangles share a polygon rather than a segment.
-  const Vec3 heights = heights_over(query.face_a, query.b.corners);
-  if (!(heights.maxCoeff() - heights.minCoeff() > 2.0 * query.tolerance)) return std::nullopt;
+  const Vec3 normal = query.face_a.e.cross(query.face_a.h);
+  const double slope_1 = normal.dot(query.b.corners[1] - query.b.corners[0]);
+  const double slope_2 = normal.dot(query.b.corners[2] - query.b.corners[0]);
+  if (!(std::max(slope_1 * slope_1, slope_2 * slope_2) >
+        4.0 * query.tolerance * query.tolerance * query.face_a.squared_e * query.face_a.squared_h)) {
+    return std::nullopt;
+  }
   const auto segment = kernel::shared_segment(query.a.corners, query.b.corners, sides);
   if (!segment) return std::nullopt;
   const Vec3 middle = 0.5 * ((*segment)[0] + (*segment)[1]);
@@ -277,8 +282,9 @@ TrianglePairDistance distance_in_range(const Triangle& a, const Triangle& b, dou
   const bool b_first =
       std::lexicographical_compare(sorted_b.corners.begin(), sorted_b.corners.end(), sorted_a.corners.begin(),
                                    sorted_a.corners.end(), lexicographic_less);
-  return b_first ? swapped(ordered_distance(sorted_b, sorted_a, magnitude))
-                 : ordered_distance(sorted_a, sorted_b, magnitude);
+  const TrianglePairDistance result =
+      ordered_distance(b_first ? sorted_b : sorted_a, b_first ? sorted_a : sorted_b, magnitude);
+  return b_first ? swapped(result) : result;
 }
 
 /// Corner points are copied from the caller's triangle: scaling back would round denormal coordinates.
@@ -310,11 +316,10 @@ TrianglePairDistance distance_out_of_range(const Triangle& a, const Triangle& b,
 TrianglePairDistance triangle_distance(const Triangle& a, const Triangle& b) {
   const double magnitude = std::max(largest_coordinate(a), largest_coordinate(b));
   const bool in_range = magnitude >= SMALLEST_MAGNITUDE && magnitude <= LARGEST_MAGNITUDE;
-  if (in_range) {
-    // Proves nothing where a coordinate is not a number.
-    if (const auto proved = kernel::certified_descent(a, b, coincidence_length(magnitude))) return *proved;
-  }
-  if (!all_finite(a) || !all_finite(b)) return {};
+  TrianglePairDistance result;
+  // The descent proves nothing where a coordinate is not a number.
+  if (in_range && kernel::certified_descent(a, b, coincidence_length(magnitude), result)) return result;
+  if (!all_finite(a) || !all_finite(b)) return result;
   return in_range || magnitude == 0.0 ? distance_in_range(a, b, magnitude)
                                       : distance_out_of_range(a, b, magnitude);
 }

@@ -131,8 +131,8 @@ Vec3 piercing_point(const Segment& p, const Triangle& t, const Vec3& normal) {
   const double sum = height_0 + height_1;
   if (!(sum > 0.0)) return p[0];
   // From the nearer end, where the division is the more accurate.
-  return height_0 <= height_1 ? Vec3(p[0] + (height_0 / sum) * (p[1] - p[0]))
-                              : Vec3(p[1] + (height_1 / sum) * (p[0] - p[1]));
+  const int nearer = height_0 <= height_1 ? 0 : 1;
+  return p[nearer] + ((nearer == 0 ? height_0 : height_1) / sum) * (p[1 - nearer] - p[nearer]);
 }
 
 /// The piece of the planes' common line that both triangles cover.
