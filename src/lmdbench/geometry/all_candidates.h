@@ -1,0 +1,15 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <lmdbench/geometry/triangle_distance.h>
+#include <lmdbench/geometry/types.h>
+
+namespace lmdbench::kernel {
+
+/// triangle_distance by examining every pair of features: for every finite input, and six times slower than
+/// certified_descent.
+/// @param tolerance coincidence_length of the largest coordinate
+TrianglePairDistance distance_by_all_candidates(const Triangle& a, const Triangle& b, double tolerance);
+
+}  // namespace lmdbench::kernel
