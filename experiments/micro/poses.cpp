@@ -1,10 +1,13 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/motion/interpolate.h>
+#include <lmdbench/motion/tum_file.h>
 #include <lmdbench/snch/minimum_distance.h>
 
 #include <micro/poses.h>
 
 #include <stdexcept>
+#include <string>
 
 namespace lmdbench::micro {
 namespace {
@@ -12,6 +15,9 @@ namespace {
 /// A step shrinks what is left at least by the share that the motion has along the nearest direction; a line
 /// that needs more steps than this slides along the surface.
 constexpr int MAXIMUM_STEPS = 2000;
+
+/// Haptic frames a second.
+constexpr double FRAME_RATE_HZ = 1000.0;
 
 Pose grazing_pose(const Body& moving, const Body& fixed, double gap, Random& random) {
   const TriangleMesh& moving_mesh = moving.surface().mesh;
@@ -43,6 +49,15 @@ std::vector<Pose> grazing_poses(const Body& moving, const Body& fixed, double ga
   std::vector<Pose> poses;
   poses.reserve(count);
   for (std::size_t i = 0; i < count; ++i) poses.push_back(grazing_pose(moving, fixed, gap, random));
+  return poses;
+}
+
+std::vector<Pose> path_poses(const std::filesystem::path& file, std::size_t first, std::size_t count) {
+  const Path frames = resample(PathInterpolator(read_tum(file)), FRAME_RATE_HZ);
+  if (frames.size() < first + count)
+    throw std::runtime_error(file.string() + " has only " + std::to_string(frames.size()) + " frames");
+  std::vector<Pose> poses;
+  for (std::size_t i = first; i < first + count; ++i) poses.push_back(frames[i].pose);
   return poses;
 }
 

@@ -8,6 +8,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <filesystem>
 #include <vector>
 
 namespace lmdbench::micro {
@@ -19,6 +20,11 @@ namespace lmdbench::micro {
 /// @throws std::runtime_error when a line misses the fixed body (bodies with a hole through the centre)
 std::vector<Pose> grazing_poses(const Body& moving, const Body& fixed, double gap, std::size_t count,
                                 std::uint64_t seed);
+
+/// Consecutive poses of a recorded path (TUM file) at 1 kHz, as the experiments see them.
+/// @param first  frame of the first pose
+/// @throws InputError when the file cannot be read; std::runtime_error when the path has not that many frames
+std::vector<Pose> path_poses(const std::filesystem::path& file, std::size_t first, std::size_t count);
 
 /// Relative to the gap: far below what any method resolves, reached in some dozens of steps.
 inline constexpr double GAP_TOLERANCE = 1e-6;

@@ -23,6 +23,8 @@ struct Choice {
   std::size_t poses = 40;
   std::size_t repetitions = 9;
   std::uint64_t seed = 1;
+  std::string path;
+  std::size_t first_frame = 0;
   bool slow = false;
   std::string json;
 };
@@ -86,22 +88,28 @@ nlohmann::json to_json(const Row& row) {
           {"objection", row.error.objection}};
 }
 
+std::vector<Pose> choose_poses(const Scene& scene, const Choice& choice) {
+  if (!choice.path.empty()) return path_poses(choice.path, choice.first_frame, choice.poses);
+  return grazing_poses(*scene.moving, *scene.fixed.at(0), choice.scene.gap * choice.scene.diagonal,
+                       choice.poses, choice.seed);
+}
+
+std::string describe_poses(const Choice& choice) {
+  if (!choice.path.empty())
+    return fmt::format("{} frames of {} from frame {}", choice.poses, choice.path, choice.first_frame);
+  return fmt::format("{} random poses at gap {:g} % of the diagonal, seed {}", choice.poses,
+                     100.0 * choice.scene.gap, choice.seed);
+}
+
 int run(const Choice& choice) {
   Scene scene = load_scene(choice.scene);
-  const std::vector<Pose> poses = grazing_poses(
-      *scene.moving, *scene.fixed.at(0), choice.scene.gap * choice.scene.diagonal, choice.poses, choice.seed);
-  fmt::print(
-      "{} on {}: {} poses at gap {:g} % of the diagonal ({:g} m), median of {} runs a pose, one thread's "
-      "processor time\n",
-      choice.scene.moving, choice.scene.fixed, poses.size(), 100.0 * choice.scene.gap, choice.scene.diagonal,
-      choice.repetitions);
-  nlohmann::json report = {{"moving", choice.scene.moving},
-                           {"fixed", choice.scene.fixed},
-                           {"diagonal_m", choice.scene.diagonal},
-                           {"gap", choice.scene.gap},
-                           {"poses", poses.size()},
-                           {"repetitions", choice.repetitions},
-                           {"seed", choice.seed}};
+  const std::vector<Pose> poses = choose_poses(scene, choice);
+  fmt::print("{} on {}, diagonal {:g} m: {}; median of {} runs a pose, one thread's processor time\n",
+             choice.scene.moving, choice.scene.fixed, choice.scene.diagonal, describe_poses(choice),
+             choice.repetitions);
+  nlohmann::json report = {{"moving", choice.scene.moving},       {"fixed", choice.scene.fixed},
+                           {"diagonal_m", choice.scene.diagonal}, {"poses", describe_poses(choice)},
+                           {"pose_count", poses.size()},          {"repetitions", choice.repetitions}};
   bool kept_promises = true;
   for (const double cutoff : choice.cutoffs) {
     scene.cutoff = cutoff * choice.scene.diagonal;
@@ -130,9 +138,12 @@ int main(int argc, char** argv) {
   app.add_option("--diagonal", choice.scene.diagonal, "Diagonal of both meshes [m]")->capture_default_str();
   app.add_option("--gap", choice.scene.gap, "Gap, share of the diagonal")->capture_default_str();
   app.add_option("--cutoff", choice.cutoffs, "Cutoffs, shares of the diagonal")->capture_default_str();
-  app.add_option("--poses", choice.poses, "Random poses")->capture_default_str();
+  app.add_option("--poses", choice.poses, "How many poses")->capture_default_str();
   app.add_option("--repetitions", choice.repetitions, "Timed runs a pose")->capture_default_str();
   app.add_option("--seed", choice.seed, "Seed of the poses")->capture_default_str();
+  app.add_option("--path", choice.path,
+                 "Recorded path (TUM) instead of random poses: consecutive frames at 1 kHz");
+  app.add_option("--first-frame", choice.first_frame, "First frame of the path")->capture_default_str();
   app.add_flag("--slow", choice.slow, "Time slow implementations too");
   app.add_option("--json", choice.json, "Also write the table to this file");
   CLI11_PARSE(app, argc, argv);
