@@ -60,6 +60,7 @@ struct Experiment {
   std::filesystem::path file;  ///< For messages; relative names are relative to its folder.
   std::string name;
   std::string title;
+  std::filesystem::path mesh_folder;  ///< Where the mesh manifest is.
   MeshChoice moving;
   std::vector<MeshChoice> fixed;
   std::filesystem::path path_file;

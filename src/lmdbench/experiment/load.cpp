@@ -121,13 +121,16 @@ Experiment from_json(Json document, const std::filesystem::path& path) {
   experiment.file = path;
   experiment.name = document["name"].get<std::string>();
   experiment.title = document["title"].get<std::string>();
+  experiment.mesh_folder =
+      (path.parent_path() / document["mesh_folder"].get<std::string>()).lexically_normal();
   experiment.moving = mesh_choice(document["moving"]);
   for (std::size_t i = 0; i < document["fixed"].size(); ++i) {
     experiment.fixed.push_back(mesh_choice(document["fixed"][i]));
     experiment.fixed.back().pose =
         pose_of(document["fixed"][i]["pose"], fmt::format("/fixed/{}/pose", i), file);
   }
-  experiment.path_file = path.parent_path() / document["path"]["file"].get<std::string>();
+  experiment.path_file =
+      (path.parent_path() / document["path"]["file"].get<std::string>()).lexically_normal();
   experiment.interpolation =
       document["path"]["interpolation"] == "linear" ? Interpolation::LINEAR : Interpolation::CUBIC;
   experiment.frame_rate_hz = document["frame_rate_hz"].get<double>();

@@ -8,6 +8,8 @@
 #include <lmdbench/mesh/validity.h>
 #include <lmdbench/record/provenance.h>
 
+#include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,6 +19,8 @@ namespace lmdbench {
 struct MeshNote {
   std::string role;  ///< "moving", "fixed_0", ...
   std::string name;
+  std::optional<std::filesystem::path> file;  ///< What was read; nothing for a generated shape.
+  std::string sha256;  ///< Of that file, or of the file that a generated shape would be built to.
   ValidityReport report;
 };
 

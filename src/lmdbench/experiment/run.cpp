@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 #include <set>
 #include <system_error>
 #include <utility>
@@ -28,10 +29,15 @@ void note_findings(const Experiment& experiment, RunResult& result) {
   }
   if (experiment.driver.repetitions == 1)
     result.warnings.push_back("a single repetition: its times include the warm-up");
-  if (result.fcl && !result.fcl->exceptions.empty())
-    result.warnings.push_back(
-        fmt::format("{} comparisons with FCL are out of tolerance: see /crosscheck/fcl/exceptions",
-                    result.fcl->exceptions.size()));
+  if (result.fcl) {
+    std::map<std::string, std::int64_t> exceptions;
+    for (const FclException& exception : result.fcl->exceptions) ++exceptions[exception.who];
+    for (const auto& [who, count] : exceptions)
+      result.warnings.push_back(
+          fmt::format("{}: minimum distance differs from FCL's in {} of {} frames, listed in "
+                      "/crosscheck/fcl/exceptions",
+                      who, count, result.fcl->frames.size()));
+  }
 }
 
 }  // namespace

@@ -15,14 +15,16 @@ namespace {
 
 constexpr double P99 = 0.99;
 
-/// All measured samples of one kind of time: every repetition but the warm-up, which counts only if it is
-/// alone.
-std::vector<double> measured(const MethodRecord& record, std::vector<double> RepetitionTimes::*times) {
+/// All measured samples of one kind of time in the columns (frames or searches) that `counts` names: every
+/// repetition but the warm-up, which counts only if it is alone.
+std::vector<double> measured(const MethodRecord& record, std::vector<double> RepetitionTimes::*times,
+                             const std::vector<bool>& counts) {
   std::vector<double> samples;
   const std::size_t first = record.repetitions.size() > 1 ? 1 : 0;
   for (std::size_t i = first; i < record.repetitions.size(); ++i) {
     const std::vector<double>& repetition = record.repetitions[i].*times;
-    samples.insert(samples.end(), repetition.begin(), repetition.end());
+    for (std::size_t column = 0; column < repetition.size(); ++column)
+      if (counts[column]) samples.push_back(repetition[column]);
   }
   return samples;
 }
@@ -76,12 +78,15 @@ void summarise_errors(MethodSummary& summary, const MethodRecord& record, ForceL
 }
 
 void summarise_times(MethodSummary& summary, const MethodRecord& record) {
-  const std::vector<double> local = measured(record, &RepetitionTimes::local_update);
+  std::vector<bool> contact, found;
+  for (const FrameRecord& frame : record.frames) contact.push_back(frame.lmd_count > 0);
+  for (const SearchRecord& search : record.searches) found.push_back(search.candidates > 0);
+  const std::vector<double> local = measured(record, &RepetitionTimes::local_update, contact);
   summary.local_update_median_s = median(local);
   summary.local_update_p99_s = percentile(local, P99);
-  summary.global_search_median_s = median(measured(record, &RepetitionTimes::global_search));
-  summary.first_reduction_median_s = median(measured(record, &RepetitionTimes::first_reduction));
-  summary.second_tracking_median_s = median(measured(record, &RepetitionTimes::second_tracking));
+  summary.global_search_median_s = median(measured(record, &RepetitionTimes::global_search, found));
+  summary.first_reduction_median_s = median(measured(record, &RepetitionTimes::first_reduction, found));
+  summary.second_tracking_median_s = median(measured(record, &RepetitionTimes::second_tracking, found));
 }
 
 /// A number with a unit, or "-" where it was not measured.
@@ -112,10 +117,10 @@ std::string method_text(const MethodSummary& m, bool probed) {
     text +=
         "  error  not measured: the truth probe is off, so the times below stand without what they bought\n";
   }
-  text += fmt::format("  time   local update {} median, {} 99 %", shown(m.local_update_median_s, 1e6, " us"),
-                      shown(m.local_update_p99_s, 1e6, " us"));
+  text += fmt::format("  time   local update {} median, {} 99 % of contact frames",
+                      shown(m.local_update_median_s, 1e6, " us"), shown(m.local_update_p99_s, 1e6, " us"));
   if (!std::isnan(m.global_search_median_s))
-    text += fmt::format("; global search {}, first reduction {}, second tracking {} (medians)",
+    text += fmt::format("; global search {}, first reduction {}, second tracking {} (medians near contact)",
                         shown(m.global_search_median_s, 1e6, " us"),
                         shown(m.first_reduction_median_s, 1e6, " us"),
                         shown(m.second_tracking_median_s, 1e6, " us"));
@@ -173,7 +178,7 @@ RunSummary summarise(const Experiment& experiment, const RunResult& result) {
   if (result.fcl) {
     summary.fcl_tolerance_relative = experiment.fcl_tolerance_relative;
     summary.fcl_frames = static_cast<std::int64_t>(result.fcl->frames.size());
-    summary.fcl_exceptions = static_cast<std::int64_t>(result.fcl->exceptions.size());
+    for (const FclException& exception : result.fcl->exceptions) ++summary.fcl_exceptions[exception.who];
     for (const FclFrame& frame : result.fcl->frames) {
       summary.fcl_separated += frame.separated ? 1 : 0;
       summary.fcl_agreeing += frame.agrees ? 1 : 0;
@@ -189,11 +194,13 @@ std::string summary_text(const RunSummary& summary) {
                                      ? std::string("1 measured repetition")
                                      : fmt::format("{} measured repetitions", summary.measured_repetitions));
   for (const MethodSummary& method : summary.methods) text += method_text(method, summary.probed_frames > 0);
-  if (summary.fcl_frames > 0)
-    text += fmt::format(
-        "FCL: {} frames, {} separated; exact minimum distance agrees within {:g} in {}; exceptions: {}\n",
-        summary.fcl_frames, summary.fcl_separated, summary.fcl_tolerance_relative, summary.fcl_agreeing,
-        summary.fcl_exceptions);
+  if (summary.fcl_frames > 0) {
+    text += fmt::format("FCL: {} frames, {} separated; exact minimum distance agrees within {:g} in {}\n",
+                        summary.fcl_frames, summary.fcl_separated, summary.fcl_tolerance_relative,
+                        summary.fcl_agreeing);
+    for (const auto& [who, count] : summary.fcl_exceptions)
+      text += fmt::format("     {}: {} out of tolerance\n", who, count);
+  }
   for (const std::string& warning : summary.warnings) text += "note: " + warning + "\n";
   return text;
 }

@@ -5,6 +5,7 @@
 #include <lmdbench/experiment/run.h>
 
 #include <cstdint>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -34,6 +35,7 @@ struct MethodSummary {
   double force_jump_p99_n = UNSET;
   double true_force_jump_p99_n = UNSET;
 
+  /// Over the frames with at least one LMD, and over the searches that found any: free flight costs nothing.
   double local_update_median_s = UNSET;
   double local_update_p99_s = UNSET;
   double global_search_median_s = UNSET;
@@ -50,8 +52,9 @@ struct RunSummary {
   std::vector<MethodSummary> methods;
   std::int64_t fcl_frames = 0;  ///< Cross-checked frames; 0: not asked for.
   std::int64_t fcl_separated = 0;
-  std::int64_t fcl_agreeing = 0;  ///< Separated or not.
-  std::int64_t fcl_exceptions = 0;
+  std::int64_t fcl_agreeing = 0;                       ///< Separated or not.
+  std::map<std::string, std::int64_t> fcl_exceptions;  ///< By who was out of tolerance.
+
   double fcl_tolerance_relative = UNSET;
   std::vector<std::string> warnings;
 };

@@ -22,6 +22,7 @@ void write_scene(ResultWriter& writer, const RunResult& result) {
   for (const MeshNote& mesh : prepared.meshes) {
     const std::string group = "/scene/" + mesh.role;
     writer.attribute(group, "mesh", mesh.name);
+    writer.attribute(group, "sha256", mesh.sha256);
     writer.attribute(group, "triangles", mesh.report.triangles);
     writer.attribute(group, "diagonal_m", mesh.report.diagonal);
     writer.attribute(group, "closed", std::int64_t{mesh.report.closed});

@@ -1,0 +1,20 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace CLI {
+class App;
+}
+
+/// One function a subcommand: it adds the command and its options; the command's work runs as CLI11 callback
+/// and throws the errors of `error.h`. Results go to standard output, everything else to standard error.
+namespace lmdbench {
+
+void add_run_command(CLI::App& app, const std::vector<std::string>& argv);
+void add_plan_command(CLI::App& app);
+void add_query_command(CLI::App& app);
+
+}  // namespace lmdbench

@@ -1,0 +1,39 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/cli/commands.h>
+#include <lmdbench/experiment/experiment.h>
+#include <lmdbench/experiment/plan.h>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace lmdbench {
+
+void add_plan_command(CLI::App& app) {
+  struct PlanOptions {
+    std::string experiment;
+    std::vector<std::string> overrides;
+    bool json = false;
+  };
+  auto* command =
+      app.add_subcommand("plan", "Say what an experiment needs, what is left out and why; run nothing");
+  const auto options = std::make_shared<PlanOptions>();
+  command->add_option("experiment", options->experiment, "experiment file (JSON)")->required();
+  command->add_option("--set", options->overrides, "override a value: /json/pointer=value; repeatable")
+      ->allow_extra_args(false);
+  command->add_flag("--json", options->json, "JSON, with the experiment and all its defaults");
+  command->callback([options] {
+    const Experiment experiment = load_experiment(options->experiment, options->overrides);
+    const Plan plan = make_plan(experiment);
+    if (options->json)
+      fmt::print("{}\n", plan_json(plan, experiment));
+    else
+      fmt::print("{}", plan_text(plan, experiment));
+  });
+}
+
+}  // namespace lmdbench

@@ -1,0 +1,55 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/cli/progress_bar.h>
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <cstdio>
+
+namespace lmdbench {
+
+std::string progress_line(const std::string& phase, std::int64_t done, std::int64_t total, double elapsed) {
+  constexpr int WIDTH = 30;
+  const double share = total > 0 ? static_cast<double>(done) / static_cast<double>(total) : 1.0;
+  const int filled = static_cast<int>(share * WIDTH);
+  const std::string bar = std::string(static_cast<std::size_t>(filled), '#') +
+                          std::string(static_cast<std::size_t>(WIDTH - filled), '-');
+  if (!(elapsed > 0.0) || done == 0) return fmt::format("{:<5} [{}] {:3.0f} %", phase, bar, 100.0 * share);
+  const double rate = static_cast<double>(done) / elapsed;
+  const auto left = static_cast<std::int64_t>(std::ceil(static_cast<double>(total - done) / rate));
+  return fmt::format("{:<5} [{}] {:3.0f} % {:.3g}/s ETA {}:{:02}", phase, bar, 100.0 * share, rate, left / 60,
+                     left % 60);
+}
+
+ProgressBar::ProgressBar(bool enabled) : enabled_(enabled && isatty(STDERR_FILENO) == 1) {}
+
+ProgressBar::~ProgressBar() {
+  wipe();
+}
+
+void ProgressBar::update(const std::string& phase, std::int64_t done, std::int64_t total) {
+  if (!enabled_) return;
+  const Clock::time_point now = Clock::now();
+  if (phase != phase_) {
+    phase_ = phase;
+    phase_begin_ = now;
+    last_draw_ = {};
+  }
+  if (now - last_draw_ < std::chrono::milliseconds(100) && done < total) return;
+  last_draw_ = now;
+  const double elapsed = std::chrono::duration<double>(now - phase_begin_).count();
+  fmt::print(stderr, "\r{}\x1b[K", progress_line(phase, done, total, elapsed));
+  std::fflush(stderr);
+  drawn_ = true;
+}
+
+void ProgressBar::wipe() {
+  if (!drawn_) return;
+  fmt::print(stderr, "\r\x1b[K");
+  std::fflush(stderr);
+  drawn_ = false;
+}
+
+}  // namespace lmdbench

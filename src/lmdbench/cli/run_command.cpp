@@ -1,0 +1,90 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/cli/commands.h>
+#include <lmdbench/cli/progress_bar.h>
+#include <lmdbench/cli/talk.h>
+#include <lmdbench/experiment/experiment.h>
+#include <lmdbench/experiment/run.h>
+#include <lmdbench/experiment/summary.h>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+
+#include <csignal>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace lmdbench {
+namespace {
+
+volatile std::sig_atomic_t stop_requested = 0;
+
+void request_stop(int) {
+  stop_requested = 1;
+  std::signal(SIGINT, SIG_DFL);  // a second Ctrl-C ends the program at once
+}
+
+struct RunOptions {
+  std::string experiment;
+  std::string out;
+  std::vector<std::string> overrides;
+  std::string driver;
+  bool json = false;
+};
+
+void run(const RunOptions& options, const std::vector<std::string>& argv) {
+  std::vector<Override> overrides = options.overrides;
+  if (!options.driver.empty()) overrides.push_back("/driver/kind=" + options.driver);
+  const Experiment experiment = load_experiment(options.experiment, overrides);
+  const std::filesystem::path out = options.out.empty() ? "results/" + experiment.name + ".h5" : options.out;
+
+  ProgressBar bar(progress_welcome());
+  std::signal(SIGINT, request_stop);
+  try {
+    const RunResult result = run_experiment_to_file(
+        experiment, out, argv, [&bar](const std::string& phase, std::int64_t done, std::int64_t total) {
+          bar.update(phase, done, total);
+          return stop_requested == 0;
+        });
+    bar.wipe();
+    const RunSummary summary = summarise(experiment, result);
+    for (const std::string& warning : summary.warnings) spdlog::warn("{}", warning);
+    if (result.fcl) {
+      for (const FclException& e : result.fcl->exceptions)
+        spdlog::debug(
+            "frame {}: {} {:.17g} m, FCL {:.17g} m, exact {:.17g} m; position {:.17g} {:.17g} {:.17g}, "
+            "orientation xyzw {:.17g} {:.17g} {:.17g} {:.17g}; FCL's triangles {} and {} of fixed mesh {}",
+            e.frame, e.who, e.distance, e.fcl_distance, e.lmdbench_distance, e.pose.translation.x(),
+            e.pose.translation.y(), e.pose.translation.z(), e.pose.rotation.x(), e.pose.rotation.y(),
+            e.pose.rotation.z(), e.pose.rotation.w(), e.triangle_moving, e.triangle_fixed, e.fixed_body);
+    }
+    fmt::print("{}{}", options.json ? summary_json(summary) : summary_text(summary),
+               options.json ? "\n" : "");
+    spdlog::info("wrote {}", out.string());
+  } catch (const Interrupted&) {
+    bar.wipe();
+    spdlog::error("interrupted: nothing was written, an earlier {} is as it was", out.string());
+    std::signal(SIGINT, SIG_DFL);
+    std::raise(SIGINT);  // so that a calling shell or script sees the interruption, too
+  }
+}
+
+}  // namespace
+
+void add_run_command(CLI::App& app, const std::vector<std::string>& argv) {
+  auto* command = app.add_subcommand("run", "Run an experiment and write its result file");
+  const auto options = std::make_shared<RunOptions>();
+  command->add_option("experiment", options->experiment, "experiment file (JSON)")->required();
+  command->add_option("--out,-o", options->out, "result file; results/<name>.h5 without it");
+  command->add_option("--set", options->overrides, "override a value: /json/pointer=value; repeatable")
+      ->allow_extra_args(false);
+  command->add_option("--driver", options->driver, "same as --set /driver/kind=...");
+  command->add_flag("--json", options->json, "summary as JSON");
+  command->callback([options, argv] { run(*options, argv); });
+}
+
+}  // namespace lmdbench

@@ -1,0 +1,144 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/error.h>
+#include <lmdbench/experiment/prepare.h>
+#include <lmdbench/lmd/registry.h>
+#include <lmdbench/mesh/manifest.h>
+#include <lmdbench/mesh/placement.h>
+#include <lmdbench/mesh/surface.h>
+#include <lmdbench/motion/interpolate.h>
+#include <lmdbench/motion/tum_file.h>
+#include <lmdbench/phantom/device.h>
+#include <lmdbench/snch/minimum_distance.h>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <memory>
+#include <utility>
+
+namespace lmdbench {
+namespace {
+
+/// More frames than this fit no machine's memory: a path that long is a mistake of its times' unit
+/// (milliseconds, nanoseconds since an epoch).
+constexpr double MOST_FRAMES = 1e8;
+
+/// A mesh at its place in the scene, with its note.
+std::shared_ptr<const Body> load_body(const MeshChoice& choice, const std::string& role,
+                                      const Experiment& experiment, std::vector<MeshNote>& notes) {
+  const ResolvedMesh resolved = is_mesh_name(choice.mesh)
+                                    ? resolve_mesh(choice.mesh, experiment.mesh_folder)
+                                    : resolve_mesh((experiment.file.parent_path() / choice.mesh).string());
+  TriangleMesh mesh = resolved.mesh;
+  if (choice.diagonal_m) mesh = scaled_to_diagonal(std::move(mesh), *choice.diagonal_m);
+  const RigidTransform X_WF(choice.pose);
+  if (role != "moving")
+    for (Vec3& vertex : mesh.vertices) vertex = X_WF.point(vertex);
+  auto body = std::make_shared<const Body>(choice.mesh, build_surface(std::move(mesh)));
+  notes.push_back({role, choice.mesh, resolved.file, resolved.sha256, check_mesh(body->surface())});
+  return body;
+}
+
+Path load_frames(const Experiment& experiment) {
+  const PathInterpolator path(read_tum(experiment.path_file), experiment.interpolation);
+  const double duration = path.end_time() - path.start_time();
+  if (!(duration * experiment.frame_rate_hz < MOST_FRAMES))
+    throw InputError(experiment.path_file.string(), "",
+                     fmt::format("lasts {:g} s, more than {:g} frames at {:g} Hz", duration, MOST_FRAMES,
+                                 experiment.frame_rate_hz),
+                     "give times in seconds, or a lower frame_rate_hz");
+  Path frames = resample(path, experiment.frame_rate_hz);
+  if (experiment.frames && static_cast<std::size_t>(*experiment.frames) < frames.size())
+    frames.resize(static_cast<std::size_t>(*experiment.frames));
+  return frames;
+}
+
+ForceProfile profile_for(const Experiment& experiment, double moving_diagonal) {
+  ForceProfile profile;
+  profile.cutoff = experiment.force.cutoff(moving_diagonal);
+  profile.saturation_distance = experiment.force.saturation(moving_diagonal);
+  profile.maximum_force = experiment.force.maximum_force_n;
+  profile.sharpness = experiment.force.sharpness;
+  // Loading could only compare two lengths; here a share of the mesh's diagonal has become one.
+  if (!(profile.saturation_distance < profile.cutoff))
+    throw UsageError(experiment.file.string(), "/force/saturation_m",
+                     fmt::format("saturation at {} m is not below the cutoff of {} m",
+                                 profile.saturation_distance, profile.cutoff),
+                     "saturate nearer than the cutoff");
+  return profile;
+}
+
+bool touches(const Scene& scene, const Pose& X_WM) {
+  for (const auto& fixed : scene.fixed) {
+    const NearestPair pair = nearest_pair(scene.moving->surface(), scene.moving->hierarchy(),
+                                          fixed->surface(), fixed->hierarchy(), X_WM, scene.cutoff);
+    if (pair.triangle_moving >= 0 && pair.distance == 0.0) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+PreparedRun prepare(const Experiment& experiment) {
+  // The cheap checks first: a misspelt device should not wait for a large mesh.
+  const Device& device = device_named(experiment.device, experiment.file.string(), "/device");
+  const Path frames = load_frames(experiment);
+
+  std::vector<MeshNote> notes;
+  Scene scene;
+  scene.moving = load_body(experiment.moving, "moving", experiment, notes);
+  for (std::size_t i = 0; i < experiment.fixed.size(); ++i)
+    scene.fixed.push_back(load_body(experiment.fixed[i], fmt::format("fixed_{}", i), experiment, notes));
+  const ForceProfile profile = profile_for(experiment, notes.front().report.diagonal);
+  scene.cutoff = profile.cutoff;
+
+  PreparedRun prepared{.scene = std::move(scene),
+                       .input = {.poses = {},
+                                 .frame_rate_hz = experiment.frame_rate_hz,
+                                 .reference_M = Vec3::Zero(),
+                                 .device = VirtualPhantom(device),
+                                 .keep_lmds = {}},
+                       .times = {},
+                       .profile = profile,
+                       .meshes = std::move(notes),
+                       .files = {{"path", experiment.path_file}},
+                       .starts_in_contact = false,
+                       .warnings = {}};
+  prepared.input.reference_M = bounding_box_centre(prepared.scene.moving->surface().mesh);
+  for (const TimedPose& frame : frames) {
+    prepared.input.poses.push_back(frame.pose);
+    prepared.times.push_back(frame.time);
+  }
+  for (const MeshNote& note : prepared.meshes) {
+    const bool listed = std::any_of(prepared.files.begin(), prepared.files.end(),
+                                    [&](const InputFile& file) { return file.role == "mesh:" + note.name; });
+    if (note.file && !listed) prepared.files.push_back({"mesh:" + note.name, *note.file});
+    for (const std::string& finding : findings(note.report))
+      prepared.warnings.push_back(fmt::format("{} mesh {}: {}", note.role, note.name, finding));
+  }
+  prepared.starts_in_contact = touches(prepared.scene, prepared.input.poses.front());
+  if (prepared.starts_in_contact)
+    prepared.warnings.push_back(
+        "the meshes touch in the first frame: LMDs at distance 0 have no direction there and exert no force "
+        "until they "
+        "have been apart");
+  return prepared;
+}
+
+std::vector<LockstepMethod> lockstep_methods(const Experiment& experiment, const PreparedRun& prepared) {
+  std::vector<LockstepMethod> methods;
+  for (const MethodChoice& choice : experiment.methods) {
+    ForceProfile profile = prepared.profile;
+    profile.law = choice.force_law;
+    methods.push_back({choice.label,
+                       [name = choice.name, options = choice.options, scene = prepared.scene] {
+                         return make_method(name, scene, options);
+                       },
+                       profile});
+  }
+  return methods;
+}
+
+}  // namespace lmdbench
