@@ -33,7 +33,7 @@ TEST(ShapeRecipeTest, PassesItsParametersOn) {
               make_torus(0.4, 0.1, 8, 5));
   expect_same(R"({"kind":"blob","radius":1,"bump_height":0.2,"subdivisions":1})", make_blob(1, 0.2, 1));
   expect_same(R"({"kind":"unequal","radius":1,"cells":5,"ratio":50})", make_unequal(1, 5, 50));
-  expect_same(R"({"kind":"needles","radius":1,"height":3,"spikes":7,"groove":0.2})",
+  expect_same(R"({"kind":"needles","radius":1,"height":3,"count":7,"groove":0.2})",
               make_needles(1, 3, 7, 0.2));
   expect_same(R"({"kind":"patch","size":2,"cells":3,"wave_height":0.1})", make_patch(2, 3, 0.1));
   expect_same(R"({"kind":"wedge","width":1,"length":2,"height":3})", make_wedge(1, 2, 3));

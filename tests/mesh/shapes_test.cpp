@@ -82,6 +82,16 @@ TEST(ShapesTest, UnequalShapeHasTheRatioItPromises) {
   EXPECT_LT(most / least, 20000.0);
 }
 
+TEST(ShapesTest, NeedlesAreNeedles) {
+  const Surface surface = build_surface(make_needles(0.3, 1.2, 600));
+  for (std::int32_t t = 0; t < 2400; ++t) {
+    const Triangle corners = surface.mesh.triangle(t);
+    const double side = (corners[2] - corners[0]).norm();
+    const double double_area = (corners[1] - corners[0]).cross(corners[2] - corners[0]).norm();
+    EXPECT_GT(side * side / double_area, 100.0);
+  }
+}
+
 TEST(ShapesTest, PatchHasOneBoundaryRoundItsSquare) {
   const Surface surface = build_surface(make_patch(2.0, 8, 0.1));
   EXPECT_EQ(std::count(surface.edge_is_boundary.begin(), surface.edge_is_boundary.end(), true), 32);

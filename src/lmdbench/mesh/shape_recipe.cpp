@@ -105,7 +105,7 @@ const std::map<std::string, Maker>& makers() {
        }},
       {"needles",
        [](Recipe& r) {
-         return make_needles(r.length("radius"), r.length("height"), r.integer("spikes", 3, 100000),
+         return make_needles(r.length("radius"), r.length("height"), r.integer("count", 3, 100000),
                              r.number("groove", 0.0, 1.0));
        }},
       {"patch",

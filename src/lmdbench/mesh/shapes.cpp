@@ -25,6 +25,9 @@ std::array<double, 2> circle_point(int i, int n) {
   return {rounded(std::cos(angle)), rounded(std::sin(angle))};
 }
 
+// Ridges round the spindle of needles.
+constexpr std::int32_t NEEDLE_RIDGES = 5;
+
 // Surface of the box spanned by three ascending rows of coordinates, with a vertex on every surface lattice
 // point.
 TriangleMesh lattice_box(const std::array<std::vector<double>, 3>& coordinates) {
@@ -177,13 +180,14 @@ TriangleMesh make_unequal(double radius, int cells, double ratio) {
   return mesh;
 }
 
-TriangleMesh make_needles(double radius, double height, int spikes, double groove) {
-  assert(spikes >= 3 && groove >= 0.0 && groove < 1.0);
+TriangleMesh make_needles(double radius, double height, int count, double groove) {
+  assert(count >= 3 && groove >= 0.0 && groove < 1.0);
   TriangleMesh mesh;
-  const std::int32_t ring = 2 * spikes;
+  const std::int32_t ring = 2 * count;
   for (std::int32_t i = 0; i < ring; ++i) {
     const auto [x, y] = circle_point(i, ring);
-    const double r = i % 2 == 0 ? radius : radius * (1.0 - groove);
+    const double valley = 0.5 * (1.0 - circle_point(NEEDLE_RIDGES * i % ring, ring)[0]);
+    const double r = radius * (1.0 - groove * valley);
     mesh.vertices.emplace_back(r * x, r * y, 0.0);
   }
   mesh.vertices.emplace_back(0.0, 0.0, 0.5 * height);

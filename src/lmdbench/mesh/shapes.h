@@ -7,7 +7,8 @@
 /// Generated shapes: for tests and for work without a network. All lengths are metres, all triangles
 /// counter-clockwise seen from outside, every shape centred at the origin. The same arguments give the same
 /// bits on every processor: sines are rounded to multiples of 2^-30, because their last bits depend
-/// on the processor's instruction set. Counts below their least useful value are a programming error (asserted).
+/// on the processor's instruction set. Counts below their least useful value are a programming error
+/// (asserted).
 namespace lmdbench {
 
 /// Icosphere: 20 * 4^subdivisions triangles, nearly equal.
@@ -27,9 +28,10 @@ TriangleMesh make_blob(double radius, double bump_height, int subdivisions);
 /// ones round one corner of a cube that was blown up to a sphere, huge ones at the opposite corner.
 TriangleMesh make_unequal(double radius, int cells, double ratio);
 
-/// Star-shaped spindle of 2 * spikes * 2 needles that all meet in its two tips; aspect about `spikes` * 2.
-/// `groove` in [0, 1) is the relative depth of the valleys between the ridges; 0 makes it convex.
-TriangleMesh make_needles(double radius, double height, int spikes, double groove = 0.3);
+/// Spindle with five smooth ridges, made of 4 * count needles that all meet in its two tips; their aspect is
+/// about count * height / (3 radius). `groove` in [0, 1) is the relative depth of the valleys between the
+/// ridges; 0 makes it convex.
+TriangleMesh make_needles(double radius, double height, int count, double groove = 0.3);
 
 /// Open wavy patch over the square [-size/2, size/2]^2, outer side up: 2 * cells^2 triangles, one boundary
 /// loop.
