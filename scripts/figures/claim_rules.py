@@ -1,8 +1,8 @@
 # SPDX-FileCopyrightText: The lmdbench authors
 # SPDX-License-Identifier: BSD-3-Clause
 """The paper's claims K1 to K10: its words, our measure with the rule of the verdict, and the numbers of result files.
-The rules were written down before the numbers were known and never follow them; a claim that does not reproduce is a
-finding."""
+The paper gives few numbers, so the thresholds are ours: they read its words ("almost the same", "slightly") and are not
+fitted to what a run shows. A claim that does not reproduce is a finding."""
 
 from dataclasses import dataclass, field
 
@@ -36,7 +36,7 @@ def judge(parts):
         return REPRODUCED, ""
     if len(failed) == len(parts):
         return NOT_REPRODUCED, ""
-    return DIFFERS, "this part does not hold: " + "; ".join(failed)
+    return DIFFERS, f"{'these parts do' if len(failed) > 1 else 'this part does'} not hold: " + "; ".join(failed)
 
 
 def both(result):
@@ -45,7 +45,7 @@ def both(result):
 
 def contact_of_either(result):
     original, improved = both(result)
-    return original.contact_frames() | improved.contact_frames()
+    return (original.read("lmd_count") > 0) | (improved.read("lmd_count") > 0)
 
 
 def errors(result):
@@ -83,8 +83,9 @@ def k1(hard):
     true = {method.label: true_jumps_per_second(hard, method.force_law, LARGE_SHARE) if hard.has("/reference/frame")
             else float("nan") for method in both(hard)}
     verdict, because = judge({
-        "the original jumps between zero and strong": switch_o >= 1.0,
-        "the improved force is stable": switch_i < 0.1 and large_i <= 0.1 * large_o,
+        "the improved force is stable: it changes by more than 25 % of F_max a tenth as often": large_i <= 0.1 * large_o,
+        "the improved force does not switch between zero and strong": switch_i < 0.1,
+        "the original jumps from zero to strong and back": switch_o >= 1.0,
     })
     return Claim(
         "K1", "Hard: our method shows good force stability, the original jumps quickly from zero to strong force and "
@@ -131,8 +132,9 @@ def k3(soft):
     varying = force_o.std() > 0 and force_i.std() > 0
     correlation = float(np.corrcoef(force_o, force_i)[0, 1]) if varying else float("nan")
     verdict, because = judge({
-        "the forces are similar": correlation >= 0.8,
-        "the original's is slightly higher": 0.0 < excess <= 0.5,
+        "the forces are very similar (correlation)": correlation >= 0.8,
+        "the original's is higher": excess > 0.0,
+        "by little (up to 50 %)": abs(excess) <= 0.5,
     })
     return Claim("K3", "Soft: the resulting forces are very similar with both methods; the original generates slightly "
                  "higher force (6.1).",
@@ -244,14 +246,17 @@ def k6(results):
 
 
 def local_ratio(result):
-    original, improved = both(result)
+    """Ratio of the medians, the medians, and the ratio of the means: an update that receives a new set of candidates
+    is long, and only the mean sees these few."""
     contact = contact_of_either(result)
-    time = {m.label: median(m.median_times("local_update_time")[contact]) for m in (original, improved)}
-    return time["improved"] / time["original"], time
+    times = {m.label: m.median_times("local_update_time")[contact] for m in both(result)}
+    middle = {label: median(values) for label, values in times.items()}
+    means = np.mean(times["improved"]) / np.mean(times["original"])
+    return middle["improved"] / middle["original"], middle, float(means)
 
 
 def k7(hard, soft):
-    (ratio_hard, time_hard), (ratio_soft, time_soft) = local_ratio(hard), local_ratio(soft)
+    (ratio_hard, time_hard, mean_hard), (ratio_soft, time_soft, mean_soft) = local_ratio(hard), local_ratio(soft)
     verdict, because = judge({
         "the local update is slower": ratio_hard > 1.0 and ratio_soft > 1.0,
         "much slower when hard (at least twice)": ratio_hard >= 2.0,
@@ -262,9 +267,12 @@ def k7(hard, soft):
                  "Ratio of the median local update times, frames in contact: above 1 for both, at least 2 when hard, "
                  "smaller by a tenth or more when soft.",
                  f"hard {ratio_hard:.1f} ({time_hard['improved'] * 1e6:.1f} against {time_hard['original'] * 1e6:.1f} us), "
-                 f"soft {ratio_soft:.1f} ({time_soft['improved'] * 1e6:.1f} against {time_soft['original'] * 1e6:.1f} us). "
+                 f"soft {ratio_soft:.1f} ({time_soft['improved'] * 1e6:.1f} against {time_soft['original'] * 1e6:.1f} us); "
+                 f"ratio of the means, which sees the few long updates that receive a new search's set: hard "
+                 f"{mean_hard:.2f}, soft {mean_soft:.2f}. "
                  + errors(hard) + " " + errors(soft),
                  verdict, because, {"ratio": {"hard": ratio_hard, "soft": ratio_soft},
+                                    "ratio_of_means": {"hard": mean_hard, "soft": mean_soft},
                                     "local_update_s": {"hard": time_hard, "soft": time_soft}})
 
 

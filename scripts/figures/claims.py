@@ -22,8 +22,8 @@ def verdict_text(claim):
 
 def markdown(claims, results):
     lines = ["# Claims ledger", "",
-             "What the paper says, what that is in numbers, and what this machine shows. The thresholds of the verdicts "
-             "stand in the third column.", ""]
+             "What the paper says, what that is in numbers, and what this machine shows. The paper gives few numbers: the "
+             "thresholds of the verdicts are ours and stand in the third column.", ""]
     machine = results[0].machine()
     lines += [f"Machine: {machine.get('processor', 'unknown')}. Results: "
               + ", ".join(f"`{os.path.basename(result.file)}`" for result in results) + ".", "",

@@ -15,35 +15,57 @@ from lmdbench_results import Result, reference_force, run_script, truth_of
 
 import matplotlib.pyplot as plt
 from matplotlib.lines import Line2D
-from matplotlib.ticker import FuncFormatter, MaxNLocator
+from matplotlib.ticker import FixedLocator, FuncFormatter, LogLocator, MaxNLocator
 
 METHODS = ("original", "improved")
+WIDTHS = {"original": 0.6, "improved": 1.0}
 RECALL_BINS = 40  # a frame has so few LMDs that its own recall is mostly 0 or 1
-TRUTH_COLOURS = {"linear": style.GREY, "exponential": style.BLACK}
+# Truth is a wide pale band: where a method is right, its line runs inside.
+TRUTH_COLOURS = {"linear": style.PALE_GREY, "exponential": style.YELLOW}
+TRUTH_WIDTH = 2.6
 # A time axis ends above this quantile: what a busy machine adds to single samples must not flatten the rest. What is
-# cut off is marked at the upper edge with its number and largest value.
+# cut off is told with its number and largest value.
 AXIS_QUANTILE = 0.995
 AXIS_MARGIN = 1.25
+SHORTEST_UPDATE_US = 0.1  # lower end of its axis: below lies the update of an empty set
+HAPTIC_BUDGET_US = 1000.0  # one frame at 1 kHz
+NOTE = {"fontsize": 6.2, "color": "#444444"}
+
+
+def look(method):
+    return {"color": style.colour_of(method), "ls": style.line_of(method), "lw": WIDTHS[method.label],
+            "zorder": 2 + METHODS.index(method.label)}
+
+
+def note(axes, text):
+    axes.text(0.995, 0.97, text, transform=axes.transAxes, ha="right", va="top", zorder=9,
+              bbox={"facecolor": "white", "edgecolor": "none", "alpha": 0.85, "pad": 0.8}, **NOTE)
 
 
 def plot_force(axes, result):
     for label in METHODS:
         method = result.method(label)
-        axes.plot(result.time, method.force_magnitude(), color=style.colour_of(method), ls=style.line_of(method),
-                  lw=0.7, zorder=2 + METHODS.index(label))
+        axes.plot(result.time, method.force_magnitude(), **look(method))
     for law in dict.fromkeys(result.method(label).force_law for label in METHODS):
         frames, force = reference_force(result, law)
         if frames.size:
-            axes.plot(result.time[frames], force, ls="none", marker=".", ms=1.6, mew=0, color=TRUTH_COLOURS[law],
-                      zorder=5)
-    axes.set_ylim(bottom=0)
+            axes.plot(result.time[frames], force, lw=TRUTH_WIDTH, color=TRUTH_COLOURS[law], zorder=1,
+                      solid_capstyle="round", solid_joinstyle="round")
+    limit = result.scene("device_maximum_force_n")
+    highest = max(float(line.get_ydata().max(initial=0.0)) for line in axes.lines)
+    if highest >= 0.99 * limit:
+        axes.axhline(limit, color=style.GREY, lw=0.6, ls=(0, (1, 1.5)), zorder=1)
+        axes.annotate(f"device clips at {limit:g} N", (0.0, limit), xycoords=("axes fraction", "data"), xytext=(2, 1.5),
+                      textcoords="offset points", **NOTE)
+        highest = 1.1 * limit
+    axes.set_ylim(0, 1.03 * highest if highest > 0 else 1.0)
+    axes.yaxis.set_major_locator(MaxNLocator(4, steps=[1, 2, 2.5, 5, 10]))
 
 
 def plot_counts(axes, result):
     for label in METHODS:
         method = result.method(label)
-        axes.plot(result.time, method.read("lmd_count"), color=style.colour_of(method), ls=style.line_of(method),
-                  lw=0.7, zorder=2 + METHODS.index(label))
+        axes.plot(result.time, method.read("lmd_count"), **look(method))
     improved = result.method("improved")
     axes.plot(result.time, improved.read("lmd_count_before_reduction"), color=style.SKY, lw=0.8, zorder=1)
     # Linear up to 1, so that no LMD at all has its place; logarithmic above.
@@ -58,104 +80,106 @@ def plot_searches(axes, result):
         time = result.time[method.read("global_frame").astype(int)]
         search = method.median_times("global_search_time") * 1e3
         if label == "improved":
-            total = search + np.nan_to_num(method.median_times("first_reduction_time")) * 1e3
             axes.plot(time, search, color=style.SKY, lw=0.9, zorder=2)
-            axes.plot(time, total, color=style.colour_of(method), ls=style.line_of(method), lw=0.9, zorder=3)
-        else:
-            axes.plot(time, search, color=style.colour_of(method), ls=style.line_of(method), lw=0.9, zorder=4)
-    limit_time_axis(axes)
+            search = search + np.nan_to_num(method.median_times("first_reduction_time")) * 1e3
+        axes.plot(time, search, **{**look(method), "lw": 0.9})
+    values = np.concatenate([line.get_ydata() for line in axes.lines])
+    values = values[np.isfinite(values)]
+    top = AXIS_MARGIN * np.quantile(values, AXIS_QUANTILE) if values.size else 1.0
+    beyond = values[values > top]
+    if beyond.size:
+        note(axes, f"{beyond.size} above, up to {beyond.max():.3g} ms")
+        axes.set_ylim(0, top)
+    else:
+        axes.set_ylim(bottom=0)
+    axes.yaxis.set_major_locator(MaxNLocator(4, steps=[1, 2, 5, 10]))
 
 
 def plot_updates(axes, result):
     for label in METHODS:
         method = result.method(label)
-        axes.plot(result.time, method.median_times("local_update_time") * 1e3, color=style.colour_of(method),
-                  ls=style.line_of(method), lw=0.6, zorder=2 + METHODS.index(label))
-    limit_time_axis(axes)
+        axes.plot(result.time, method.median_times("local_update_time") * 1e6, **{**look(method), "lw": 0.6})
+    axes.set_yscale("log")
+    axes.set_ylim(bottom=SHORTEST_UPDATE_US)
+    axes.yaxis.set_major_locator(LogLocator(numticks=12))
+    axes.yaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
+    if axes.get_ylim()[1] > HAPTIC_BUDGET_US:
+        axes.axhline(HAPTIC_BUDGET_US, color=style.GREY, lw=0.6, ls=(0, (1, 1.5)), zorder=1)
+        axes.annotate("1 kHz", (0.0, HAPTIC_BUDGET_US), xycoords=("axes fraction", "data"), xytext=(2, 1.5),
+                      textcoords="offset points", **NOTE)
 
 
 def plot_recall(axes, result):
+    axes.set_ylim(-4, 104)
+    axes.yaxis.set_major_locator(FixedLocator([0, 50, 100]))
+    edges = np.linspace(result.time[0], result.time[-1], RECALL_BINS + 1)
     for label in METHODS:
         method = result.method(label)
         truth = truth_of(method)
         if truth is None:
             axes.text(0.5, 0.5, "no truth probe in this run", transform=axes.transAxes, ha="center", va="center")
-            break
-        edges = np.linspace(result.time[0], result.time[-1], RECALL_BINS + 1)
+            return
         bins = np.clip(np.digitize(result.time[truth.frames], edges) - 1, 0, RECALL_BINS - 1)
-        recall = [truth.pooled(truth.recall[bins == i], truth.true_count[bins == i]) for i in range(RECALL_BINS)]
-        axes.stairs(np.array(recall) * 100.0, edges, baseline=None, color=style.colour_of(method),
-                    ls=style.line_of(method), lw=1.0, zorder=2 + METHODS.index(label))
-    axes.set_ylim(-3, 103)
+        for shares, options in ((truth.recall, {**look(method), "lw": 1.1}),
+                                (truth.recall_adjacent, {**look(method), "lw": 0.8, "ls": ":"})):
+            recall = [truth.pooled(shares[bins == i], truth.true_count[bins == i]) for i in range(RECALL_BINS)]
+            axes.stairs(np.array(recall) * 100.0, edges, baseline=None, **options)
 
 
-def limit_time_axis(axes):
-    """Cuts single extreme samples off the axis and says so."""
-    values = np.concatenate([line.get_ydata() for line in axes.lines])
-    values = values[np.isfinite(values)]
-    if not values.size:
-        return
-    top = AXIS_MARGIN * np.quantile(values, AXIS_QUANTILE)
-    beyond = values[values > top]
-    if not beyond.size:
-        axes.set_ylim(bottom=0)
-        return
-    axes.set_ylim(0, top)
-    axes.text(0.995, 0.97, f"{beyond.size} above, up to {beyond.max():.3g} ms", transform=axes.transAxes, ha="right",
-              va="top", fontsize=6, color="#555555")
-
-
-def key(label, colour, line="-", marker=None, width=1.2):
-    return Line2D([], [], color=colour, ls=line, marker=marker, ms=3, mew=0, lw=width, label=label)
+def key(label, colour, line="-", width=1.2):
+    return Line2D([], [], color=colour, ls=line, lw=width, label=label)
 
 
 def keys_of_rows(result):
     original, improved = (result.method(label) for label in METHODS)
-    base = [key("original", style.colour_of(original), style.line_of(original)),
-            key("improved", style.colour_of(improved), style.line_of(improved))]
-    laws = [key(f"truth, {law} law", TRUTH_COLOURS[law], "none", ".")
+    base = [key("original", style.colour_of(original), style.line_of(original), width=1.0),
+            key("improved", style.colour_of(improved), style.line_of(improved), width=1.5)]
+    laws = [key(f"truth, {law} law", TRUTH_COLOURS[law], width=TRUTH_WIDTH)
             for law in dict.fromkeys(method.force_law for method in (original, improved))]
+    near = [key("dotted: a neighbouring feature counts, too", "#444444", ":", width=0.9)]
     return [
         base + laws,
         base + [key("improved, before reduction", style.SKY)],
         [base[0], key("improved, search alone", style.SKY),
          key("improved, with first reduction", style.colour_of(improved), style.line_of(improved))],
         base,
-        base,
+        base + near,
     ]
 
 
 ROWS = (
-    (plot_force, "force [N]", 1.35),
+    (plot_force, "force [N]", 1.5),
     (plot_counts, "LMDs [1]", 1.0),
     (plot_searches, "global search [ms]", 1.0),
-    (plot_updates, "local update [ms]", 1.0),
-    (plot_recall, "true LMDs\nknown [%]", 0.8),
+    (plot_updates, "local update [\u00b5s]", 1.0),
+    (plot_recall, "LMDs known [%]", 0.9),
 )
 
 
-def draw(results):
-    """One figure with a column a result; `results` maps the column's heading to the result."""
+def heading(name, result):
+    return f"{name} contact: cutoff {result.scene('cutoff_m') * 1e3:g} mm, $F_{{max}}$ {result.maximum_force():g} N"
+
+
+def draw(hard, soft):
     style.use_style()
     heights = [height for _, _, height in ROWS]
     figure, axes = plt.subplots(
-        len(ROWS), len(results), figsize=(style.TWO_COLUMNS_IN, 8.3), sharex="col", squeeze=False,
-        gridspec_kw={"height_ratios": heights, "hspace": 0.42, "wspace": 0.2, "left": 0.085, "right": 0.99,
-                     "top": 0.935, "bottom": 0.05})
-    for column, (heading, result) in enumerate(results.items()):
-        for row, (plot, _, _) in enumerate(ROWS):
-            plot(axes[row, column], result)
-            axes[row, column].yaxis.set_major_locator(axes[row, column].yaxis.get_major_locator()
-                                                      if plot is plot_counts else MaxNLocator(4, min_n_ticks=3))
-        axes[0, column].set_title(heading, pad=20, fontweight="bold")
+        len(ROWS), 2, figsize=(style.TWO_COLUMNS_IN, 8.4), sharex="col",
+        gridspec_kw={"height_ratios": heights, "hspace": 0.36, "wspace": 0.16, "left": 0.092, "right": 0.992,
+                     "top": 0.932, "bottom": 0.046})
+    for column, (name, result) in enumerate((("hard", hard), ("soft", soft))):
+        for panel, (plot, _, _) in zip(axes[:, column], ROWS):
+            plot(panel, result)
+        axes[0, column].set_title(heading(name, result), pad=19, fontweight="bold")
         axes[-1, column].set_xlabel("time [s]")
         axes[-1, column].set_xlim(result.time[0], result.time[-1])
-    for row, ((_, label, _), keys) in enumerate(zip(ROWS, keys_of_rows(next(iter(results.values()))))):
+    for row, ((_, label, _), keys) in enumerate(zip(ROWS, keys_of_rows(hard))):
         axes[row, 0].set_ylabel(label)
+        axes[row, 0].yaxis.set_label_coords(-0.125, 0.5)
         box = axes[row, 0].get_position()
-        figure.legend(handles=keys, loc="lower left", bbox_to_anchor=(box.x0 - 0.008, box.y1 + 0.001), ncol=len(keys),
+        figure.text(0.012, box.y1 + 0.0045, "abcdefgh"[row], fontweight="bold", fontsize=8.5)
+        figure.legend(handles=keys, loc="lower left", bbox_to_anchor=(box.x0 - 0.008, box.y1 - 0.003), ncol=len(keys),
                       handlelength=2.6, columnspacing=1.6, borderpad=0.1, handletextpad=0.6)
-    figure.align_ylabels(axes[:, 0])
     return figure
 
 
@@ -165,7 +189,7 @@ def main(argv):
     parser.add_argument("soft", help="result file of the experiment with soft contact")
     parser.add_argument("--out", required=True, metavar="DIR", help="directory of figure7.svg and figure7.png")
     arguments = parser.parse_args(argv)
-    figure = draw({"hard contact": Result(arguments.hard), "soft contact": Result(arguments.soft)})
+    figure = draw(Result(arguments.hard), Result(arguments.soft))
     for file in style.save(figure, arguments.out, "figure7"):
         print(file)
     return 0

@@ -20,11 +20,13 @@ PURPLE = "#CC79A7"
 ORANGE = "#E69F00"
 SKY = "#56B4E9"
 BLACK = "#000000"
+YELLOW = "#F0E442"
 GREY = "#8A8A8A"
+PALE_GREY = "#C4C4C4"
 
 # By the method's name in the registry; variants of one method share its colour.
 METHOD_COLOURS = {"original": VERMILLION, "improved": BLUE, "certified": GREEN, "exhaustive": BLACK}
-METHOD_LINES = {"original": (0, (3.5, 1.0)), "improved": "-", "certified": (0, (5, 1, 1, 1)), "exhaustive": ":"}
+METHOD_LINES = {"original": (0, (2.6, 0.8)), "improved": "-", "certified": (0, (5, 1, 1, 1)), "exhaustive": ":"}
 OTHER_COLOURS = (PURPLE, ORANGE, SKY)
 
 STYLE = {

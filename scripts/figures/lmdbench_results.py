@@ -65,17 +65,15 @@ class Method:
         return np.linalg.norm(np.diff(self.read("force"), axis=0), axis=1)
 
     def search_parts(self):
-        """(R, G) times [s] of search alone and of search with the first reduction, which counts 0 where there is none."""
-        search = self.times("global_search_time")
-        return search, search + zero_for_nan(self.times("first_reduction_time"))
+        """(R, searches with candidates) times [s] of search alone and of search with the first reduction, which counts
+        0 where there is none."""
+        busy = self.read("candidates") > 0
+        search = self.times("global_search_time")[:, busy]
+        return search, search + zero_for_nan(self.times("first_reduction_time")[:, busy])
 
     def searches_every_frame(self):
         """Whether the method has no search of its own rate: its whole set is found anew in the local part."""
         return self.read("global_frame").size == 0
-
-    def contact_frames(self):
-        """(N) frames with an LMD."""
-        return self.read("lmd_count") > 0
 
     def time_per_frame(self):
         """(R, N) processor time [s] per haptic frame, all-in: the local update and the frame's share of the global
@@ -164,6 +162,10 @@ class Result:
 
     def repetitions(self):
         return max((method.read("local_update_time").shape[0] for method in self.methods.values()), default=0)
+
+    def contact_frames(self):
+        """(N) frames in which any method has an LMD: the same frames for all, and no time is that of an empty set."""
+        return np.any([method.read("lmd_count") > 0 for method in self.methods.values()], axis=0)
 
     def scene(self, name):
         """A number of the scene: maximum_force_n, cutoff_m, ..."""
@@ -284,7 +286,7 @@ def frame_seconds(result):
 
 def jumps_per_second(method, share):
     """Changes of force from one frame to the next above a share of F_max, per second in contact; NaN without any."""
-    seconds = np.count_nonzero(method.contact_frames()) * frame_seconds(method.result)
+    seconds = np.count_nonzero(method.result.contact_frames()) * frame_seconds(method.result)
     jumps = np.count_nonzero(method.force_jumps() > share * method.result.maximum_force())
     return jumps / seconds if seconds > 0 else float("nan")
 

@@ -35,7 +35,7 @@ def percents(share, adjacent):
 
 def row(method):
     truth = truth_of(method)
-    local = method.times("local_update_time")
+    local = method.times("local_update_time")[:, method.result.contact_frames()]
     if method.searches_every_frame():
         search = total = "every frame"
     else:
@@ -92,12 +92,11 @@ def crosscheck_line(result):
     difference = difference[np.isfinite(difference)]
     worst = f"{difference.max():.1e}" if difference.size else NOT_MEASURED
     disagreements = int(np.count_nonzero(~agrees))
-    text = (f"FCL: minimum distance compared in {agrees.size} frames ({np.count_nonzero(separated)} separated), "
+    text = (f"FCL: exact minimum distance compared in {agrees.size} frames ({np.count_nonzero(separated)} separated), "
             f"{disagreements} disagree, worst relative difference {worst}.")
-    if result.has("/crosscheck/fcl/exceptions/who"):
-        count = len(result.read("/crosscheck/fcl/exceptions/who"))
-        text += f" Exceptions of any method: {count}."
-    return text
+    who = result.texts("/crosscheck/fcl/exceptions/who") if result.has("/crosscheck/fcl/exceptions/who") else []
+    methods = [f"{label} in {who.count(label)}" for label in result.methods if label in who]
+    return text + (f" Fresh searches off by more than the tolerance: {', '.join(methods)} frames." if methods else "")
 
 
 def describe(result):
@@ -114,7 +113,8 @@ def describe(result):
 
 
 LEGEND = f"""\
-Times: median (99th percentile) of all samples after the warm-up. "+ reduction": search with the first reduction.
+Times: median (99th percentile) of all samples after the warm-up, of searches that find candidates and of frames in
+contact. "+ reduction": search with the first reduction. In contact: any of the methods has an LMD.
 LMDs: median in contact (most). Recall, precision: share of the true LMDs that the method knows, of its LMDs that are
 true; the same features (in parentheses: or features that share a triangle with the true ones). Force error: root mean
 square against the true force under the same law, in contact. Jumps: changes of force above {JUMP_SHARE:.0%} of F_max within
