@@ -63,11 +63,15 @@ ProgressFunction progress_on(ProgressBar& bar, const std::string& phase) {
   };
 }
 
+/// Frames count as being at the wanted gap up to this multiple of it.
+constexpr double AT_WANTED_GAP = 1.1;
+
 struct GapNote {
   double smallest = 0.0;  ///< Fraction of the diagonal, as all here.
   double time_of_smallest = 0.0;
   double floor = 0.0;
   std::size_t intersecting_frames = 0;
+  std::size_t frames_at_wanted_gap = 0;
 
   bool sound() const { return intersecting_frames == 0 && smallest >= floor; }
 };
@@ -76,10 +80,15 @@ GapNote note_gaps(const PathInterpolator& interpolator, const PathSpec& spec, co
   ProgressBar bar(progress_welcome());
   const Path frames = resample(interpolator, spec.frame_rate);
   const GapMeasure measure = measure_gaps(frames, scene.distance, progress_on(bar, "check"));
+  std::size_t at_wanted_gap = 0;
+  for (std::size_t k = 0; k < frames.size(); ++k)
+    if (measure.gaps[k] <= AT_WANTED_GAP * scene.diagonal * wanted_gap(spec.gaps, frames[k].time))
+      ++at_wanted_gap;
   return {.smallest = measure.smallest() / scene.diagonal,
           .time_of_smallest = frames[measure.nearest_frame].time,
           .floor = spec.gap_floor,
-          .intersecting_frames = measure.frames_within(0.0)};
+          .intersecting_frames = measure.frames_within(0.0),
+          .frames_at_wanted_gap = at_wanted_gap};
 }
 
 void print_facts(const std::string& file, const PathFacts& facts, double rate,
@@ -105,6 +114,7 @@ void print_facts(const std::string& file, const PathFacts& facts, double rate,
       line.update({{"smallest_gap_diagonal", gaps->smallest},
                    {"time_of_smallest_gap_s", gaps->time_of_smallest},
                    {"gap_floor_diagonal", gaps->floor},
+                   {"frames_at_wanted_gap", gaps->frames_at_wanted_gap},
                    {"intersecting_frames", gaps->intersecting_frames}});
     fmt::print("{}\n", line.dump());
     return;
@@ -115,10 +125,11 @@ void print_facts(const std::string& file, const PathFacts& facts, double rate,
   fmt::print("  at most {:.3g} m/s, {:.3g} m/s^2, {:.3g} deg/s, {:.3g} deg/s^2\n", facts.maximum_speed,
              facts.maximum_acceleration, facts.maximum_angular_speed * DEGREES,
              facts.maximum_angular_acceleration * DEGREES);
-  if (gaps)
-    fmt::print("  smallest gap {:.4g} % of the diagonal, at {:.6g} s (floor {:.4g} %); {} frames intersect\n",
-               100.0 * gaps->smallest, gaps->time_of_smallest, 100.0 * gaps->floor,
-               gaps->intersecting_frames);
+  if (!gaps) return;
+  fmt::print("  smallest gap {:.4g} % of the diagonal, at {:.6g} s (floor {:.4g} %); {} frames intersect\n",
+             100.0 * gaps->smallest, gaps->time_of_smallest, 100.0 * gaps->floor, gaps->intersecting_frames);
+  fmt::print("  {} frames within {:.0f} % of the wanted gap\n", gaps->frames_at_wanted_gap,
+             100.0 * (AT_WANTED_GAP - 1.0));
 }
 
 void generate(const PathArguments& arguments) {
