@@ -7,6 +7,7 @@
 #include <lmdbench/geometry/segment_kernel.h>
 #include <lmdbench/geometry/shared_segment.h>
 #include <lmdbench/geometry/sorted_triangle.h>
+#include <lmdbench/geometry/triangle_intersection.h>
 
 #include <algorithm>
 #include <array>
@@ -183,13 +184,11 @@ void prefer_whole_minimiser_set(const Query& query, const TrianglePairDistance& 
   }
 }
 
-TrianglePairDistance shared_point(const Vec3& point, const std::optional<Segment>& segment,
-                                  double tolerance) {
+TrianglePairDistance shared_point(const Vec3& point, double length, double tolerance) {
   TrianglePairDistance result;
   result.squared_distance = 0.0;
   result.point_a = result.point_b = point;
   result.intersecting = true;
-  const double length = segment ? ((*segment)[1] - (*segment)[0]).norm() : 0.0;
   if (length > tolerance) {
     result.minimiser_dimension = 1;
     result.minimiser_measure = length;
@@ -199,7 +198,7 @@ TrianglePairDistance shared_point(const Vec3& point, const std::optional<Segment
 
 /// The answer for triangles that cross with the middle of the shared segment inside both: the usual
 /// intersection.
-std::optional<TrianglePairDistance> crossing_faces(const Query& query, const Sides& sides) {
+std::optional<TrianglePairDistance> crossing_faces(const Query& query) {
   if (!query.face_a.has_face || !query.face_b.has_face) return std::nullopt;
   // Nearly coplanar triangles share a polygon rather than a segment.
   const Vec3 normal = query.face_a.e.cross(query.face_a.h);
@@ -209,25 +208,29 @@ std::optional<TrianglePairDistance> crossing_faces(const Query& query, const Sid
         4.0 * query.tolerance * query.tolerance * query.face_a.squared_e * query.face_a.squared_h)) {
     return std::nullopt;
   }
-  const auto segment = shared_segment(query.a.corners, query.b.corners, sides);
-  if (!segment) return std::nullopt;
-  const Vec3 middle = 0.5 * ((*segment)[0] + (*segment)[1]);
+  const auto shared = shared_segment(query.a.corners, query.face_a, query.b.corners, query.face_b);
+  if (!shared.is_clear) return std::nullopt;
+  const Vec3 middle = shared.middle();
   if (!query.face_a.is_interior(query.face_a.weights(middle))) return std::nullopt;
   if (!query.face_b.is_interior(query.face_b.weights(middle))) return std::nullopt;
-  return shared_point(middle, segment, query.tolerance);
+  return shared_point(middle, shared.length, query.tolerance);
 }
 
 /// The answer for any triangles that share a point: the middle of the shared set.
-TrianglePairDistance answer_intersection(const Query& query, const Sides& sides,
-                                         const TrianglePairDistance& nearest) {
+TrianglePairDistance answer_intersection(const Query& query, const TrianglePairDistance& nearest) {
+  // Triangles that touch, or that are coplanar, have the middle of what they share as the nearest pair
+  // already.
   Vec3 middle = nearest.point_a;
-  std::optional<Segment> segment;
-  // Coplanar triangles already have the middle of their shared polygon as the nearest pair.
-  const bool coplanar =
-      nearest.minimiser_dimension == 2 && std::sqrt(nearest.squared_distance) <= query.tolerance;
-  if (!coplanar) {
-    segment = shared_segment(query.a.corners, query.b.corners, sides);
-    if (segment) middle = 0.5 * ((*segment)[0] + (*segment)[1]);
+  double length = 0.0;
+  bool use_segment = false;
+  if (nearest.minimiser_dimension < 2 || !(std::sqrt(nearest.squared_distance) <= query.tolerance)) {
+    const auto shared = shared_segment(query.a.corners, query.face_a, query.b.corners, query.face_b);
+    const bool touching = nearest.squared_distance <= 4.0 * query.tolerance * query.tolerance;
+    use_segment = shared.has_chord && (!touching || (shared.is_clear && shared.length > query.tolerance));
+    if (use_segment) {
+      middle = shared.middle();
+      length = shared.length;
+    }
   }
   const auto on_a = point_triangle_distance(middle, query.a.corners);
   const auto on_b = point_triangle_distance(middle, query.b.corners);
@@ -236,8 +239,8 @@ TrianglePairDistance answer_intersection(const Query& query, const Sides& sides,
   } else if (is_vertex(on_b.feature)) {
     middle = on_b.point;
   }
-  TrianglePairDistance result = shared_point(middle, segment, query.tolerance);
-  if (!segment) {
+  TrianglePairDistance result = shared_point(middle, length, query.tolerance);
+  if (!use_segment) {
     result.minimiser_dimension = nearest.minimiser_dimension;
     result.minimiser_measure = nearest.minimiser_measure;
   }
@@ -249,10 +252,9 @@ TrianglePairDistance answer_intersection(const Query& query, const Sides& sides,
 /// @pre a before b in lexicographic order of sorted corners
 TrianglePairDistance ordered_distance(const SortedTriangle& a, const SortedTriangle& b, double tolerance) {
   const Query query(a, b, tolerance);
-  const Sides sides(a.corners, b.corners);
-  const bool intersecting = triangles_intersect(a.corners, b.corners, sides);
+  const bool intersecting = triangles_intersect(a.corners, b.corners);
   if (intersecting) {
-    if (const auto crossing = crossing_faces(query, sides)) return *crossing;
+    if (const auto crossing = crossing_faces(query)) return *crossing;
   }
   const EdgePairs edge_pairs = examine_edge_pairs(query);
   TrianglePairDistance best = edge_pairs.nearest;
@@ -261,7 +263,7 @@ TrianglePairDistance ordered_distance(const SortedTriangle& a, const SortedTrian
   const TrianglePairDistance on_a = swapped(nearest_corner_of_a_to_face_of_b(b, query.face_a));
   if (better(on_a, best)) best = on_a;
   prefer_whole_minimiser_set(query, edge_pairs.overlap, best);
-  return intersecting ? answer_intersection(query, sides, best) : best;
+  return intersecting ? answer_intersection(query, best) : best;
 }
 
 }  // namespace

@@ -19,6 +19,7 @@
 //   triangles apart by |d|: the pair is the minimum, it is unique, and the triangles are disjoint. This is a
 //   proof, not the slab test along a cross product of edges whose rounding makes the usual early exit of such
 //   kernels go wrong.
+// - the pair must also be nearer than every other pair of the same features by more than rounding;
 // - otherwise the corner that is farthest ahead joins the carriers; every step brings the points nearer.
 //
 // The path may depend on the order of corners and arguments; its outcome does not, because a proved minimum
@@ -26,6 +27,11 @@
 
 namespace lmdbench::kernel {
 namespace {
+
+/// How many tolerances make a margin clear. The examination of all candidates takes an overlap of features
+/// that drift apart by one tolerance as parallel and answers by its middle; half a clear margin must still be
+/// far beyond that.
+constexpr double CLEARANCE = 16.0;
 
 /// Generic pairs need three steps or fewer; the bound only stops a cycle that rounding could keep alive.
 constexpr int MAX_STEPS = 6;
@@ -114,21 +120,37 @@ void reduce(Carriers& carriers, const OrderedEdge& edge, SegmentFeature feature)
   if (feature == SegmentFeature::V1) carriers.keep_only(edge.high);
 }
 
+/// Nearest point of one triangle's carriers to a corner of the other triangle.
+struct PointOnPart {
+  Vec3 point;
+  double squared_distance = std::numeric_limits<double>::infinity();
+  double squared_rise = 0.0;  ///< as in PointsOnSegments
+  double widening = 1.0;      ///< factor on the squared margin: how badly the face's shape magnifies rounding
+};
+
+/// Nearest points of both triangles' carriers.
 struct Pair {
   Vec3 point_a = Vec3::Zero();
   Vec3 point_b = Vec3::Zero();
-  double squared_distance = 0.0;
-  double widening = 1.0;  ///< factor on the squared margin: how badly the face's shape magnifies rounding
+  double squared_distance = std::numeric_limits<double>::infinity();
+  double squared_rise = 0.0;
+  double widening = 1.0;
+
+  void set(const Vec3& on_a, const Vec3& on_b, const PointOnPart& part) {
+    point_a = on_a;
+    point_b = on_b;
+    squared_distance = part.squared_distance;
+    squared_rise = part.squared_rise;
+    widening = part.widening;
+  }
 };
 
-/// Nearest point of an edge of t to x; drops carriers that do not carry it.
-void solve_edge_to_corner(const Triangle& t, Carriers& carriers, const Vec3& x, double tolerance, Vec3& point,
-                          double& squared_distance) {
+/// Drops carriers that do not carry the point.
+PointOnPart solve_edge_to_corner(const Triangle& t, Carriers& carriers, const Vec3& x, double tolerance) {
   const OrderedEdge edge(t, carriers);
   const PointOnSegment nearest = project_on_segment(x, t[edge.low], t[edge.high], tolerance);
   reduce(carriers, edge, nearest.feature);
-  point = nearest.point;
-  squared_distance = nearest.squared_distance;
+  return {nearest.point, nearest.squared_distance, nearest.squared_rise};
 }
 
 void solve_edge_to_edge(const Triangle& a, Carriers& carriers_a, const Triangle& b, Carriers& carriers_b,
@@ -142,34 +164,33 @@ void solve_edge_to_edge(const Triangle& a, Carriers& carriers_a, const Triangle&
   reduce(carriers_b, edge_b, a_first ? nearest.feature_q : nearest.feature_p);
   pair.point_a = a_first ? nearest.p : nearest.q;
   pair.point_b = a_first ? nearest.q : nearest.p;
-  // Overlapping parallel edges have no single nearest pair: not a number keeps every margin from being met.
-  pair.squared_distance =
-      nearest.overlap_length > 0.0 ? std::numeric_limits<double>::quiet_NaN() : nearest.squared_distance;
+  pair.squared_distance = nearest.squared_distance;
+  pair.squared_rise =
+      nearest.squared_rise;  // 0 for overlapping parallel edges: they have no single nearest pair
+  pair.widening = 1.0;
 }
 
-void solve_face_to_corner(const Triangle& t, Carriers& carriers, const Vec3& x, double tolerance, Vec3& point,
-                          double& squared_distance, double& widening) {
+PointOnPart solve_face_to_corner(const Triangle& t, Carriers& carriers, const Vec3& x, double tolerance) {
   const SortedTriangle sorted(t);
   const FaceFrame frame(sorted.corners, tolerance);
   const auto weights = frame.weights(x);
+  PointOnPart best;
   if (frame.has_face && frame.is_interior(weights)) {
-    point = frame.point(weights);
-    squared_distance = (x - point).squaredNorm();
-    widening = 1.0 + (frame.squared_e + squared_distance) / frame.squared_h;
-    return;
+    best.point = frame.point(weights);
+    best.squared_distance = (x - best.point).squaredNorm();
+    best.squared_rise = frame.squared_distance_to_border(weights);
+    best.widening = 1.0 + (frame.squared_e + best.squared_distance) / frame.squared_h;
+    return best;
   }
-  squared_distance = std::numeric_limits<double>::infinity();
   for (int k = 0; k < 3; ++k) {
     Carriers edge = Carriers::two(k, (k + 1) % 3);
-    Vec3 candidate;
-    double candidate_squared = 0.0;
-    solve_edge_to_corner(t, edge, x, tolerance, candidate, candidate_squared);
-    if (candidate_squared < squared_distance) {
-      squared_distance = candidate_squared;
-      point = candidate;
+    const PointOnPart candidate = solve_edge_to_corner(t, edge, x, tolerance);
+    if (candidate.squared_distance < best.squared_distance) {
+      best = candidate;
       carriers = edge;
     }
   }
+  return best;
 }
 
 /// Nearest points of the face of t and an edge of the other triangle; false where the edge seems to pierce
@@ -197,13 +218,11 @@ bool solve_face_to_edge(const Triangle& t, Carriers& carriers_t, const Triangle&
   if (!is_beyond[0] && !is_beyond[1] && !is_beyond[2]) {
     if (crosses) return false;
     carriers_other.keep_only(nearer);
-    pair.point_b = other[nearer];
-    solve_face_to_corner(t, carriers_t, pair.point_b, tolerance, pair.point_a, pair.squared_distance,
-                         pair.widening);
+    const PointOnPart part = solve_face_to_corner(t, carriers_t, other[nearer], tolerance);
+    pair.set(part.point, other[nearer], part);
     return true;
   }
   Pair best;
-  best.squared_distance = std::numeric_limits<double>::infinity();
   Carriers best_t = carriers_t;
   Carriers best_other = carriers_other;
   for (int k = 0; k < 3; ++k) {
@@ -218,7 +237,7 @@ bool solve_face_to_edge(const Triangle& t, Carriers& carriers_t, const Triangle&
       best_other = end;
     }
   }
-  if (!std::isfinite(best.squared_distance)) return false;  // overlaps of parallel edges alone
+  if (!std::isfinite(best.squared_distance)) return false;
   pair = best;
   carriers_t = best_t;
   carriers_other = best_other;
@@ -234,6 +253,13 @@ TriangleFeature feature_of(const Carriers& carriers) {
     default:
       return TriangleFeature::FACE;
   }
+}
+
+/// No other pair of points of the same features is as near up to rounding: the features are not nearly
+/// parallel, and the points are not so near an end or a border that a lower feature would do.
+bool is_clear_minimum(const Pair& pair, double squared_margin) {
+  return pair.squared_rise > squared_margin &&
+         squared(pair.squared_rise) > squared_margin * pair.squared_distance;
 }
 
 int farthest_along(const Triangle& t, const Vec3& direction) {
@@ -254,13 +280,15 @@ bool certified_descent(const Triangle& a, const Triangle& b, double tolerance, T
   pair.point_a = a[start_a];
   pair.point_b = b[start_b];
   pair.squared_distance = (pair.point_b - pair.point_a).squaredNorm();
-  const double squared_margin = 2.0 * tolerance * tolerance;
+  const double squared_margin = squared(CLEARANCE * tolerance);
   for (int step = 0; step < MAX_STEPS; ++step) {
     const Vec3 d = pair.point_b - pair.point_a;
     const double margin = squared_margin * pair.widening;
     const Outlook from_a = look_out(a, carriers_a, d, pair.squared_distance, margin);
     const Outlook from_b = look_out(b, carriers_b, -d, pair.squared_distance, margin);
     if (from_a.all_behind && from_b.all_behind) {
+      const bool two_corners = carriers_a.count + carriers_b.count == 2;
+      if (!two_corners && !is_clear_minimum(pair, squared_margin)) return false;
       result.squared_distance = pair.squared_distance;
       result.point_a = pair.point_a;
       result.point_b = pair.point_b;
@@ -276,25 +304,18 @@ bool certified_descent(const Triangle& a, const Triangle& b, double tolerance, T
     // come.
     if (from_b.ahead >= 0 && carriers_a.count + carriers_b.count < 5) carriers_b.add(from_b.ahead);
     if (from_a.ahead < 0 && from_b.ahead < 0) return false;
-    pair.widening = 1.0;
     if (carriers_a.count == 2 && carriers_b.count == 2) {
       solve_edge_to_edge(a, carriers_a, b, carriers_b, tolerance, pair);
     } else if (carriers_b.count == 1) {
-      pair.point_b = b[carriers_b.corner[0]];
-      if (carriers_a.count == 2) {
-        solve_edge_to_corner(a, carriers_a, pair.point_b, tolerance, pair.point_a, pair.squared_distance);
-      } else {
-        solve_face_to_corner(a, carriers_a, pair.point_b, tolerance, pair.point_a, pair.squared_distance,
-                             pair.widening);
-      }
+      const Vec3& corner = b[carriers_b.corner[0]];
+      const PointOnPart part = carriers_a.count == 2 ? solve_edge_to_corner(a, carriers_a, corner, tolerance)
+                                                     : solve_face_to_corner(a, carriers_a, corner, tolerance);
+      pair.set(part.point, corner, part);
     } else if (carriers_a.count == 1) {
-      pair.point_a = a[carriers_a.corner[0]];
-      if (carriers_b.count == 2) {
-        solve_edge_to_corner(b, carriers_b, pair.point_a, tolerance, pair.point_b, pair.squared_distance);
-      } else {
-        solve_face_to_corner(b, carriers_b, pair.point_a, tolerance, pair.point_b, pair.squared_distance,
-                             pair.widening);
-      }
+      const Vec3& corner = a[carriers_a.corner[0]];
+      const PointOnPart part = carriers_b.count == 2 ? solve_edge_to_corner(b, carriers_b, corner, tolerance)
+                                                     : solve_face_to_corner(b, carriers_b, corner, tolerance);
+      pair.set(corner, part.point, part);
     } else if (carriers_b.count == 2) {
       if (!solve_face_to_edge(a, carriers_a, b, carriers_b, tolerance, pair)) return false;
     } else if (carriers_a.count == 2) {

@@ -7,6 +7,8 @@
 
 #include <Eigen/Geometry>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace lmdbench::kernel {
@@ -21,10 +23,8 @@ struct FaceFrame {
   double squared_e = 0.0;  ///< |e|^2
   double squared_h = 0.0;  ///< |h|^2
   double u = 0.0;
-  double squared_limit_b =
-      0.0;  ///< square of the weight of b below which a point is on the edge ca; and so on
-  double squared_limit_a = 0.0;
-  double squared_limit_c = 0.0;
+  Vec3 squared_heights;  ///< squared altitudes through a, b and c
+  double squared_tolerance;
   std::array<int, 3> corner{0, 1, 2};  ///< which corners a, b and c are
   bool has_face = false;               ///< false when the altitude is rounding: a segment or a point
 
@@ -33,7 +33,7 @@ struct FaceFrame {
     double a, b, c;
   };
 
-  explicit FaceFrame(const std::array<Vec3, 3>& corners, double tolerance) {
+  FaceFrame(const Triangle& corners, double tolerance) : squared_tolerance(tolerance * tolerance) {
     const double squared_01 = (corners[1] - corners[0]).squaredNorm();
     const double squared_12 = (corners[2] - corners[1]).squaredNorm();
     const double squared_20 = (corners[0] - corners[2]).squaredNorm();
@@ -48,14 +48,11 @@ struct FaceFrame {
     u = ca.dot(e) / squared_e;
     h = ca - u * e;
     squared_h = h.squaredNorm();
-    const double squared_tolerance = tolerance * tolerance;
     has_face = squared_h > squared_tolerance;
     if (!has_face) return;
-    // weight of b times its height |e| |h| / |ca| is the distance to the edge ca; likewise for a and c.
     const double squared_double_area = squared_e * squared_h;
-    squared_limit_a = squared_tolerance * (ca - e).squaredNorm() / squared_double_area;
-    squared_limit_b = squared_tolerance * ca.squaredNorm() / squared_double_area;
-    squared_limit_c = squared_tolerance / squared_h;
+    squared_heights = {squared_double_area / (ca - e).squaredNorm(), squared_double_area / ca.squaredNorm(),
+                       squared_h};
   }
 
   Weights weights(const Vec3& x) const {
@@ -66,10 +63,15 @@ struct FaceFrame {
     return {1.0 - t - b, b, t};
   }
 
-  /// Farther than the tolerance from every edge, and inside.
+  /// Squared distance of the projection from the nearest edge line.
+  double squared_distance_to_border(const Weights& w) const {
+    return std::min(w.a * w.a * squared_heights[0],
+                    std::min(w.b * w.b * squared_heights[1], w.c * w.c * squared_heights[2]));
+  }
+
+  /// Inside, and farther than the tolerance from every edge.
   bool is_interior(const Weights& w) const {
-    return w.a > 0.0 && w.b > 0.0 && w.c > 0.0 && w.a * w.a > squared_limit_a &&
-           w.b * w.b > squared_limit_b && w.c * w.c > squared_limit_c;
+    return w.a > 0.0 && w.b > 0.0 && w.c > 0.0 && squared_distance_to_border(w) > squared_tolerance;
   }
 
   Vec3 point(const Weights& w) const { return a + w.b * e + w.c * ca; }

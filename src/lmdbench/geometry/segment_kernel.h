@@ -18,6 +18,7 @@ namespace lmdbench::kernel {
 struct PointOnSegment {
   Vec3 point;
   double squared_distance;
+  double squared_rise;  ///< see PointsOnSegments; 0 at an end
   SegmentFeature feature;
 };
 
@@ -25,6 +26,9 @@ struct PointOnSegment {
 struct PointsOnSegments {
   Vec3 p, q;
   double squared_distance;
+  /// Lower bound of how much the squared distance grows from here to any end of a segment that is met inside;
+  /// 0 where none is. Where it drowns in rounding, other pairs are as near as this one.
+  double squared_rise;
   double overlap_length;  ///< 0 where the minimiser is a single pair
   SegmentFeature feature_p, feature_q;
 };
@@ -47,6 +51,7 @@ inline PointOnSegment project_on_segment(const Vec3& x, const Vec3& p0, const Ve
     result.point = first ? p0 : p1;
     result.squared_distance = first ? to_p0 : to_p1;
     result.feature = first ? SegmentFeature::V0 : SegmentFeature::V1;
+    result.squared_rise = 0.0;
     return result;
   }
   // From the nearer end, where the division is the more accurate.
@@ -55,6 +60,7 @@ inline PointOnSegment project_on_segment(const Vec3& x, const Vec3& p0, const Ve
   result.point = (first ? p0 : p1) + part * d;
   result.squared_distance = (x - result.point).squaredNorm();
   result.feature = SegmentFeature::EDGE;
+  result.squared_rise = part * part * squared_length;
   return result;
 }
 
@@ -71,11 +77,13 @@ inline void pair_from_end_of_q(const Vec3& p0, const Vec3& p1, const Vec3& q0, c
     result.q = q;
     result.feature_q = end_of_q;
     result.squared_distance = on_p.squared_distance;
+    result.squared_rise = on_p.squared_rise;
   } else {
     const PointOnSegment on_q = project_on_segment(on_p.point, q0, q1, tolerance);
     result.q = on_q.point;
     result.feature_q = on_q.feature;
     result.squared_distance = on_q.squared_distance;
+    result.squared_rise = on_q.squared_rise;
   }
 }
 
@@ -88,6 +96,7 @@ inline void pair_from_end_of_p(const Vec3& p, SegmentFeature end_of_p, const Vec
   result.q = on_q.point;
   result.feature_q = on_q.feature;
   result.squared_distance = on_q.squared_distance;
+  result.squared_rise = on_q.squared_rise;
   result.overlap_length = 0.0;
 }
 
@@ -107,6 +116,7 @@ inline void parallel_segments(const Vec3& p0, const Vec3& p1, const Vec3& q0, co
     result.q = q0 + t * (q1 - q0);
     result.squared_distance = (result.p - result.q).squaredNorm();
     result.overlap_length = overlap;
+    result.squared_rise = 0.0;
     result.feature_p = result.feature_q = SegmentFeature::EDGE;
     return;
   }
@@ -165,6 +175,10 @@ inline void ordered_segment_distance(const Vec3& p0, const Vec3& p1, const Vec3&
   if (s >= 1.0 || (1.0 - s) * (1.0 - s) * squared_length_p <= squared_tolerance) {
     return pair_from_end_of_p(p1, SegmentFeature::V1, q0, q1, tolerance, result);
   }
+  // Towards an end of q the lines drift apart by squared_across per unit of t, towards an end of the longer p
+  // by more.
+  const double least_part = std::min(std::min(t, 1.0 - t), std::min(s, 1.0 - s));
+  result.squared_rise = least_part * least_part * squared_across;
   result.p = p0 + s * d1;
   result.q = q0 + t * d2;
   result.squared_distance = (result.p - result.q).squaredNorm();

@@ -2,34 +2,29 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <lmdbench/geometry/segment_distance.h>
+#include <lmdbench/geometry/face_frame.h>
 #include <lmdbench/geometry/types.h>
-
-#include <array>
-#include <optional>
 
 namespace lmdbench::kernel {
 
-/// On which side of the other triangle's plane the corners of each triangle are; exact.
-struct Sides {
-  std::array<int, 3> a{}, b{};
+/// What two intersecting triangles of different planes share.
+struct SharedSegment {
+  bool has_chord = false;  ///< false where no corner or edge of one meets the plane of the other in a point
+  bool is_clear = false;   ///< false where only rounding decides whether the chord and the face overlap
+  Vec3 begin, end;
+  double length = 0.0;
 
-  Sides(const Triangle& ta, const Triangle& tb);
-
-  static bool apart(const std::array<int, 3>& side) {
-    return side[0] != 0 && side[0] == side[1] && side[1] == side[2];
-  }
-  /// Some plane of the two has the other triangle strictly on one side.
-  bool planes_separate() const { return apart(b) || apart(a); }
-  /// No corner lies in the other's plane.
-  bool is_generic() const { return a[0] * a[1] * a[2] * b[0] * b[1] * b[2] != 0; }
+  Vec3 middle() const { return 0.5 * (begin + end); }
 };
 
-/// triangles_intersect given the sides.
-bool triangles_intersect(const Triangle& a, const Triangle& b, const Sides& sides);
+/// Cuts `corners` by the face's plane and keeps the part of the chord over the face. The chord lies on the
+/// edges of `corners`, the cut follows the frame of `face`, so both ends are on both triangles up to rounding
+/// however thin `corners` is; the better-shaped triangle should be the face.
+/// @pre corners in lexicographic order, face.has_face
+SharedSegment shared_segment(const FaceFrame& face, const Triangle& corners);
 
-/// intersection_segment for triangles that are known to intersect.
-/// @pre corners in lexicographic order, `first` before `second`, triangles_intersect(first, second)
-std::optional<Segment> shared_segment(const Triangle& first, const Triangle& second, const Sides& sides);
+/// The better-shaped triangle as the face; no chord where neither has a face.
+SharedSegment shared_segment(const Triangle& a, const FaceFrame& face_a, const Triangle& b,
+                             const FaceFrame& face_b);
 
 }  // namespace lmdbench::kernel

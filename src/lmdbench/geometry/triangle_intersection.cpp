@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/geometry/face_frame.h>
 #include <lmdbench/geometry/orientation.h>
 #include <lmdbench/geometry/shared_segment.h>
 #include <lmdbench/geometry/sorted_triangle.h>
@@ -18,8 +19,6 @@
 
 namespace lmdbench {
 namespace {
-
-using kernel::Sides;
 
 constexpr int COLLINEAR = -1;
 
@@ -101,6 +100,24 @@ std::array<Segment, 3> edges(const Triangle& t) {
   return {Segment{t[0], t[1]}, Segment{t[1], t[2]}, Segment{t[2], t[0]}};
 }
 
+/// On which side of the other triangle's plane the corners of each triangle are; exact.
+struct Sides {
+  std::array<int, 3> a{}, b{};
+
+  Sides(const Triangle& ta, const Triangle& tb) {
+    b = sides_of_plane(ta, tb);
+    if (!apart(b)) a = sides_of_plane(tb, ta);
+  }
+
+  static bool apart(const std::array<int, 3>& side) {
+    return side[0] != 0 && side[0] == side[1] && side[1] == side[2];
+  }
+  /// Some plane of the two has the other triangle strictly on one side.
+  bool planes_separate() const { return apart(b) || apart(a); }
+  /// No corner lies in the other's plane.
+  bool is_generic() const { return a[0] * a[1] * a[2] * b[0] * b[1] * b[2] != 0; }
+};
+
 int lone_corner(const std::array<int, 3>& side) {
   return side[1] == side[2] ? 0 : side[2] == side[0] ? 1 : 2;
 }
@@ -124,77 +141,10 @@ bool segments_on_common_line_overlap(const Triangle& a, const Triangle& b, const
   return orientation_3d(pa, qa, pb, qb) <= 0 && orientation_3d(pa, ra, rb, pb) <= 0;
 }
 
-/// Point where an edge that meets the triangle's plane in one point does so.
-Vec3 piercing_point(const Segment& p, const Triangle& t, const Vec3& normal) {
-  const double height_0 = std::abs(normal.dot(p[0] - t[0]));
-  const double height_1 = std::abs(normal.dot(p[1] - t[0]));
-  const double sum = height_0 + height_1;
-  if (!(sum > 0.0)) return p[0];
-  // From the nearer end, where the division is the more accurate.
-  const int nearer = height_0 <= height_1 ? 0 : 1;
-  return p[nearer] + ((nearer == 0 ? height_0 : height_1) / sum) * (p[1 - nearer] - p[nearer]);
-}
-
-/// The piece of the planes' common line that both triangles cover.
-/// @pre sides.is_generic() and the triangles intersect
-Segment overlap_on_common_line(const Triangle& first, const Triangle& second, const Sides& sides) {
-  const Vec3 normal_first = (first[1] - first[0]).cross(first[2] - first[0]);
-  const Vec3 normal_second = (second[1] - second[0]).cross(second[2] - second[0]);
-  const Vec3 along = normal_first.cross(normal_second);
-  const auto ends = [&along](const Triangle& t, int lone, const Triangle& other, const Vec3& normal) {
-    Segment segment{piercing_point({t[lone], t[(lone + 1) % 3]}, other, normal),
-                    piercing_point({t[lone], t[(lone + 2) % 3]}, other, normal)};
-    if (along.dot(segment[1] - segment[0]) < 0.0) std::swap(segment[0], segment[1]);
-    return segment;
-  };
-  const Segment on_first = ends(first, lone_corner(sides.a), second, normal_second);
-  const Segment on_second = ends(second, lone_corner(sides.b), first, normal_first);
-  Segment shared{along.dot(on_second[0] - on_first[0]) > 0.0 ? on_second[0] : on_first[0],
-                 along.dot(on_second[1] - on_first[1]) < 0.0 ? on_second[1] : on_first[1]};
-  if (lexicographic_less(shared[1], shared[0])) std::swap(shared[0], shared[1]);
-  return shared;
-}
-
-void collect_piercing_points(const Triangle& piercing, const Triangle& t, int axis,
-                             std::array<Vec3, 6>& points, int& count) {
-  const Vec3 normal = (t[1] - t[0]).cross(t[2] - t[0]);
-  for (const auto& ends : kernel::EDGE_ENDS) {
-    const Segment edge{piercing[ends[0]], piercing[ends[1]]};
-    if (!segment_meets_triangle(edge, t, axis)) continue;
-    const bool in_plane =
-        orientation_3d(t[0], t[1], t[2], edge[0]) == 0 && orientation_3d(t[0], t[1], t[2], edge[1]) == 0;
-    // An edge in the other's plane: the pieces of the shared segment come from the other triangle's edges.
-    if (!in_plane) points[count++] = piercing_point(edge, t, normal);
-  }
-}
-
 }  // namespace
 
 bool triangles_intersect(const Triangle& a, const Triangle& b) {
-  return kernel::triangles_intersect(a, b, Sides(a, b));
-}
-
-std::optional<Segment> intersection_segment(const Triangle& a, const Triangle& b) {
-  // Sorted, so that neither the order of corners nor that of the arguments changes a bit.
-  Triangle first = kernel::SortedTriangle(a).corners;
-  Triangle second = kernel::SortedTriangle(b).corners;
-  if (std::lexicographical_compare(second.begin(), second.end(), first.begin(), first.end(),
-                                   lexicographic_less)) {
-    std::swap(first, second);
-  }
-  const Sides sides(first, second);
-  if (!kernel::triangles_intersect(first, second, sides)) return std::nullopt;
-  return kernel::shared_segment(first, second, sides);
-}
-
-namespace kernel {
-
-Sides::Sides(const Triangle& ta, const Triangle& tb) {
-  b = sides_of_plane(ta, tb);
-  if (!apart(b)) a = sides_of_plane(tb, ta);
-}
-
-bool triangles_intersect(const Triangle& a, const Triangle& b, const Sides& sides) {
+  const Sides sides(a, b);
   if (sides.planes_separate()) return false;
   if (sides.is_generic()) return segments_on_common_line_overlap(a, b, sides);
   const int axis_a = projection_axis(a[0], a[1], a[2]);
@@ -211,33 +161,24 @@ bool triangles_intersect(const Triangle& a, const Triangle& b, const Sides& side
   return false;
 }
 
-std::optional<Segment> shared_segment(const Triangle& first, const Triangle& second, const Sides& sides) {
-  std::array<Vec3, 6> points;
-  int count = 0;
-  if (sides.is_generic()) return overlap_on_common_line(first, second, sides);
-  const int axis_first = projection_axis(first[0], first[1], first[2]);
-  const int axis_second = projection_axis(second[0], second[1], second[2]);
-  if (axis_first == COLLINEAR || axis_second == COLLINEAR) return std::nullopt;
-  collect_piercing_points(first, second, axis_second, points, count);
-  collect_piercing_points(second, first, axis_first, points, count);
-  if (count == 0) return std::nullopt;
-  // All lie on one line up to rounding, which need not be the order that coordinates give; take the farthest
-  // two.
-  Segment longest{points[0], points[0]};
-  double longest_squared = -1.0;
-  for (int i = 0; i < count; ++i) {
-    for (int j = i; j < count; ++j) {
-      const double squared_length = (points[j] - points[i]).squaredNorm();
-      if (squared_length > longest_squared) {
-        longest_squared = squared_length;
-        longest = {points[i], points[j]};
-      }
-    }
+std::optional<Segment> intersection_segment(const Triangle& a, const Triangle& b) {
+  // Sorted, so that neither the order of corners nor that of the arguments changes a bit.
+  Triangle first = kernel::SortedTriangle(a).corners;
+  Triangle second = kernel::SortedTriangle(b).corners;
+  if (std::lexicographical_compare(second.begin(), second.end(), first.begin(), first.end(),
+                                   lexicographic_less)) {
+    std::swap(first, second);
   }
-  if (lexicographic_less(longest[1], longest[0])) std::swap(longest[0], longest[1]);
-  return longest;
+  if (!triangles_intersect(first, second)) return std::nullopt;
+  const double tolerance =
+      coincidence_length(std::max(largest_coordinate(first), largest_coordinate(second)));
+  const kernel::FaceFrame face_first(first, tolerance);
+  const kernel::FaceFrame face_second(second, tolerance);
+  if (!face_first.has_face || !face_second.has_face) return std::nullopt;
+  const auto shared = kernel::shared_segment(first, face_first, second, face_second);
+  if (!shared.has_chord) return std::nullopt;
+  if (lexicographic_less(shared.end, shared.begin)) return Segment{shared.end, shared.begin};
+  return Segment{shared.begin, shared.end};
 }
-
-}  // namespace kernel
 
 }  // namespace lmdbench

@@ -1,0 +1,67 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/geometry/shared_segment.h>
+#include <lmdbench/geometry/sorted_triangle.h>
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace lmdbench::kernel {
+
+SharedSegment shared_segment(const FaceFrame& face, const Triangle& corners) {
+  SharedSegment result;
+  const Vec3 normal = face.e.cross(face.h);
+  std::array<double, 3> height;
+  std::array<Vec3, 3> ends;
+  int count = 0;
+  for (int k = 0; k < 3; ++k) {
+    height[k] = normal.dot(corners[k] - face.a);
+    if (height[k] == 0.0) ends[count++] = corners[k];
+  }
+  if (count == 3) return result;  // coplanar
+  for (const auto& [i, j] : EDGE_ENDS) {
+    if (!(height[i] * height[j] < 0.0) || count == 2) continue;
+    // From the nearer end, where the division is the more accurate.
+    const int near = std::abs(height[i]) <= std::abs(height[j]) ? i : j;
+    const int far = i + j - near;
+    ends[count++] =
+        corners[near] + height[near] / (height[near] - height[far]) * (corners[far] - corners[near]);
+  }
+  if (count == 0) return result;
+  if (count == 1) ends[1] = ends[0];
+  result.has_chord = true;
+  const FaceFrame::Weights w0 = face.weights(ends[0]);
+  const FaceFrame::Weights w1 = face.weights(ends[1]);
+  double begin = 0.0, end = 1.0;
+  result.is_clear = true;
+  for (const auto& [from, to] : {std::array{w0.a, w1.a}, std::array{w0.b, w1.b}, std::array{w0.c, w1.c}}) {
+    if (from < 0.0 && to < 0.0) {
+      result.is_clear = false;
+    } else if (from < 0.0) {
+      begin = std::max(begin, from / (from - to));
+    } else if (to < 0.0) {
+      end = std::min(end, from / (from - to));
+    }
+  }
+  if (begin > end) {
+    result.is_clear = false;
+    begin = end = std::clamp(0.5 * (begin + end), 0.0, 1.0);
+  }
+  const Vec3 chord = ends[1] - ends[0];
+  result.begin = ends[0] + begin * chord;
+  result.end = end == 1.0 ? ends[1] : Vec3(ends[0] + end * chord);
+  result.length = (end - begin) * chord.norm();
+  return result;
+}
+
+SharedSegment shared_segment(const Triangle& a, const FaceFrame& face_a, const Triangle& b,
+                             const FaceFrame& face_b) {
+  const bool use_a = face_a.has_face && (!face_b.has_face || face_a.squared_h >= face_b.squared_h);
+  if (use_a) return shared_segment(face_a, b);
+  return face_b.has_face ? shared_segment(face_b, a) : SharedSegment{};
+}
+
+}  // namespace lmdbench::kernel
