@@ -48,6 +48,7 @@ tidy() {
     say "clang-tidy: no findings"
     return 0
   fi
+  sed -i 's/\x1b\[[0-9;]*m//g' "$log"
   grep -E "(warning|error): " "$log" | sort -u >&2
   say "clang-tidy: see $log"
   return 1
