@@ -91,7 +91,7 @@ if check "Build (release, warnings are errors)" build_preset release -DLMDBENCH_
 fi
 if ((fast == 0)); then
   if check "Build (address and undefined behaviour sanitizers)" \
-    build_preset asan-ubsan -DCMAKE_UNITY_BUILD=ON -DLMDBENCH_WARNINGS_AS_ERRORS=ON; then
+    build_preset asan-ubsan -DCMAKE_CXX_FLAGS_RELWITHDEBINFO="-O1 -g1" -DLMDBENCH_WARNINGS_AS_ERRORS=ON; then
     tests "Tests (address and undefined behaviour sanitizers)" asan-ubsan
   fi
 fi
