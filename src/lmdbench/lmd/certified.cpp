@@ -1,7 +1,10 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/geometry/point_triangle.h>
+#include <lmdbench/geometry/segment_distance.h>
 #include <lmdbench/geometry/triangle_distance.h>
 #include <lmdbench/lmd/certified.h>
+#include <lmdbench/lmd/certified_touch.h>
 #include <lmdbench/lmd/first_order.h>
 
 #include <algorithm>
@@ -22,11 +25,55 @@ constexpr double RELATIVE_TINY = 1e-8;
 /// is 1e-9).
 constexpr double APART = 1e-6;
 
-/// All corners of a are on one side of b's plane, farther than `touch` away.
-bool plane_separates(const Triangle& a, const Triangle& b, const Vec3& normal_b, double touch) {
-  if (normal_b.isZero(0.0)) return false;
-  const double h0 = normal_b.dot(a[0] - b[0]), h1 = normal_b.dot(a[1] - b[0]), h2 = normal_b.dot(a[2] - b[0]);
-  return std::min({h0, h1, h2}) > touch || std::max({h0, h1, h2}) < -touch;
+/// Points of a strict minimum: what the exact kernel finds on any triangle pair that holds both features,
+/// without looking at the other features. False when a foot is not inside its feature after all.
+bool strict_points(const PairFilter& filter, const FeatureId& on_moving, const FeatureId& on_fixed, Vec3& p,
+                   Vec3& q) {
+  const auto a = static_cast<std::size_t>(on_moving.index), b = static_cast<std::size_t>(on_fixed.index);
+  const auto vertex_moving = [&](std::int32_t vertex) {
+    return filter.X_WM.point(filter.moving.mesh.vertices[static_cast<std::size_t>(vertex)]);
+  };
+  const auto vertex_fixed = [&](std::int32_t vertex) -> const Vec3& {
+    return filter.fixed.mesh.vertices[static_cast<std::size_t>(vertex)];
+  };
+  const auto edge_moving = [&] {
+    const auto& ends = filter.moving.adjacency.edges[a];
+    return Segment{vertex_moving(ends[0]), vertex_moving(ends[1])};
+  };
+  const auto edge_fixed = [&] {
+    const auto& ends = filter.fixed.adjacency.edges[b];
+    return Segment{vertex_fixed(ends[0]), vertex_fixed(ends[1])};
+  };
+  const auto on_segment = [](const Vec3& point, const Segment& segment, Vec3& foot) {
+    const PointSegmentDistance nearest = point_segment_distance(point, segment);
+    foot = nearest.point;
+    return nearest.feature == SegmentFeature::EDGE;
+  };
+  const auto on_triangle = [](const Vec3& point, const Triangle& triangle, Vec3& foot) {
+    const PointTriangleDistance nearest = point_triangle_distance(point, triangle);
+    foot = nearest.point;
+    return is_face(nearest.feature);
+  };
+
+  if (on_moving.kind == FeatureKind::VERTEX) {
+    p = vertex_moving(on_moving.index);
+    if (on_fixed.kind == FeatureKind::EDGE) return on_segment(p, edge_fixed(), q);
+    if (on_fixed.kind == FeatureKind::FACE)
+      return on_triangle(p, filter.fixed.mesh.triangle(on_fixed.index), q);
+    q = vertex_fixed(on_fixed.index);
+    return true;
+  }
+  if (on_fixed.kind == FeatureKind::VERTEX) {
+    q = vertex_fixed(on_fixed.index);
+    if (on_moving.kind == FeatureKind::EDGE) return on_segment(q, edge_moving(), p);
+    return on_triangle(q, filter.X_WM.triangle(filter.moving.mesh.triangle(on_moving.index)), p);
+  }
+  if (on_moving.kind != FeatureKind::EDGE || on_fixed.kind != FeatureKind::EDGE) return false;
+  const SegmentPairDistance nearest = segment_distance(edge_moving(), edge_fixed());
+  p = nearest.point_a;
+  q = nearest.point_b;
+  return nearest.feature_a == SegmentFeature::EDGE && nearest.feature_b == SegmentFeature::EDGE &&
+         nearest.minimiser_dimension == 0;
 }
 
 }  // namespace
@@ -71,14 +118,23 @@ void Certified::decide(const PairFilter& filter, std::int32_t body, WorkCounters
     const auto triangles_moving = filter.moving.incident_triangles(on_moving);
     const auto triangles_fixed = filter.fixed.incident_triangles(on_fixed);
     if (verdict == PairVerdict::LMD) {
-      LocalMinimum minimum;
-      if (evaluate(filter, body, {triangles_moving.front(), triangles_fixed.front()}, minimum, counters) &&
-          minimum.lmd.feature_moving == on_moving && minimum.lmd.feature_fixed == on_fixed) {
-        minima_.push_back(minimum);
-        continue;
+      Lmd lmd;
+      if (strict_points(filter, on_moving, on_fixed, lmd.point_moving, lmd.point_fixed)) {
+        const Vec3 d = lmd.point_fixed - lmd.point_moving;
+        lmd.distance = std::sqrt(d.squaredNorm());
+        lmd.direction = d / lmd.distance;
+        lmd.feature_moving = on_moving;
+        lmd.feature_fixed = on_fixed;
+        lmd.triangle_moving = triangles_moving.front();
+        lmd.triangle_fixed = triangles_fixed.front();
+        lmd.fixed_body = body;
+        ++counters[Counter::FIRST_ORDER_TESTS];
+        if (is_local_minimum(filter.moving, filter.X_WM, filter.fixed, lmd)) {
+          minima_.push_back({lmd, 0, 0.0});
+          continue;
+        }
       }
-      // The kernel sees the pair otherwise (a triangle without area, say): leave nothing to one triangle
-      // pair.
+      // The kernel sees the pair otherwise: leave nothing to the closed form.
     }
     for (const std::int32_t t_moving : triangles_moving)
       for (const std::int32_t t_fixed : triangles_fixed) pending_.push_back({t_moving, t_fixed});
@@ -86,17 +142,19 @@ void Certified::decide(const PairFilter& filter, std::int32_t body, WorkCounters
 }
 
 void Certified::decide_touching(const PairFilter& filter, std::int32_t body, WorkCounters& counters) {
+  std::int32_t last_moving = -1;  // pairs with one moving face come in runs
+  Triangle a;
+  Vec3 normal_a;
   for (const WidePair& candidate : scratch_.touch_pairs) {
     const TrianglePair pair{candidate.a.feature_id().index, candidate.b.feature_id().index};
-    const Triangle a = filter.X_WM.triangle(filter.moving.mesh.triangle(pair.moving));
+    if (pair.moving != last_moving) {
+      last_moving = pair.moving;
+      a = filter.X_WM.triangle(filter.moving.mesh.triangle(pair.moving));
+      normal_a = filter.X_WM.direction(filter.moving.face_normals[static_cast<std::size_t>(pair.moving)]);
+    }
     const Triangle b = filter.fixed.mesh.triangle(pair.fixed);
-    const Vec3 normal_a =
-        filter.X_WM.direction(filter.moving.face_normals[static_cast<std::size_t>(pair.moving)]);
     const Vec3& normal_b = filter.fixed.face_normals[static_cast<std::size_t>(pair.fixed)];
-    if (plane_separates(a, b, normal_b, 2.0 * filter.touch) ||
-        plane_separates(b, a, normal_a, 2.0 * filter.touch))
-      continue;
-    pending_.push_back(pair);
+    if (!clearly_apart(a, normal_a, b, normal_b, 2.0 * filter.touch)) pending_.push_back(pair);
   }
   std::sort(pending_.begin(), pending_.end());
   pending_.erase(std::unique(pending_.begin(), pending_.end()), pending_.end());

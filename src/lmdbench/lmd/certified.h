@@ -25,17 +25,18 @@ namespace lmdbench {
 /// first-order
 ///    test, plateau merging (first_order.h, plateau.h).
 ///
-/// Why the set equals `exhaustive`'s. *Precision*: an LMD is reported only if a triangle pair within the
-/// cutoff passes the truth's own predicates (step 3). *Recall*: take a triangle pair that the truth accepts,
-/// with features f and g, points p and q and distance d.
+/// Why the set equals `exhaustive`'s. *Precision*: an LMD is reported only if it passes the truth's own
+/// first-order test (step 3), at the points of a triangle pair's exact distance or of a strict minimum.
+/// *Recall*: take a triangle pair that the truth accepts, with features f and g, points p and q and distance
+/// d.
 /// - d > touch (1e-9 of the coordinates). Then q - p is an accurate direction, and it lies in f's and g's
 /// polar cones
 ///   up to 2e-6 (the truth's tolerance and the rounding of p and q). So both have a cap (polar_cap.h, empty
 ///   only with that slack) and are leaves; the pair passes every bound above it (wide_node_test.h), and the
 ///   filter, whose margin is larger than the slack. If the filter finds every condition to hold by more than
 ///   the margin, (p, q) is the strict minimum of *every* incident triangle pair, |x - y|^2 being convex on
-///   each, and one of them gives the same points; else all incident triangle pairs are evaluated, the
-///   accepted one among them.
+///   each, and its points depend on the two features alone; else all incident triangle pairs are evaluated,
+///   the accepted one among them.
 /// - d <= touch, or the triangles intersect. Directions mean nothing there, but the two faces touch within
 /// the touch
 ///   distance: every triangle is a leaf, even one without area, and the touch test looks at no cone.

@@ -17,6 +17,9 @@ constexpr double PARALLEL_SQUARED_SINE = 1e-8;
 /// borderline.
 constexpr double PARALLEL_BAND = 2e-4;
 
+/// Distances that differ from the cutoff by less than this part of it are left to the exact kernel.
+constexpr double CUTOFF_MARGIN = 1e-9;
+
 PairVerdict worse(PairVerdict a, PairVerdict b) {
   if (a == PairVerdict::NO_LMD || b == PairVerdict::NO_LMD) return PairVerdict::NO_LMD;
   return a == PairVerdict::LMD && b == PairVerdict::LMD ? PairVerdict::LMD : PairVerdict::BORDERLINE;
@@ -93,10 +96,10 @@ struct Distances {
   double cutoff, touch;
 
   PairVerdict operator()(double squared_distance) const {
-    const double widened = cutoff * (1.0 + 1e-9);
-    if (squared_distance > widened * widened || squared_distance < 0.25 * touch * touch)
+    const double above = cutoff * (1.0 + CUTOFF_MARGIN), below = cutoff * (1.0 - CUTOFF_MARGIN);
+    if (squared_distance > above * above || squared_distance < 0.25 * touch * touch)
       return PairVerdict::NO_LMD;
-    return PairVerdict::LMD;
+    return squared_distance < below * below ? PairVerdict::LMD : PairVerdict::BORDERLINE;
   }
 };
 
@@ -116,7 +119,7 @@ struct Test {
     const Vec3 d = fixed.vertex_W(b) - moving.vertex_W(a);
     PairVerdict verdict = near(d.squaredNorm());
     if (verdict == PairVerdict::NO_LMD) return verdict;
-    verdict = in_vertex_cone(moving, a, d, filter.margin, filter.tiny);
+    verdict = worse(verdict, in_vertex_cone(moving, a, d, filter.margin, filter.tiny));
     if (verdict == PairVerdict::NO_LMD) return verdict;
     return worse(verdict, in_vertex_cone(fixed, b, -d, filter.margin, filter.tiny));
   }

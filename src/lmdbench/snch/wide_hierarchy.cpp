@@ -22,6 +22,8 @@ namespace {
 constexpr std::size_t WIDTH = WIDE_WIDTH;
 /// Sets smaller than this are divided by one thread.
 constexpr std::size_t PARALLEL_GRAIN = 4096;
+constexpr int AXIS_STEPS = 12;
+constexpr int CENTRE_STEPS = 12;
 /// Widening of stored cosines and sines: a few roundings of single precision.
 constexpr double CONE_ROUNDING = 5e-7;
 
@@ -262,6 +264,27 @@ class Builder {
     if (has_axis)
       middle += (0.5 * (low_along + high_along) - middle.dot(rounded_axis)) / rounded_axis.squaredNorm() *
                 rounded_axis;
+    Vec3 best = middle;
+    double best_squared = std::numeric_limits<double>::infinity();
+    for (int step = 0; step < CENTRE_STEPS; ++step) {
+      double farthest = 0.0;
+      Vec3 far = middle;
+      for_each_corner(items, [&](const Vec3& p) {
+        const double squared = (p - middle).squaredNorm();
+        if (squared > farthest) {
+          farthest = squared;
+          far = p;
+        }
+      });
+      if (farthest < best_squared) {
+        best_squared = farthest;
+        best = middle;
+      }
+      Vec3 move = far - middle;
+      if (has_axis) move -= move.dot(rounded_axis) / rounded_axis.squaredNorm() * rounded_axis;
+      middle += move / (step + 2.0) * 0.5;
+    }
+    middle = best;
     const Eigen::Vector3f centre(to_single(middle[0]), to_single(middle[1]), to_single(middle[2]));
     const Vec3 rounded_centre = centre.cast<double>();
     double squared_radius = 0.0, thickness = 0.0;
@@ -302,12 +325,33 @@ class Builder {
     if (!(length > 1e-9)) return {};
     PolarCap cap;
     cap.axis = sum / length;
-    double cosine = 1.0;
-    for (const Item& item : items) {
-      if (!item.carries_lmd) continue;
-      const double between = std::min(1.0, cap.axis.dot(item.cap.axis));
-      cosine = std::min(cosine, between * item.cap.cosine -
-                                    std::sqrt(std::max(0.0, 1.0 - between * between)) * item.cap.sine);
+    double cosine = -1.0;
+    Vec3 axis = cap.axis;
+    for (int step = 0; step < AXIS_STEPS; ++step) {
+      double least = 1.0;
+      const Item* widest = nullptr;
+      for (const Item& item : items) {
+        if (!item.carries_lmd) continue;
+        const double between = std::min(1.0, axis.dot(item.cap.axis));
+        const double reach =
+            between * item.cap.cosine - std::sqrt(std::max(0.0, 1.0 - between * between)) * item.cap.sine;
+        if (reach < least) {
+          least = reach;
+          widest = &item;
+        }
+      }
+      if (least > cosine) {
+        cosine = least;
+        cap.axis = axis;
+      }
+      if (widest == nullptr) break;
+      // Towards the far side of the cap that sticks out most, by ever smaller steps.
+      Vec3 across = widest->cap.axis - axis.dot(widest->cap.axis) * axis;
+      const double across_length = across.norm();
+      if (!(across_length > 1e-12)) break;
+      across /= across_length;
+      const double sine = std::sqrt(std::max(0.0, 1.0 - least * least));
+      axis = (axis + sine / (step + 2.0) * across).normalized();
     }
     cosine -= 1e-15;
     if (!(cosine > 0.0)) return {};

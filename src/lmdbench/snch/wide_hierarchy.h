@@ -27,6 +27,7 @@ class WideRef {
 
   constexpr bool is_empty() const { return bits_ == 0; }
   constexpr bool is_feature() const { return bits_ >> KIND_SHIFT != 0; }
+  constexpr bool is_face() const { return bits_ >= FIRST_FACE; }
   constexpr std::uint32_t node_index() const { return bits_; }
   constexpr FeatureId feature_id() const {
     return {static_cast<FeatureKind>((bits_ >> KIND_SHIFT) - 1u),
@@ -35,10 +36,12 @@ class WideRef {
   constexpr std::uint32_t bits() const { return bits_; }
   constexpr bool operator==(const WideRef&) const = default;
 
-  static constexpr std::uint32_t INDEX_MASK = (1u << 29) - 1u;  ///< Largest feature index.
+  static constexpr int KIND_SHIFT = 29;
+  static constexpr std::uint32_t INDEX_MASK = (1u << KIND_SHIFT) - 1u;  ///< Largest node or feature index.
+  static constexpr std::uint32_t FIRST_FACE = (static_cast<std::uint32_t>(FeatureKind::FACE) + 1u)
+                                              << KIND_SHIFT;
 
  private:
-  static constexpr int KIND_SHIFT = 29;
   constexpr explicit WideRef(std::uint32_t bits) : bits_(bits) {}
   std::uint32_t bits_ = 0;  ///< Node 0 is the root and nobody's child, so 0 can mean "empty".
 };

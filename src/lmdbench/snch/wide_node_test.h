@@ -47,10 +47,10 @@ inline constexpr double POSITION_ROUNDING = 2e-6;
 inline constexpr float DIRECTION_ROUNDING = 2e-6F;
 
 /// One child in the frame of the other mesh's nodes.
-struct WideProbe {
-  float centre[3];
+struct alignas(16) WideProbe {
+  float centre[4];
+  float axis[4];
   float radius;
-  float axis[3];
   float thickness;
   float cosine;
   float sine;
@@ -73,15 +73,15 @@ struct WideMasks {
   std::uint32_t not_collinear = 0;  ///< Rejected by G2.
 };
 
-/// Coordinates of one hierarchy's frame in the other's, in single precision.
-struct WideTransform {
-  float rotation[3][3];
-  float translation[3];
+/// Coordinates of one hierarchy's frame in the other's, in single precision; a fourth row pads.
+struct alignas(16) WideTransform {
+  float columns[3][4] = {};
+  float translation[4] = {};
 
   WideTransform() = default;
   WideTransform(const Mat3& R, const Vec3& t) {
     for (int i = 0; i < 3; ++i) {
-      for (int j = 0; j < 3; ++j) rotation[i][j] = static_cast<float>(R(i, j));
+      for (int j = 0; j < 3; ++j) columns[j][i] = static_cast<float>(R(i, j));
       translation[i] = static_cast<float>(t[i]);
     }
   }
@@ -89,13 +89,12 @@ struct WideTransform {
 
 /// A lane of a node as probe, moved by `X`.
 inline WideProbe make_probe(const WideNode& node, std::uint32_t lane, const WideTransform& X) {
-  WideProbe probe;
-  const float cx = node.centre[0][lane], cy = node.centre[1][lane], cz = node.centre[2][lane];
-  const float ux = node.axis[0][lane], uy = node.axis[1][lane], uz = node.axis[2][lane];
+  WideProbe probe{};
   for (int i = 0; i < 3; ++i) {
-    probe.centre[i] =
-        X.rotation[i][0] * cx + X.rotation[i][1] * cy + X.rotation[i][2] * cz + X.translation[i];
-    probe.axis[i] = X.rotation[i][0] * ux + X.rotation[i][1] * uy + X.rotation[i][2] * uz;
+    probe.centre[i] = X.columns[0][i] * node.centre[0][lane] + X.columns[1][i] * node.centre[1][lane] +
+                      X.columns[2][i] * node.centre[2][lane] + X.translation[i];
+    probe.axis[i] = X.columns[0][i] * node.axis[0][lane] + X.columns[1][i] * node.axis[1][lane] +
+                    X.columns[2][i] * node.axis[2][lane];
   }
   probe.radius = node.radius[lane];
   probe.thickness = node.thickness[lane];

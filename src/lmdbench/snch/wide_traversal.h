@@ -47,16 +47,17 @@ struct WideCounters {
   std::uint64_t node_tests = 0;  ///< Tests of one child against eight.
 };
 
-/// A child of a against a child of b, each named by node * 8 + lane.
-struct WideSlots {
-  std::uint32_t a, b;
-};
-
 /// Memory of traversals, kept between them so that none is allocated after the first few.
 struct WideScratch {
-  std::vector<WideSlots> stack;
+  /// Pairs of children to be tested, each child named by node * 8 + lane.
+  std::vector<std::uint32_t> queue_a, queue_b;
   std::vector<WidePair> lmd_pairs;    ///< Pairs that may be LMDs.
   std::vector<WidePair> touch_pairs;  ///< Pairs of faces that may touch.
+
+  void resize_queue(std::size_t size) {
+    queue_a.resize(size);
+    queue_b.resize(size);
+  }
 };
 
 /// Descends both hierarchies together: of a surviving pair the larger child is opened and its eight children
