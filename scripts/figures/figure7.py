@@ -15,7 +15,7 @@ from lmdbench_results import Result, reference_force, run_script, truth_of
 
 import matplotlib.pyplot as plt
 from matplotlib.lines import Line2D
-from matplotlib.ticker import FixedLocator, FuncFormatter, LogLocator, MaxNLocator
+from matplotlib.ticker import FixedLocator, FuncFormatter, LogLocator, MaxNLocator, NullLocator
 
 METHODS = ("original", "improved")
 WIDTHS = {"original": 0.6, "improved": 1.0}
@@ -27,6 +27,7 @@ TRUTH_WIDTH = 2.6
 # cut off is told with its number and largest value.
 AXIS_QUANTILE = 0.995
 AXIS_MARGIN = 1.25
+NOTABLE_EXCESS = 1.5  # what exceeds the axis by less widens it instead
 SHORTEST_UPDATE_US = 0.1  # lower end of its axis: below lies the update of an empty set
 HAPTIC_BUDGET_US = 1000.0  # one frame at 1 kHz
 NOTE = {"fontsize": 6.2, "color": "#444444"}
@@ -87,7 +88,7 @@ def plot_searches(axes, result):
     values = values[np.isfinite(values)]
     top = AXIS_MARGIN * np.quantile(values, AXIS_QUANTILE) if values.size else 1.0
     beyond = values[values > top]
-    if beyond.size:
+    if beyond.size and beyond.max() > NOTABLE_EXCESS * top:
         note(axes, f"{beyond.size} above, up to {beyond.max():.3g} ms")
         axes.set_ylim(0, top)
     else:
@@ -102,6 +103,7 @@ def plot_updates(axes, result):
     axes.set_yscale("log")
     axes.set_ylim(bottom=SHORTEST_UPDATE_US)
     axes.yaxis.set_major_locator(LogLocator(numticks=12))
+    axes.yaxis.set_minor_locator(NullLocator())
     axes.yaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
     if axes.get_ylim()[1] > HAPTIC_BUDGET_US:
         axes.axhline(HAPTIC_BUDGET_US, color=style.GREY, lw=0.6, ls=(0, (1, 1.5)), zorder=1)

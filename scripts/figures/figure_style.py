@@ -3,6 +3,7 @@
 """How all figures look: colours that colour-blind readers can tell apart (Okabe and Ito), line styles that survive
 grey print, sizes for a page of two columns, and files that are the same bytes for the same data."""
 
+import itertools
 import os
 
 import matplotlib
@@ -24,7 +25,6 @@ YELLOW = "#F0E442"
 GREY = "#8A8A8A"
 PALE_GREY = "#C4C4C4"
 
-# By the method's name in the registry; variants of one method share its colour.
 METHOD_COLOURS = {"original": VERMILLION, "improved": BLUE, "certified": GREEN, "exhaustive": BLACK}
 METHOD_LINES = {"original": (0, (2.6, 0.8)), "improved": "-", "certified": (0, (5, 1, 1, 1)), "exhaustive": ":"}
 OTHER_COLOURS = (PURPLE, ORANGE, SKY)
@@ -63,9 +63,13 @@ def use_style():
 
 
 def colour_of(method):
-    if method.name in METHOD_COLOURS:
-        return METHOD_COLOURS[method.name]
-    return OTHER_COLOURS[sum(map(ord, method.name)) % len(OTHER_COLOURS)]
+    return METHOD_COLOURS.get(method.name, PURPLE)
+
+
+def colours_of(labels):
+    """{label: colour}: methods keep their colour, further labels (variants of a method, new methods) get the others."""
+    others = itertools.cycle(OTHER_COLOURS)
+    return {label: METHOD_COLOURS[label] if label in METHOD_COLOURS else next(others) for label in labels}
 
 
 def line_of(method):

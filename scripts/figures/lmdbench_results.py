@@ -7,6 +7,7 @@ figures and tables show milliseconds.
 """
 
 import json
+import os
 import sys
 
 import h5py
@@ -16,6 +17,7 @@ FORMAT = "lmdbench-result"
 FORMAT_VERSION = 1
 EXIT_CHECK_FAILED = 1
 EXIT_INPUT_DATA = 3
+EXIT_ENVIRONMENT = 4
 
 # The order of reports; labels that are not here come after these, in alphabetical order.
 METHOD_ORDER = ("original", "improved", "certified", "exhaustive")
@@ -65,11 +67,12 @@ class Method:
         return np.linalg.norm(np.diff(self.read("force"), axis=0), axis=1)
 
     def search_parts(self):
-        """(R, searches with candidates) times [s] of search alone and of search with the first reduction, which counts
-        0 where there is none."""
+        """(searches with candidates) times [s], medians over the repetitions, of search alone and of search with the
+        first reduction, which counts 0 where there is none."""
         busy = self.read("candidates") > 0
         search = self.times("global_search_time")[:, busy]
-        return search, search + zero_for_nan(self.times("first_reduction_time")[:, busy])
+        both = search + zero_for_nan(self.times("first_reduction_time")[:, busy])
+        return nan_median(search, axis=0), nan_median(both, axis=0)
 
     def searches_every_frame(self):
         """Whether the method has no search of its own rate: its whole set is found anew in the local part."""
@@ -301,7 +304,14 @@ def true_jumps_per_second(result, law, share):
 def run_script(main):
     """Calls main(argv) and turns what a user did wrong into one line and the exit code of the command line contract."""
     try:
-        return main(sys.argv[1:])
+        code = main(sys.argv[1:])
+        sys.stdout.flush()
+        return code
     except ResultError as error:
         print(error, file=sys.stderr)
         return EXIT_INPUT_DATA
+    except OSError as error:  # a full disk, a directory that cannot be written, a reader that has gone
+        if isinstance(error, BrokenPipeError):
+            os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())  # or the interpreter complains at its end
+        print(error, file=sys.stderr)
+        return EXIT_ENVIRONMENT

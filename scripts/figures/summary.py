@@ -35,7 +35,7 @@ def percents(share, adjacent):
 
 def row(method):
     truth = truth_of(method)
-    local = method.times("local_update_time")[:, method.result.contact_frames()]
+    local = method.median_times("local_update_time")[method.result.contact_frames()]
     if method.searches_every_frame():
         search = total = "every frame"
     else:
@@ -113,8 +113,8 @@ def describe(result):
 
 
 LEGEND = f"""\
-Times: median (99th percentile) of all samples after the warm-up, of searches that find candidates and of frames in
-contact. "+ reduction": search with the first reduction. In contact: any of the methods has an LMD.
+Times: median (99th percentile) over the searches that find candidates and over the frames in contact, each the median
+of its timed repetitions. "+ reduction": search with the first reduction. In contact: any of the methods has an LMD.
 LMDs: median in contact (most). Recall, precision: share of the true LMDs that the method knows, of its LMDs that are
 true; the same features (in parentheses: or features that share a triangle with the true ones). Force error: root mean
 square against the true force under the same law, in contact. Jumps: changes of force above {JUMP_SHARE:.0%} of F_max within

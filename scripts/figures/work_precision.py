@@ -3,8 +3,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The work-precision figure: what error each method leaves for what run time, log-log, a point a method and
 experiment. Errors are against the exhaustive LMD set under the method's own force law; run time is all-in per haptic
-frame: the local update and the frame's share of the global searches. A point stands at the median, its whisker ends
-at the 99th percentile. A method that fails is shown as a failure, not left out."""
+frame: the local update and the frame's share of the global searches. A point stands at the median over the
+frames in contact, its whisker ends at the 99th percentile; each frame counts with the median of its repetitions. A method that fails is shown as a failure, not left out."""
 
 import argparse
 
@@ -19,8 +19,9 @@ from matplotlib.ticker import FixedLocator, FuncFormatter, LogLocator, NullForma
 
 MARKERS = ("o", "s", "^", "D", "v", "P")
 HAPTIC_BUDGET_MS = 1.0  # one frame at 1 kHz
-# Lanes beside the logarithmic range, in decades: errors of exactly 0, and failures.
-LANE_DECADES = 0.55
+# Width of the lanes beside the logarithmic range, as a share of it: errors of exactly 0, and failures.
+LANE_SHARE = 0.2
+LEGEND_COLUMNS = 5
 
 
 class Point:
@@ -29,7 +30,7 @@ class Point:
     def __init__(self, result, method):
         self.method = method
         self.experiment = result.name
-        samples = method.time_per_frame()[:, result.contact_frames()] * 1e3
+        samples = np.median(method.time_per_frame()[:, result.contact_frames()], axis=0) * 1e3
         self.median_ms = median(samples)
         self.p99_ms = quantile(samples, 0.99)
         truth = truth_of(method)
@@ -56,15 +57,16 @@ PANELS = (
 
 def error_axis(axes, errors, any_failed):
     """Logarithmic range of the finite positive errors, with a shaded lane for errors of exactly 0 on its left and one
-    for failures on its right where they are needed; returns the places of the two lanes."""
+    for failures on its right where they are needed; returns the places of the two lanes and their width in decades."""
     positive = [error for error in errors if np.isfinite(error) and error > 0]
     # Points keep a tenth of a decade from the ends.
     low = np.floor((np.log10(min(positive)) - 0.1) * 5) / 5 if positive else -3.0
     high = max(np.ceil(np.log10(max(positive)) * 20) / 20 + 0.1 if positive else 0.0, low + 1.0)
-    zero, failed = 10 ** (low - LANE_DECADES), 10 ** (high + LANE_DECADES)
+    lane = LANE_SHARE * (high - low)
+    zero, failed = 10 ** (low - lane / 2), 10 ** (high + lane / 2)
     has_zero = any(error == 0 for error in errors)
-    left = 10 ** (low - 2 * LANE_DECADES) if has_zero else 10**low
-    right = 10 ** (high + 2 * LANE_DECADES) if any_failed else 10**high
+    left = 10 ** (low - lane) if has_zero else 10**low
+    right = 10 ** (high + lane) if any_failed else 10**high
     axes.set_xscale("log")
     axes.set_xlim(left, right)
     decades = [10.0**power for power in range(int(np.ceil(low)), int(np.floor(high)) + 1)]
@@ -77,23 +79,23 @@ def error_axis(axes, errors, any_failed):
     for begin, end in ((left, 10**low), (10**high, right)):
         if end > begin:
             axes.axvspan(begin, end, color="#F0F0F0", lw=0, zorder=0)
-    return zero, failed
+    return zero, failed, lane
 
 
-def spread(index, count):
+def spread(index, count, lane_decades):
     """Factor that keeps the points of one lane apart, which all have the same error."""
-    return 10 ** (0.9 * LANE_DECADES * ((index + 0.5) / count - 0.5) * 2)
+    return 10 ** (0.9 * lane_decades * ((index + 0.5) / count - 0.5))
 
 
-def draw_panel(axes, points, quantities, label, markers):
+def draw_panel(axes, points, quantities, label, markers, colours):
     quantity, lenient = quantities
     errors = [getattr(point, name) for point in points for name in quantities if name]
-    zero, failed = error_axis(axes, errors, any(point.failure for point in points))
+    zero, failed, lane_decades = error_axis(axes, errors, any(point.failure for point in points))
     for index, point in enumerate(points):
         error = getattr(point, quantity)
-        colour = style.colour_of(point.method)
+        colour = colours[point.method.label]
         bad = bool(point.failure)
-        lane = spread(index, len(points))
+        lane = spread(index, len(points), lane_decades)
         place = failed * lane if bad else (error if error > 0 else zero * lane)
         if lenient and not bad:
             open_error = getattr(point, lenient)
@@ -107,7 +109,8 @@ def draw_panel(axes, points, quantities, label, markers):
                   mec=colour if bad else "white", mew=1.4 if bad else 0.6, zorder=3)
     axes.axhline(HAPTIC_BUDGET_MS, color=style.GREY, lw=0.8, ls=(0, (2, 2)), zorder=1)
     axes.annotate("1 ms", (0.0, HAPTIC_BUDGET_MS), xycoords=("axes fraction", "data"), xytext=(3, 2),
-                  textcoords="offset points", color="#555555", fontsize=6.5)
+                  textcoords="offset points", color="#555555", fontsize=6.5, zorder=9,
+                  bbox={"facecolor": "white", "edgecolor": "none", "alpha": 0.7, "pad": 0.4})
     axes.set_xlabel(label)
 
 
@@ -115,22 +118,22 @@ def draw(results):
     style.use_style()
     points = [Point(result, method) for result in results for method in result.methods.values()]
     names = list(dict.fromkeys(point.experiment for point in points))
+    colours = style.colours_of(dict.fromkeys(point.method.label for point in points))
     markers = dict(zip(names, MARKERS * (len(names) // len(MARKERS) + 1)))
-    figure, axes = plt.subplots(1, len(PANELS), figsize=(style.TWO_COLUMNS_IN, 3.3), sharey=True, gridspec_kw={
-        "left": 0.092, "right": 0.99, "bottom": 0.135, "top": 0.87, "wspace": 0.08})
+    figure, axes = plt.subplots(1, len(PANELS), figsize=(style.TWO_COLUMNS_IN, 3.5), sharey=True, gridspec_kw={
+        "left": 0.092, "right": 0.99, "bottom": 0.13, "top": 0.81, "wspace": 0.08})
     for panel, (*quantities, label) in zip(axes, PANELS):
-        draw_panel(panel, points, quantities, label, markers)
+        draw_panel(panel, points, quantities, label, markers, colours)
     axes[0].set_yscale("log")
     axes[0].yaxis.set_major_locator(LogLocator(numticks=12))
     axes[0].yaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
     axes[0].set_ylabel("run time per frame in contact [ms]\nmedian, whisker to 99th percentile")
-    methods = {point.method.label: point.method for point in points}
-    keys = [Line2D([], [], color=style.colour_of(method), lw=2.5, label=label) for label, method in methods.items()]
+    keys = [Line2D([], [], color=colour, lw=2.5, label=label) for label, colour in colours.items()]
     keys += [Line2D([], [], color="#444444", ls="none", marker=markers[name], ms=5.5, mew=0, label=name)
              for name in names]
     keys.append(Line2D([], [], color="white", ls="none", marker="o", ms=5, mec="#444444", mew=0.9,
-                       label="right panel, open: neighbouring features count"))
-    figure.legend(handles=keys, loc="upper left", bbox_to_anchor=(0.085, 0.95), ncol=len(keys), handlelength=1.6,
+                       label="open: neighbouring features count"))
+    figure.legend(handles=keys, loc="upper left", bbox_to_anchor=(0.085, 0.95), ncol=LEGEND_COLUMNS, handlelength=1.6,
                   columnspacing=1.6, borderpad=0.1)
     figure.text(0.092, 0.955, "Error against run time, lower left is better", fontsize=8.5, fontweight="bold")
     return figure

@@ -122,6 +122,15 @@ class ReadingTest(ScriptsTest):
             self.assertIn("gone.h5", done.stderr)
             self.assertNotIn("Traceback", done.stderr)
 
+    def test_scripts_leave_with_the_exit_code_of_the_environment(self):
+        with open(self.path("occupied"), "w", encoding="utf-8") as stream:
+            stream.write("a file where a directory should be")
+        done = subprocess.run([sys.executable, os.path.join(SCRIPTS, "figure7.py"), self.hard, self.soft, "--out",
+                               self.path("occupied")], capture_output=True, text=True, check=False)
+        self.assertEqual(done.returncode, lmdbench_results.EXIT_ENVIRONMENT, done.stderr)
+        self.assertIn("occupied", done.stderr)
+        self.assertNotIn("Traceback", done.stderr)
+
     def test_missing_dataset_is_named(self):
         file = self.edited("lacks.h5", lambda h5: h5["/methods/original"].__delitem__("force"))
         with self.assertRaisesRegex(ResultError, "lacks.h5: /methods/original/force: is missing"):
