@@ -45,6 +45,9 @@ std::vector<Variant> improved_variants() {
                                       reduction == Reduction::PUBLISHED ? "published" : "loss-free"),
                           "improved", options, 1});
     }
+  MethodOptions by_index = off;
+  by_index.tracking_order = TrackingOrder::TRIANGLE_INDEX;
+  variants.push_back({"visibility off, published reduction by triangle index", "improved", by_index, 1});
   return variants;
 }
 

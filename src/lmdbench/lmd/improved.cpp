@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 namespace lmdbench {
 
@@ -47,6 +48,11 @@ Lmd exact_pair(const Surface& moving, const Surface& fixed, std::int32_t fixed_b
   lmd.fixed_body = fixed_body;
   lmd.intersecting = pair.intersecting;
   return lmd;
+}
+
+bool triangles_less(const Lmd& a, const Lmd& b) {
+  return std::tie(a.fixed_body, a.triangle_moving, a.triangle_fixed) <
+         std::tie(b.fixed_body, b.triangle_moving, b.triangle_fixed);
 }
 
 }  // namespace
@@ -92,7 +98,8 @@ void Improved::search_body(const RigidTransform& X_WM, std::int32_t fixed_body, 
 void Improved::track(const Pose& X_WM, LmdSet& lmds, WorkCounters& counters) {
   const RigidTransform transform(X_WM);
   const Surface& moving = scene_.moving->surface();
-  std::sort(lmds.begin(), lmds.end(), lmd_less);
+  std::sort(lmds.begin(), lmds.end(),
+            options_.tracking_order == TrackingOrder::NEAREST_FIRST ? lmd_less : triangles_less);
   cache_.erase();
   kept_.clear();
   std::int32_t number = 0;

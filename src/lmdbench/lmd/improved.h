@@ -21,8 +21,8 @@ namespace lmdbench {
 ///   one is dropped (4.2, 4.2.1). In the global thread tracking runs twice after a search: first reduction
 ///   and second tracking (4.3, decision E11).
 ///
-/// Decision E7, ours: candidates are processed in the order of `lmd_less`, so that what the published rule
-/// drops does not depend on visiting order. That rule also drops an LMD whose minimum a neighbour's walk
+/// Decision E7, ours: candidates are processed nearest first (`TrackingOrder`), so that what the published
+/// rule drops does not depend on visiting order. That rule also drops an LMD whose minimum a neighbour's walk
 /// happened to look at and left; `Reduction::LOSS_FREE` drops only what ends on the same feature pair.
 class Improved : public Method {
  public:

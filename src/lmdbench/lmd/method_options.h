@@ -19,6 +19,13 @@ enum class Reduction : std::uint8_t {
   LOSS_FREE   ///< Only an LMD that ends on the same feature pair as another one.
 };
 
+/// In which order the improved algorithm's tracking takes the LMDs of a set (decision E7): what the published
+/// reduction drops depends on it.
+enum class TrackingOrder : std::uint8_t {
+  NEAREST_FIRST,  ///< By distance, then features (default: loses least).
+  TRIANGLE_INDEX  ///< By triangle numbers, which say nothing about the distance.
+};
+
 /// How the original algorithm reads the dual solution-line cone of G3 (decision E4).
 enum class LineCone : std::uint8_t {
   ONE_SIDED,  ///< A ray from the moving to the fixed sphere, equal to G3.a/b (default: favours the original).
@@ -29,6 +36,7 @@ enum class LineCone : std::uint8_t {
 struct MethodOptions {
   Visibility visibility = Visibility::VERTEX_NORMAL;
   Reduction reduction = Reduction::PUBLISHED;
+  TrackingOrder tracking_order = TrackingOrder::NEAREST_FIRST;
   LineCone line_cone = LineCone::ONE_SIDED;
   double g5_tolerance_rad =
       0.5;                  ///< Decision E5: how far a 7x7 direction may leave its feature's normal set.
