@@ -3,8 +3,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The work-precision figure: what error each method leaves for what run time, log-log, a point a method and
 experiment. Errors are against the exhaustive LMD set under the method's own force law; run time is all-in per haptic
-frame: the local update and the frame's share of the global searches. A point stands at the median over the
-frames in contact, its whisker ends at the 99th percentile; each frame counts with the median of its repetitions. A method that fails is shown as a failure, not left out."""
+frame: the local update and the frame's share of the global searches. A point stands at the median over the frames in
+contact, its whisker ends at the 99th percentile; each frame counts with the median of its repetitions. A method that
+fails is shown as a failure, not left out."""
 
 import argparse
 
