@@ -22,7 +22,7 @@ MARKERS = ("o", "s", "^", "D", "v", "P")
 HAPTIC_BUDGET_MS = 1.0  # one frame at 1 kHz
 # Width of the lanes beside the logarithmic range, as a share of it: errors of exactly 0, and failures.
 LANE_SHARE = 0.2
-LEGEND_COLUMNS = 5
+LEGEND_COLUMNS = 6
 
 
 class Point:
@@ -121,8 +121,9 @@ def draw(results):
     names = list(dict.fromkeys(point.experiment for point in points))
     colours = style.colours_of(dict.fromkeys(point.method.label for point in points))
     markers = dict(zip(names, MARKERS * (len(names) // len(MARKERS) + 1)))
+    key_rows = -(-(len(colours) + len(names) + 1) // LEGEND_COLUMNS)
     figure, axes = plt.subplots(1, len(PANELS), figsize=(style.TWO_COLUMNS_IN, 3.5), sharey=True, gridspec_kw={
-        "left": 0.092, "right": 0.99, "bottom": 0.13, "top": 0.81, "wspace": 0.08})
+        "left": 0.092, "right": 0.99, "bottom": 0.13, "top": 0.92 - 0.055 * key_rows, "wspace": 0.08})
     for panel, (*quantities, label) in zip(axes, PANELS):
         draw_panel(panel, points, quantities, label, markers, colours)
     axes[0].set_yscale("log")
