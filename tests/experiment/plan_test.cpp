@@ -1,0 +1,56 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/experiment/plan.h>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+namespace lmdbench {
+namespace {
+
+using ::testing::HasSubstr;
+
+Experiment shapes(const std::vector<Override>& overrides = {}) {
+  return load_experiment(LMDBENCH_SOURCE_DIR "/experiments/shapes.json", overrides);
+}
+
+TEST(Plan, FollowsTheExperiment) {
+  const Plan full = make_plan(shapes());
+  EXPECT_TRUE(full.needs(Part::LOCAL_TRACKING));
+  EXPECT_FALSE(full.needs(Part::SEARCH_PER_FRAME));
+  EXPECT_TRUE(full.needs(Part::TRUTH_PROBE));
+  EXPECT_TRUE(full.needs(Part::FCL));
+  EXPECT_FALSE(full.needs(Part::LMD_LISTS));
+  const Plan bare = make_plan(shapes({"/probes/truth/stride_frames=0", "/probes/fcl/stride_frames=0",
+                                      R"(/methods=[{"name":"exhaustive","force_law":"linear"}])"}));
+  EXPECT_FALSE(bare.needs(Part::LOCAL_TRACKING));
+  EXPECT_TRUE(bare.needs(Part::SEARCH_PER_FRAME));
+  EXPECT_FALSE(bare.needs(Part::TRUTH_PROBE));
+  EXPECT_FALSE(bare.needs(Part::FCL));
+}
+
+TEST(Plan, EveryPartSaysWhy) {
+  for (const PlanItem& item : make_plan(shapes()).items) {
+    EXPECT_FALSE(item.name.empty());
+    EXPECT_FALSE(item.why.empty()) << item.name;
+  }
+}
+
+TEST(Plan, JsonHoldsTheResolvedExperiment) {
+  const Experiment experiment = shapes();
+  const auto json = nlohmann::json::parse(plan_json(make_plan(experiment), experiment));
+  EXPECT_EQ(json["experiment"]["frame_rate_hz"], 1000);
+  EXPECT_EQ(json["needed"].size() + json["left_out"].size(), make_plan(experiment).items.size());
+  EXPECT_THAT(plan_text(make_plan(experiment), experiment), HasSubstr("left out:\n"));
+}
+
+TEST(Plan, EveryCommittedExperimentIsValid) {
+  for (const char* name : {"shapes", "bunny-hard", "bunny-soft", "armadillo-bunny"})
+    EXPECT_NO_THROW(
+        make_plan(load_experiment(std::string(LMDBENCH_SOURCE_DIR "/experiments/") + name + ".json")))
+        << name;
+}
+
+}  // namespace
+}  // namespace lmdbench

@@ -1,0 +1,79 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/experiment/query.h>
+#include <lmdbench/lmd/registry.h>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+#include <support/scenes.h>
+
+namespace lmdbench {
+namespace {
+
+Scene spheres() {
+  return testing::make_scene(make_sphere(0.5, 3), make_sphere(0.5, 3), 0.05);
+}
+
+TimedPose at_gap(double gap, double time = 0.0) {
+  TimedPose pose;
+  pose.time = time;
+  pose.pose.translation = Vec3(1.0 + gap, 0.0, 0.0);
+  return pose;
+}
+
+TEST(Query, JsonHasTheContractsKeys) {
+  const auto method = make_method("exhaustive", spheres());
+  const auto json = nlohmann::json::parse(query_json(query(*method, at_gap(0.04, 1.5), 0.05)));
+  EXPECT_EQ(json["time"], 1.5);
+  EXPECT_EQ(json["method"], "exhaustive");
+  EXPECT_NEAR(json["minimum_distance"].get<double>(), 0.04, 1e-9);
+  ASSERT_EQ(json["lmds"].size(), 1u);
+  const auto& lmd = json["lmds"][0];
+  EXPECT_NEAR(lmd["distance"].get<double>(), 0.04, 1e-9);
+  EXPECT_NEAR(lmd["point_moving"][0].get<double>(), 0.54, 1e-9) << "world coordinates";
+  EXPECT_NEAR(lmd["point_fixed"][0].get<double>(), 0.5, 1e-9);
+  EXPECT_EQ(lmd["feature_moving"]["kind"], "vertex");
+  EXPECT_TRUE(lmd["feature_fixed"]["index"].is_number_integer());
+  EXPECT_TRUE(json["counters"].is_object());
+  EXPECT_GT(json["counters"]["first_order_tests"].get<int>(), 0);
+  EXPECT_GE(json["seconds"].get<double>(), 0.0);
+  EXPECT_EQ(json.size(), 6u);
+  EXPECT_EQ(query_json(query(*method, at_gap(0.04), 0.05)).find('\n'), std::string::npos) << "one line";
+}
+
+TEST(Query, EmptySetHasNullDistance) {
+  const auto method = make_method("exhaustive", spheres());
+  const auto json = nlohmann::json::parse(query_json(query(*method, at_gap(0.06), 0.05)));
+  EXPECT_TRUE(json["minimum_distance"].is_null());
+  EXPECT_TRUE(json["lmds"].is_array());
+  EXPECT_TRUE(json["lmds"].empty());
+}
+
+TEST(Query, ImprovedReducesItsCandidates) {
+  const Scene scene = spheres();
+  const auto improved = make_method("improved", scene);
+  LmdSet candidates;
+  WorkCounters counters;
+  improved->search(at_gap(0.01).pose, candidates, counters);
+  const QueryAnswer answer = query(*improved, at_gap(0.01), 0.05);
+  EXPECT_LT(answer.lmds.size(), candidates.size());
+  EXPECT_GT(answer.counters[Counter::TRACKING_STEPS], 0u);
+  EXPECT_NEAR(answer.lmds.front().distance, 0.01, 1e-9);
+}
+
+TEST(Query, EveryMethodSortsByDistance) {
+  const Scene scene = testing::make_scene(make_blob(0.5, 0.1, 3), make_torus(0.5, 0.2, 32, 16), 0.1);
+  std::mt19937_64 random(3);
+  const Pose pose = testing::grazing_pose(scene, 0.01, random);
+  for (const std::string_view name : method_names()) {
+    const auto method = make_method(name, scene);
+    const QueryAnswer answer = query(*method, {0.0, pose}, scene.cutoff);
+    ASSERT_FALSE(answer.lmds.empty()) << name;
+    for (std::size_t i = 1; i < answer.lmds.size(); ++i)
+      EXPECT_LE(answer.lmds[i - 1].distance, answer.lmds[i].distance) << name;
+    EXPECT_LE(answer.lmds.back().distance, scene.cutoff) << name;
+  }
+}
+
+}  // namespace
+}  // namespace lmdbench

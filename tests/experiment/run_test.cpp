@@ -1,0 +1,305 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/error.h>
+#include <lmdbench/experiment/run.h>
+#include <lmdbench/experiment/summary.h>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+#include <record/result_reading.h>
+
+#include <algorithm>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace lmdbench {
+namespace {
+
+using ::testing::Contains;
+using ::testing::HasSubstr;
+using testing::OpenResult;
+using testing::ScratchDirectory;
+
+const std::string SHAPES = LMDBENCH_SOURCE_DIR "/experiments/shapes.json";
+
+/// The shapes experiment, cut to its approach and first contact so that the tests stay quick.
+Experiment shapes(std::vector<Override> overrides = {}) {
+  overrides.insert(overrides.begin(), {"/frames=320", "/driver/repetitions=2", "/record/lmds=true"});
+  return load_experiment(SHAPES, overrides);
+}
+
+RunResult run_to(const std::filesystem::path& file, const Experiment& experiment) {
+  return run_experiment_to_file(experiment, file, {"lmdbench", "run"});
+}
+
+/// Bytes of every dataset that must not depend on the machine's speed.
+std::map<std::string, std::vector<char>> deterministic_datasets(const std::filesystem::path& file) {
+  struct Visit {
+    std::map<std::string, std::vector<char>> datasets;
+  } visit;
+  const hid_t id = H5Fopen(file.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
+  H5Ovisit2(
+      id, H5_INDEX_NAME, H5_ITER_INC,
+      [](hid_t object, const char* name, const H5O_info_t* info, void* data) -> herr_t {
+        const std::string path(name);
+        const bool is_time = path.size() > 5 && path.compare(path.size() - 5, 5, "_time") == 0;
+        if (info->type != H5O_TYPE_DATASET || is_time || path.rfind("provenance", 0) == 0) return 0;
+        const hid_t dataset = H5Dopen2(object, name, H5P_DEFAULT);
+        const hid_t type = H5Dget_type(dataset);
+        std::vector<char> bytes;
+        if (H5Tis_variable_str(type) <= 0) {  // texts are compared by their own test
+          const hid_t space = H5Dget_space(dataset);
+          bytes.resize(static_cast<std::size_t>(H5Sget_simple_extent_npoints(space)) * H5Tget_size(type));
+          H5Dread(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, bytes.data());
+          H5Sclose(space);
+        }
+        H5Tclose(type);
+        H5Dclose(dataset);
+        static_cast<Visit*>(data)->datasets[path] = std::move(bytes);
+        return 0;
+      },
+      &visit, H5O_INFO_BASIC);
+  H5Fclose(id);
+  return visit.datasets;
+}
+
+TEST(Run, TwoRunsLeaveTheSameBitsButForTimesAndProvenance) {
+  const ScratchDirectory scratch;
+  run_to(scratch / "a.h5", shapes());
+  run_to(scratch / "b.h5", shapes());
+  const auto a = deterministic_datasets(scratch / "a.h5");
+  EXPECT_GT(a.size(), 80u);
+  EXPECT_TRUE(a.count("methods/improved/force"));
+  EXPECT_TRUE(a.count("methods/original/truth/recall"));
+  EXPECT_TRUE(a.count("methods/original/lmds/distance"));
+  EXPECT_TRUE(a == deterministic_datasets(scratch / "b.h5"));
+}
+
+TEST(Run, OrderOfMethodsBlocksAndRepetitionsDoesNotMatter) {
+  const ScratchDirectory scratch;
+  run_to(scratch / "a.h5", shapes());
+  run_to(
+      scratch / "b.h5",
+      shapes(
+          {R"(/methods=[{"name":"improved","force_law":"exponential"},{"name":"original","force_law":"linear"}])",
+           "/driver/repetitions=3", "/driver/block_frames=7"}));
+  auto a = deterministic_datasets(scratch / "a.h5");
+  auto b = deterministic_datasets(scratch / "b.h5");
+  // The list of exceptions names methods in their order within a frame.
+  const auto drop_exceptions = [](auto& datasets) {
+    for (auto it = datasets.begin(); it != datasets.end();)
+      it = it->first.find("exceptions/") != std::string::npos ? datasets.erase(it) : std::next(it);
+  };
+  drop_exceptions(a);
+  drop_exceptions(b);
+  EXPECT_TRUE(a == b);
+}
+
+TEST(Run, AnotherSceneLeavesOtherBits) {
+  const ScratchDirectory scratch;
+  run_to(scratch / "a.h5", shapes());
+  run_to(scratch / "b.h5", shapes({"/force/maximum_force_n=2.5"}));
+  EXPECT_FALSE(deterministic_datasets(scratch / "a.h5") == deterministic_datasets(scratch / "b.h5"));
+}
+
+TEST(Run, ResultHasTheContractsShapes) {
+  const ScratchDirectory scratch;
+  run_to(scratch / "r.h5", shapes());
+  const OpenResult result(scratch / "r.h5");
+  const std::size_t N = 320, R = 2, G = 16, T = 16;
+  using Shape = std::vector<std::size_t>;
+  EXPECT_EQ(result.shape("/path/time"), (Shape{N}));
+  EXPECT_EQ(result.shape("/path/orientation"), (Shape{N, 4}));
+  for (const std::string method : {"/methods/original", "/methods/improved"}) {
+    EXPECT_EQ(result.shape(method + "/force"), (Shape{N, 3}));
+    EXPECT_EQ(result.shape(method + "/torque"), (Shape{N, 3}));
+    for (const std::string name :
+         {"lmd_count", "lmd_count_before_reduction", "reduction_ratio", "minimum_distance", "lmd_age",
+          "effective_stiffness", "force_clipped", "counters/node_pairs"})
+      EXPECT_EQ(result.shape(method + "/" + name), (Shape{N})) << name;
+    EXPECT_EQ(result.shape(method + "/local_update_time"), (Shape{R, N}));
+    for (const std::string name : {"global_search_time", "first_reduction_time", "second_tracking_time"})
+      EXPECT_EQ(result.shape(method + "/" + name), (Shape{R, G})) << name;
+    for (const std::string name :
+         {"global_frame", "candidates", "kept_after_reduction", "global_counters/node_pairs"})
+      EXPECT_EQ(result.shape(method + "/" + name), (Shape{G})) << name;
+    for (const std::string name :
+         {"frame", "recall", "precision", "recall_adjacent", "precision_adjacent", "minimum_distance_error",
+          "force_error", "force_angle_error", "force_jump"})
+      EXPECT_EQ(result.shape(method + "/truth/" + name), (Shape{T})) << name;
+    EXPECT_EQ(result.shape(method + "/lmds/frame_offset"), (Shape{N + 1}));
+    const auto offsets = result.integers(method + "/lmds/frame_offset");
+    EXPECT_EQ(result.shape(method + "/lmds/point_moving"),
+              (Shape{static_cast<std::size_t>(offsets.back()), 3}));
+  }
+  EXPECT_EQ(result.shape("/reference/force_linear"), (Shape{T, 3}));
+  EXPECT_EQ(result.shape("/crosscheck/fcl/distance"), (Shape{7}));
+  EXPECT_EQ(result.shape("/methods/improved/fcl/minimum_distance_difference_relative"), (Shape{7}));
+  EXPECT_EQ(result.integer_attribute("/methods", "warm_up_repetitions"), 1);
+  EXPECT_EQ(result.text_attribute("/methods/improved", "force_law"), "exponential");
+  EXPECT_EQ(result.text_attribute("/methods/improved", "result_hash").size(), 16u);
+  EXPECT_TRUE(result.has("/provenance/plan"));
+  EXPECT_EQ(result.strings("/provenance/inputs/role"), std::vector<std::string>{"path"})
+      << "shapes are generated";
+}
+
+TEST(Run, UnsetValuesAreNaN) {
+  const ScratchDirectory scratch;
+  run_to(scratch / "r.h5", shapes());
+  const OpenResult result(scratch / "r.h5");
+  EXPECT_TRUE(std::isnan(result.doubles("/methods/improved/lmd_age")[0])) << "nothing has arrived in frame 0";
+  EXPECT_DOUBLE_EQ(result.doubles("/methods/improved/lmd_age")[20], 0.02);
+  EXPECT_TRUE(std::isnan(result.doubles("/methods/improved/minimum_distance")[0]));
+  EXPECT_TRUE(std::isnan(result.doubles("/methods/improved/reduction_ratio")[0]));
+  EXPECT_TRUE(std::isnan(result.doubles("/methods/original/first_reduction_time")[0]))
+      << "the original has none";
+  EXPECT_FALSE(std::isnan(result.doubles("/methods/improved/first_reduction_time")[0]));
+}
+
+TEST(Run, OnlyWhatTheSceneNeedsIsInTheResult) {
+  const ScratchDirectory scratch;
+  const Experiment bare = shapes(
+      {"/record/lmds=false", "/probes/truth/stride_frames=0", "/probes/fcl/stride_frames=0", "/frames=50"});
+  const RunResult run = run_to(scratch / "r.h5", bare);
+  const OpenResult result(scratch / "r.h5");
+  EXPECT_FALSE(result.has("/reference"));
+  EXPECT_FALSE(result.has("/crosscheck"));
+  EXPECT_FALSE(result.has("/methods/improved/truth"));
+  EXPECT_FALSE(result.has("/methods/improved/lmds"));
+  EXPECT_FALSE(run.fcl.has_value());
+  EXPECT_THAT(summary_text(summarise(bare, run)), HasSubstr("error  not measured"));
+}
+
+TEST(Run, EveryMethodRunsSideBySide) {
+  const Experiment all =
+      shapes({R"(/methods/-={"name":"certified","force_law":"exponential"})",
+              R"(/methods/-={"name":"exhaustive","force_law":"exponential"})", "/record/lmds=false"});
+  const RunResult run = run_experiment(all);
+  ASSERT_EQ(run.records.size(), 4u);
+  EXPECT_EQ(run.records[2].result_hash, run.records[3].result_hash) << "certified is exact and complete";
+  for (const TruthComparison& row : run.comparisons[3]) {
+    EXPECT_EQ(row.force_error, 0.0);
+    EXPECT_TRUE(std::isnan(row.strict.recall) || row.strict.recall == 1.0);
+    EXPECT_TRUE(std::isnan(row.strict.precision) || row.strict.precision == 1.0);
+  }
+  const auto in_contact = std::count_if(run.truth.begin(), run.truth.end(),
+                                        [](const TruthFrame& frame) { return !frame.lmds.empty(); });
+  EXPECT_GE(in_contact, 3) << "or the test above says nothing";
+}
+
+TEST(Run, InterruptionLeavesTheEarlierResultWhole) {
+  const ScratchDirectory scratch;
+  run_to(scratch / "r.h5", shapes());
+  const auto before = deterministic_datasets(scratch / "r.h5");
+  EXPECT_THROW(
+      run_experiment_to_file(shapes({"/force/maximum_force_n=1"}), scratch / "r.h5", {},
+                             [](const std::string&, std::int64_t done, std::int64_t) { return done < 200; }),
+      Interrupted);
+  EXPECT_TRUE(before == deterministic_datasets(scratch / "r.h5"));
+  EXPECT_FALSE(std::filesystem::exists(scratch / "r.h5.part"));
+}
+
+TEST(Run, ProgressNamesItsPhases) {
+  std::vector<std::string> phases;
+  run_experiment(shapes(), [&](const std::string& phase, std::int64_t done, std::int64_t total) {
+    EXPECT_LE(done, total);
+    if (phases.empty() || phases.back() != phase) phases.push_back(phase);
+    return true;
+  });
+  EXPECT_THAT(phases, ::testing::ElementsAre("run", "truth", "fcl"));
+}
+
+TEST(Run, OpenMeshGoesOnAndTheResultSaysSo) {
+  const ScratchDirectory scratch;
+  run_to(scratch / "r.h5", shapes({"/fixed/0/mesh=patch", "/frames=30"}));
+  const OpenResult result(scratch / "r.h5");
+  EXPECT_EQ(result.integer_attribute("/scene/fixed_0", "closed"), 0);
+  EXPECT_EQ(result.integer_attribute("/scene/moving", "closed"), 1);
+  EXPECT_THAT(result.strings("/scene/warnings"), Contains(HasSubstr("fixed_0 mesh patch: ")));
+}
+
+TEST(Run, StartInPenetrationGoesOnAndTheResultSaysSo) {
+  const ScratchDirectory scratch;
+  std::ofstream(scratch / "path.tum") << "0 0.08 0 0 0 0 0 1\n0.05 0.085 0 0 0 0 0 1\n";
+  run_to(scratch / "r.h5", shapes({"/path/file=" + (scratch / "path.tum").string(),
+                                   "/driver/search_every_frames=5", "/driver/search_latency_frames=0"}));
+  const OpenResult result(scratch / "r.h5");
+  EXPECT_EQ(result.integer_attribute("/scene", "starts_in_contact"), 1);
+  EXPECT_THAT(result.strings("/scene/warnings"), Contains(HasSubstr("touch in the first frame")));
+  EXPECT_GT(result.integer_attribute("/methods/improved", "frames_in_contact"), 0);
+  for (const double force : result.doubles("/methods/improved/force")) EXPECT_TRUE(std::isfinite(force));
+  for (const double force : result.doubles("/methods/original/force")) EXPECT_TRUE(std::isfinite(force));
+}
+
+TEST(Run, FixedPosesPlaceTheMeshInTheWorld) {
+  // Turning path and fixed mesh together about z by 90 degrees turns the forces alike.
+  const ScratchDirectory scratch;
+  std::ofstream(scratch / "a.tum") << "0 0.087 0 0 0 0 0 1\n0.1 0.084 0 0 0 0 0 1\n";
+  std::ofstream(scratch / "b.tum") << "0 0.01 0.107 0 0 0 0.70710678118654752 0.70710678118654752\n"
+                                   << "0.1 0.01 0.104 0 0 0 0.70710678118654752 0.70710678118654752\n";
+  const auto overrides = [&](const std::string& path) {
+    return std::vector<Override>{"/path/file=" + (scratch / path).string(), "/driver/search_every_frames=5",
+                                 "/driver/search_latency_frames=0", "/force/cutoff_diagonal=0.2"};
+  };
+  std::vector<Override> turned = overrides("b.tum");
+  turned.push_back("/fixed/0/pose/translation_m=[0.01,0.02,0]");
+  turned.push_back("/fixed/0/pose/rotation_xyzw=[0,0,0.70710678118654752,0.70710678118654752]");
+  const RunResult a = run_experiment(shapes(overrides("a.tum")));
+  const RunResult b = run_experiment(shapes(turned));
+  const Vec3 force_a = a.records[1].frames.back().force;
+  const Vec3 force_b = b.records[1].frames.back().force;
+  ASSERT_GT(force_a.norm(), 0.1);
+  EXPECT_NEAR(force_b.y(), force_a.x(), 1e-6);
+  EXPECT_NEAR(force_b.x(), -force_a.y(), 1e-6);
+}
+
+TEST(Run, ASinglePoseIsAPathOfOneFrame) {
+  const ScratchDirectory scratch;
+  std::ofstream(scratch / "path.tum") << "5 0.2 0 0 0 0 0 1\n";
+  const RunResult run = run_experiment(shapes({"/path/file=" + (scratch / "path.tum").string()}));
+  EXPECT_EQ(run.prepared.times, std::vector<double>{5.0});
+  EXPECT_TRUE(run.truth.empty());
+}
+
+TEST(Prepare, RefusesWhatCannotBeUsed) {
+  const ScratchDirectory scratch;
+  std::ofstream(scratch / "long.tum") << "0 0.2 0 0 0 0 0 1\n1e12 0.2 0 0 0 0 0 1\n";
+  const auto message = [](const std::vector<Override>& overrides) -> std::string {
+    try {
+      run_experiment(shapes(overrides));
+    } catch (const Error& error) {
+      return std::to_string(static_cast<int>(error.code())) + " " + error.what();
+    }
+    return "no error";
+  };
+  EXPECT_THAT(message({"/path/file=" + (scratch / "long.tum").string()}), HasSubstr("lasts 1e+12 s"));
+  EXPECT_THAT(message({"/moving/mesh=no-such-mesh"}), HasSubstr("3 "));
+  EXPECT_THAT(message({"/moving/mesh=./no/such.off"}), HasSubstr("3 "));
+  EXPECT_THAT(message({"/device=phantom-desk"}), HasSubstr("2 "));
+  EXPECT_THAT(message({R"(/force={"cutoff_diagonal":0.01,"saturation_m":0.5,"maximum_force_n":1})"}),
+              HasSubstr("/force/saturation_m: saturation at 0.5 m"));
+}
+
+TEST(Summary, ShowsErrorsBesideTimes) {
+  const Experiment experiment = shapes();
+  const RunSummary summary = summarise(experiment, run_experiment(experiment));
+  ASSERT_EQ(summary.methods.size(), 2u);
+  EXPECT_EQ(summary.probed_frames, 16);
+  const std::string text = summary_text(summary);
+  EXPECT_LT(text.find("error  recall"), text.find("time   local update"));
+  const auto json = nlohmann::json::parse(summary_json(summary));
+  for (const auto& method : json["methods"]) {
+    EXPECT_TRUE(method["time"]["local_update_median_s"].is_number());
+    EXPECT_TRUE(method["error"]["force_error_median_n"].is_number());
+  }
+  EXPECT_TRUE(json["methods"][0]["time"]["first_reduction_median_s"].is_null()) << "the original has none";
+  EXPECT_EQ(json["fcl"]["frames"], 7);
+}
+
+}  // namespace
+}  // namespace lmdbench
