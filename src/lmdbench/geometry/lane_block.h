@@ -1,0 +1,29 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+
+namespace lmdbench::kernel {
+
+/// Pairs that a stage of the batch takes at a time: eight doubles are the widest vector there is; narrower
+/// ones take the block in pieces.
+inline constexpr std::size_t MAX_LANES = 8;
+
+/// Corners of MAX_LANES triangle pairs, one lane a pair.
+struct LaneBlock {
+  alignas(64) double a[3][3][MAX_LANES];  ///< corner, axis, lane
+  alignas(64) double b[3][3][MAX_LANES];
+};
+
+/// Nearest points, and the weights of the corners that carry them.
+struct LaneResult {
+  alignas(64) double point_a[3][MAX_LANES];
+  alignas(64) double point_b[3][MAX_LANES];
+  alignas(64) double weights_a[3][MAX_LANES];
+  alignas(64) double weights_b[3][MAX_LANES];
+  alignas(64) double shared_length[MAX_LANES];  ///< of the segment that crossing triangles share; set by
+                                                ///< `crossing`
+};
+
+}  // namespace lmdbench::kernel
