@@ -78,6 +78,17 @@ figure_scripts() {
   (cd "$ROOT" && "$python" -m unittest discover scripts/figures/tests </dev/null)
 }
 
+# A whole run on generated shapes, without the network: the result must be what results/README.md describes, and the
+# figure must come out of it.
+end_to_end() {
+  local python result="$ROOT/build/release/shapes.h5" folder="$ROOT/build/release/figures"
+  python="$(find_python h5py matplotlib numpy)" || return
+  (cd "$ROOT" && build/release/lmdbench run experiments/shapes.json --out "$result" </dev/null) &&
+    "$python" "$ROOT/scripts/figures/check_format.py" "$result" &&
+    "$python" "$ROOT/scripts/figures/figure7.py" "$result" "$result" --out "$folder" &&
+    [[ -s $folder/figure7.png ]]
+}
+
 if ! step "Set-up" "$ROOT/scripts/setup.sh"; then
   die "$EXIT_ENVIRONMENT" "set-up failed, see above"
 fi
@@ -87,6 +98,7 @@ check "Figure scripts" figure_scripts
 if check "Build (release, warnings are errors)" build_preset release -DLMDBENCH_WARNINGS_AS_ERRORS=ON; then
   tests "Tests (release)" release
   check "Experiment files" experiment_files
+  check "Run, result format and figure" end_to_end
   check "Static analysis" "$ROOT/scripts/lint.sh" --tidy
 fi
 if ((fast == 0)); then
