@@ -34,10 +34,12 @@ using Mask = hn::Mask<Lanes>;
 constexpr double MARGIN = 16.0 * COINCIDENCE_TOLERANCE;
 /// Edges at a smaller angle and faces with a smaller altitude (relative, squared) are left to the scalar
 /// kernel: from here on the points of both kernels agree to 1e-12.
-constexpr double MIN_SQUARED_SINE = 1e-5;
+constexpr double MIN_SQUARED_SINE = 1e-4;
 /// Crossing triangles share at least this part of a chord, and its middle is at least this part away from all
 /// borders; the rest is left to the scalar kernel's exact predicates.
 constexpr double LEAST_CROSSING_PART = 1e-4;
+/// Squared sine of the angle between the chord and an edge that cuts it, in the worst-shaped face: see `cut`.
+constexpr double LEAST_SQUARED_FALL = 1e-6;
 /// Range of coordinates in which no product overflows or loses digits, as in triangle_distance.
 constexpr double SMALLEST_COORDINATE = 0x1p-100;
 constexpr double LARGEST_COORDINATE = 0x1p+100;
@@ -411,16 +413,18 @@ std::uint32_t all_candidates(const LaneBlock& block, LaneResult& result) {
   return done;
 }
 
-/// The part of a chord from `from` to `to` where a weight that is linear along it is not negative.
-HWY_INLINE void cut(Real from, Real to, Real& begin, Real& end) {
+/// The part of a chord from `from` to `to` where a weight that is linear along it is not negative. Leaves
+/// only lanes in `clear` whose weight falls by `least_squared_fall` at least where it is cut: a chord along
+/// the edge has no clear cut.
+HWY_INLINE void cut(Real from, Real to, Real least_squared_fall, Real& begin, Real& end, Mask& clear) {
   const Mask starts_out = hn::Lt(from, zero());
   const Mask ends_out = hn::Lt(to, zero());
-  const Real difference = hn::Sub(from, to);
-  const Real part = hn::Div(from, select(hn::Eq(difference, zero()), constant(1.0), difference));
+  const Real fall = hn::Sub(from, to);
+  const Real part = hn::Div(from, select(hn::Eq(fall, zero()), constant(1.0), fall));
   begin = hn::Max(begin, select(starts_out, part, zero()));
   end = hn::Min(end, select(ends_out, part, constant(1.0)));
-  // Out all along: nothing is left.
-  end = select(hn::And(starts_out, ends_out), constant(-1.0), end);
+  clear = hn::AndNot(hn::And(starts_out, ends_out), clear);
+  clear = hn::AndNot(hn::And(hn::Or(starts_out, ends_out), hn::Lt(squared(fall), least_squared_fall)), clear);
 }
 
 /// Lanes where the triangles cross clearly, with the middle of the segment that they share inside both: the
@@ -469,11 +473,15 @@ std::uint32_t crossing(const LaneBlock& block, LaneResult& result) {
       chord_end[i] = turned_b.corner.v[0] + times(part[i], edge);
       on_a[i] = weights_on(face, chord_end[i] - face.origin);
     }
+    const Vector chord = chord_end[1] - chord_end[0];
+    // A weight falls along the chord by its length over the altitude, times the sine of its angle to the
+    // edge.
+    const Real least_squared_fall = hn::Div(hn::Mul(constant(LEAST_SQUARED_FALL), dot(chord, chord)),
+                                            select(face.well_shaped, face.least_squared_altitude, one));
     Real begin = zero(), end = one;
-    for (int k = 0; k < 3; ++k) cut(on_a[0].v[k], on_a[1].v[k], begin, end);
+    for (int k = 0; k < 3; ++k) cut(on_a[0].v[k], on_a[1].v[k], least_squared_fall, begin, end, clear);
     const Real middle = hn::Mul(constant(0.5), hn::Add(begin, end));
     const Real rest = hn::Sub(one, middle);
-    const Vector chord = chord_end[1] - chord_end[0];
     Found found;
     found.point_a = found.point_b = chord_end[0] + times(middle, chord);
     found.weights_a = weights_on(face, found.point_a - face.origin);
