@@ -59,7 +59,7 @@ class Comparison {
     WorkCounters of_truth, of_vector, of_scalar;
     Exhaustive(scene).search(pose, truth, of_truth);
     Certified(scene).search(pose, vector, of_vector);
-    Certified(scene, WideKernel::SCALAR).search(pose, scalar, of_scalar);
+    Certified(scene, {}, WideKernel::SCALAR).search(pose, scalar, of_scalar);
     lmds_ += truth.size();
     EXPECT_TRUE(same_set(truth, vector)) << where(pose, cutoff);
     EXPECT_TRUE(same_set(truth, scalar)) << where(pose, cutoff);

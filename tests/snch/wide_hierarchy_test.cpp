@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/mesh/polar_cone.h>
 #include <lmdbench/snch/polar_cap.h>
+#include <lmdbench/snch/wide_frontier.h>
 #include <lmdbench/snch/wide_hierarchy.h>
 #include <lmdbench/snch/wide_traversal.h>
 
@@ -264,6 +265,70 @@ TEST(WideNodeTest, NeverRejectsAPairOfOppositeDirections) {
     if (test_lanes_scalar(node, probe, shorter).lmd == 0) ++rejected;
   }
   EXPECT_GT(rejected, 10000u);
+}
+
+TEST(WideSlack, VectorAndScalarAgreeBitForBit) {
+  std::mt19937_64 random(4);
+  std::size_t alive = 0, dead = 0;
+  for (const TriangleMesh& mesh : shapes()) {
+    const WideHierarchy hierarchy = build_wide_hierarchy(build_surface(mesh));
+    for (int i = 0; i < 2000; ++i) {
+      const WideQuery query(hierarchy, hierarchy, random_pose(uniform(random), random), 0.3 * uniform(random),
+                            1e-9);
+      const auto& node = hierarchy.nodes[random() % hierarchy.nodes.size()];
+      const auto& home = hierarchy.nodes[random() % hierarchy.nodes.size()];
+      const auto lane = static_cast<std::uint32_t>(random() % WIDE_WIDTH);
+      const auto touch_lanes = static_cast<std::uint32_t>(random() & 0xFFu);
+      if (!query.possible || home.child[lane] == 0) continue;
+      const WideProbe probe = make_probe(home, lane, query.a_in_b);
+      const auto horizon = static_cast<float>(0.02 * uniform(random));
+      const WideSlackMasks scalar =
+          test_lanes_slack_scalar(node, probe, query.limits, 1.5F, horizon, touch_lanes);
+      const WideSlackMasks vector = test_lanes_slack(node, probe, query.limits, 1.5F, horizon, touch_lanes);
+      ASSERT_EQ(scalar.used, vector.used);
+      ASSERT_EQ(scalar.lmd, vector.lmd);
+      ASSERT_EQ(scalar.touch, vector.touch);
+      ASSERT_EQ(scalar.slack, vector.slack);
+      ++(scalar.lmd != 0 ? alive : dead);
+    }
+  }
+  EXPECT_GT(alive, 100u);
+  EXPECT_GT(dead, 100u);
+}
+
+TEST(WideSlack, NothingBecomesAnLmdBeforeItsSlackIsUsedUp) {
+  // As above, the pair is an LMD after a motion; before the motion the test may reject it, but not with a
+  // slack that the motion is smaller than.
+  std::mt19937_64 random(5);
+  std::size_t rejected = 0;
+  for (int i = 0; i < 200000; ++i) {
+    const Sample a(random);
+    Sample b(random);
+    const double cutoff = 0.2 * uniform(random);
+    const double distance = cutoff * uniform(random);
+    const Mat3 turn = Eigen::Quaterniond::FromTwoVectors(b.direction, -a.direction).toRotationMatrix();
+    const Vec3 offset = a.point + distance * a.direction - turn * b.point;
+    b.centre = turn * b.centre + offset;
+    b.axis = turn * b.axis;
+    // The moving mesh is a, with its centre at the origin and all of it within the radius 1.3.
+    const double lever = 1.3 + 2.0 * cutoff;
+    const double angle = 0.2 * uniform(random) * uniform(random);
+    const Vec3 shift = 0.1 * uniform(random) * uniform(random) * random_direction(random);
+    const Mat3 back = Eigen::AngleAxisd(angle, random_direction(random)).toRotationMatrix();
+    const double motion = shift.norm() + lever * angle;
+    WideNode home{}, node{};
+    a.store(home, 0);
+    b.store(node, 3);
+    const WideProbe probe = make_probe(home, 0, WideTransform(back, shift));
+    const double size = 2.0 + b.centre.norm();
+    const WideLimits limits{static_cast<float>(cutoff * (1.0 + 1e-7)), 0.0F,
+                            static_cast<float>(POSITION_ROUNDING * size)};
+    const WideSlackMasks masks = test_lanes_slack(node, probe, limits, static_cast<float>(lever), 0.0F, 0u);
+    if (masks.lmd != 0) continue;
+    ++rejected;
+    ASSERT_LE(static_cast<double>(masks.slack), motion * (1.0 + 1e-6)) << i;
+  }
+  EXPECT_GT(rejected, 5000u);
 }
 
 TEST(WideTraversal, VectorAndScalarFindTheSamePairs) {

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace lmdbench {
 
@@ -21,6 +22,11 @@ constexpr double RELATIVE_TOUCH = 1e-9;
 constexpr double FILTER_MARGIN = 1e-5;
 /// PairFilter::tiny relative to the coordinates: roundings of such a length's ends are well under the margin.
 constexpr double RELATIVE_TINY = 1e-8;
+/// A test that was kept lives for at least this many frames of the present pace: more means fewer repeated
+/// tests, but more that are kept for nothing.
+constexpr double HORIZON_FRAMES = 12.0;
+/// Share of the last frames' pace that is still expected in the next frame.
+constexpr double PACE_DECAY = 0.9;
 /// Two minima whose distances differ by more than this part of them cannot be on one plateau (its tolerance
 /// is 1e-9).
 constexpr double APART = 1e-6;
@@ -78,9 +84,24 @@ bool strict_points(const PairFilter& filter, const FeatureId& on_moving, const F
 
 }  // namespace
 
-Certified::Certified(Scene scene, WideKernel kernel) : scene_(std::move(scene)), kernel_(kernel) {
-  scene_.moving->wide_hierarchy();
-  for (const auto& body : scene_.fixed) body->wide_hierarchy();
+Certified::Certified(Scene scene, const MethodOptions& options, WideKernel kernel)
+    : scene_(std::move(scene)), coherent_(options.frame_coherence), kernel_(kernel) {
+  double extent = scene_.moving->wide_hierarchy().radius;
+  for (const auto& body : scene_.fixed) extent = std::max(extent, body->wide_hierarchy().radius);
+  lever_ = scene_.moving->wide_hierarchy().radius + 2.0 * scene_.cutoff;
+  // Without a cutoff that means something there is nothing to save, and the lever would be without bound.
+  coherent_ = coherent_ && scene_.cutoff <= 10.0 * extent;
+  frontiers_.resize(scene_.fixed.size());
+}
+
+/// Size of the motion, rounded up (PairFilter::lever): the angle is 2 asin(s) <= 2 (s + s^3) for the length s
+/// of the relative quaternion's vector part, s <= 0.8.
+double Certified::motion_since_last(const RigidTransform& transform, const Pose& X_WM) const {
+  const Vec3& origin = scene_.moving->wide_hierarchy().origin;
+  const double shift = (transform.point(origin) - last_transform_.point(origin)).norm();
+  const double sine = (X_WM.rotation * last_pose_.rotation.conjugate()).vec().norm();
+  if (sine > 0.8) return std::numeric_limits<double>::infinity();
+  return (shift + lever_ * 2.0 * (sine + sine * sine * sine)) * (1.0 + 1e-12) + 1e-3 * touch_;
 }
 
 bool Certified::evaluate(const PairFilter& filter, std::int32_t body, const TrianglePair& pair,
@@ -110,52 +131,57 @@ bool Certified::evaluate(const PairFilter& filter, std::int32_t body, const Tria
   return is_local_minimum(filter.moving, filter.X_WM, filter.fixed, minimum.lmd);
 }
 
-void Certified::decide(const PairFilter& filter, std::int32_t body, WorkCounters& counters) {
-  for (const WidePair& candidate : scratch_.lmd_pairs) {
-    const FeatureId on_moving = candidate.a.feature_id(), on_fixed = candidate.b.feature_id();
-    const PairVerdict verdict = filter(on_moving, on_fixed);
-    if (verdict == PairVerdict::NO_LMD) continue;
-    const auto triangles_moving = filter.moving.incident_triangles(on_moving);
-    const auto triangles_fixed = filter.fixed.incident_triangles(on_fixed);
-    if (verdict == PairVerdict::LMD) {
-      Lmd lmd;
-      if (strict_points(filter, on_moving, on_fixed, lmd.point_moving, lmd.point_fixed)) {
-        const Vec3 d = lmd.point_fixed - lmd.point_moving;
-        lmd.distance = std::sqrt(d.squaredNorm());
-        lmd.direction = d / lmd.distance;
-        lmd.feature_moving = on_moving;
-        lmd.feature_fixed = on_fixed;
-        lmd.triangle_moving = triangles_moving.front();
-        lmd.triangle_fixed = triangles_fixed.front();
-        lmd.fixed_body = body;
-        ++counters[Counter::FIRST_ORDER_TESTS];
-        if (is_local_minimum(filter.moving, filter.X_WM, filter.fixed, lmd)) {
-          minima_.push_back({lmd, 0, 0.0});
-          continue;
-        }
-      }
-      // The kernel sees the pair otherwise: leave nothing to the closed form.
+/// Settles a candidate or leaves its triangle pairs to decide_pending; returns what WideFrontier asks for.
+double Certified::decide(const PairFilter& filter, std::int32_t body, const WidePair& candidate,
+                         WorkCounters& counters) {
+  const FeatureId on_moving = candidate.a.feature_id(), on_fixed = candidate.b.feature_id();
+  const PairAnswer answer = filter(on_moving, on_fixed);
+  if (answer.verdict == PairVerdict::NO_LMD) return answer.slack;
+  const auto triangles_moving = filter.moving.incident_triangles(on_moving);
+  const auto triangles_fixed = filter.fixed.incident_triangles(on_fixed);
+  Lmd lmd;
+  if (answer.verdict == PairVerdict::LMD &&
+      strict_points(filter, on_moving, on_fixed, lmd.point_moving, lmd.point_fixed)) {
+    const Vec3 d = lmd.point_fixed - lmd.point_moving;
+    lmd.distance = std::sqrt(d.squaredNorm());
+    lmd.direction = d / lmd.distance;
+    lmd.feature_moving = on_moving;
+    lmd.feature_fixed = on_fixed;
+    lmd.triangle_moving = triangles_moving.front();
+    lmd.triangle_fixed = triangles_fixed.front();
+    lmd.fixed_body = body;
+    ++counters[Counter::FIRST_ORDER_TESTS];
+    if (is_local_minimum(filter.moving, filter.X_WM, filter.fixed, lmd)) {
+      minima_.push_back({lmd, 0, 0.0});
+      return -1.0;
     }
-    for (const std::int32_t t_moving : triangles_moving)
-      for (const std::int32_t t_fixed : triangles_fixed) pending_.push_back({t_moving, t_fixed});
   }
+  // Close to a tie, or the exact test sees the pair otherwise: leave nothing to the closed form.
+  for (const std::int32_t t_moving : triangles_moving)
+    for (const std::int32_t t_fixed : triangles_fixed) pending_.push_back({t_moving, t_fixed});
+  return -1.0;
 }
 
-void Certified::decide_touching(const PairFilter& filter, std::int32_t body, WorkCounters& counters) {
-  std::int32_t last_moving = -1;  // pairs with one moving face come in runs
-  Triangle a;
-  Vec3 normal_a;
-  for (const WidePair& candidate : scratch_.touch_pairs) {
-    const TrianglePair pair{candidate.a.feature_id().index, candidate.b.feature_id().index};
-    if (pair.moving != last_moving) {
-      last_moving = pair.moving;
-      a = filter.X_WM.triangle(filter.moving.mesh.triangle(pair.moving));
-      normal_a = filter.X_WM.direction(filter.moving.face_normals[static_cast<std::size_t>(pair.moving)]);
-    }
-    const Triangle b = filter.fixed.mesh.triangle(pair.fixed);
-    const Vec3& normal_b = filter.fixed.face_normals[static_cast<std::size_t>(pair.fixed)];
-    if (!clearly_apart(a, normal_a, b, normal_b, 2.0 * filter.touch)) pending_.push_back(pair);
+double Certified::decide_touching(const PairFilter& filter, const WidePair& candidate,
+                                  WorkCounters& counters) {
+  const TrianglePair pair{candidate.a.feature_id().index, candidate.b.feature_id().index};
+  const Triangle a = filter.X_WM.triangle(filter.moving.mesh.triangle(pair.moving));
+  const Triangle b = filter.fixed.mesh.triangle(pair.fixed);
+  const Vec3 normal_a =
+      filter.X_WM.direction(filter.moving.face_normals[static_cast<std::size_t>(pair.moving)]);
+  const Vec3& normal_b = filter.fixed.face_normals[static_cast<std::size_t>(pair.fixed)];
+  const double margin = 2.0 * filter.touch;
+  double gap = clear_gap(a, normal_a, b, normal_b, margin);
+  if (gap == 0.0) {
+    gap = std::sqrt(triangle_distance(a, b).squared_distance);
+    ++counters[Counter::TRIANGLE_DISTANCES];
   }
+  if (gap > margin) return gap - margin;
+  pending_.push_back(pair);
+  return -1.0;
+}
+
+void Certified::decide_pending(const PairFilter& filter, std::int32_t body, WorkCounters& counters) {
   std::sort(pending_.begin(), pending_.end());
   pending_.erase(std::unique(pending_.begin(), pending_.end()), pending_.end());
   LocalMinimum minimum;
@@ -187,27 +213,54 @@ void Certified::search(const Pose& X_WM, LmdSet& lmds, WorkCounters& counters) {
     const WideHierarchy& fixed = body->wide_hierarchy();
     coordinates = std::max(coordinates, fixed.origin.cwiseAbs().maxCoeff() + fixed.radius);
   }
-  const double touch = RELATIVE_TOUCH * coordinates;
+  // The same in neighbouring frames, so that what was kept with it stays valid.
+  const double touch = RELATIVE_TOUCH * std::exp2(std::ceil(std::log2(coordinates)));
+  const double motion = has_last_ && touch == touch_ ? motion_since_last(transform, X_WM)
+                                                     : std::numeric_limits<double>::infinity();
+  touch_ = touch;
+  pace_ = std::isfinite(motion) ? std::max(motion, PACE_DECAY * pace_) : 0.0;
+  const double horizon = HORIZON_FRAMES * pace_;
+  const bool keep = coherent_ && std::isfinite(motion) && horizon <= scene_.cutoff;
+  has_last_ = true;
+  last_pose_ = X_WM;
+  last_transform_ = transform;
 
-  for (std::size_t body = 0; body < scene_.fixed.size(); ++body) {
-    const WideHierarchy& fixed = scene_.fixed[body]->wide_hierarchy();
+  for (std::size_t i = 0; i < scene_.fixed.size(); ++i) {
+    const auto body = static_cast<std::int32_t>(i);
+    const WideHierarchy& fixed = scene_.fixed[i]->wide_hierarchy();
     const PairFilter filter{scene_.moving->surface(),
                             transform,
-                            scene_.fixed[body]->surface(),
+                            scene_.fixed[i]->surface(),
                             scene_.cutoff,
                             touch,
                             FILTER_MARGIN,
-                            RELATIVE_TINY * coordinates};
+                            RELATIVE_TINY * coordinates,
+                            lever_};
     const WideQuery query(moving, fixed, transform, scene_.cutoff, touch);
     WideCounters work;
-    find_wide_pairs(moving, fixed, query, kernel_, scratch_, work);
+    const auto decide_pair = [&](const WidePair& pair, bool touches) {
+      ++counters[Counter::LEAF_PAIRS];
+      return touches ? decide_touching(filter, pair, counters) : decide(filter, body, pair, counters);
+    };
+    WideFrontier& frontier = frontiers_[i];
+    if (keep && query.possible) {
+      if (frontier.empty()) {
+        frontier.start(moving, fixed, query, lever_, horizon, work);
+      } else {
+        frontier.advance(moving, fixed, query, lever_, horizon, motion, work);
+      }
+      frontier.for_each_due(decide_pair);
+    } else {
+      frontier.clear();
+      find_wide_pairs(moving, fixed, query, kernel_, scratch_, work);
+      for (const WidePair& pair : scratch_.lmd_pairs) decide_pair(pair, false);
+      for (const WidePair& pair : scratch_.touch_pairs) decide_pair(pair, true);
+    }
+    decide_pending(filter, body, counters);
     counters[Counter::NODE_PAIRS] += work.node_pairs;
     counters[Counter::REJECTED_G1] += work.rejected_g1;
     counters[Counter::REJECTED_G2] += work.rejected_g2;
     counters[Counter::REJECTED_G3] += work.rejected_g3;
-    counters[Counter::LEAF_PAIRS] += scratch_.lmd_pairs.size() + scratch_.touch_pairs.size();
-    decide(filter, static_cast<std::int32_t>(body), counters);
-    decide_touching(filter, static_cast<std::int32_t>(body), counters);
   }
   report(coordinates, lmds);
 }

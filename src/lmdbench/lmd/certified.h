@@ -4,8 +4,10 @@
 
 #include <lmdbench/lmd/certified_filter.h>
 #include <lmdbench/lmd/method.h>
+#include <lmdbench/lmd/method_options.h>
 #include <lmdbench/lmd/plateau.h>
 #include <lmdbench/lmd/scene.h>
+#include <lmdbench/snch/wide_frontier.h>
 #include <lmdbench/snch/wide_traversal.h>
 
 #include <cstdint>
@@ -41,9 +43,16 @@ namespace lmdbench {
 /// the touch
 ///   distance: every triangle is a leaf, even one without area, and the touch test looks at no cone.
 /// The merging of plateaus is the truth's, and it sees the same minima.
+///
+/// Frame coherence: where the pose moves by little, step 1 is not made anew; the tests of the last frames are
+/// kept with the motion that each stands (wide_frontier.h), and so are the answers of step 2 (PairFilter).
+/// Only what has expired is done again, and what may be an LMD is decided in every frame. Where the pose
+/// jumps, the frame is searched from scratch and nothing is kept. The set is the same either way; the work
+/// counters tell what was done.
 class Certified : public Method {
  public:
-  explicit Certified(Scene scene, WideKernel kernel = WideKernel::VECTOR);
+  /// @param kernel form of the node test where the frame is searched from scratch
+  explicit Certified(Scene scene, const MethodOptions& options = {}, WideKernel kernel = WideKernel::VECTOR);
 
   std::string_view name() const override { return "certified"; }
   bool tracks_locally() const override { return false; }
@@ -59,17 +68,29 @@ class Certified : public Method {
     auto operator<=>(const TrianglePair&) const = default;
   };
 
-  void decide(const PairFilter& filter, std::int32_t body, WorkCounters& counters);
-  void decide_touching(const PairFilter& filter, std::int32_t body, WorkCounters& counters);
+  double motion_since_last(const RigidTransform& transform, const Pose& X_WM) const;
+  double decide(const PairFilter& filter, std::int32_t body, const WidePair& candidate,
+                WorkCounters& counters);
+  double decide_touching(const PairFilter& filter, const WidePair& candidate, WorkCounters& counters);
+  void decide_pending(const PairFilter& filter, std::int32_t body, WorkCounters& counters);
   bool evaluate(const PairFilter& filter, std::int32_t body, const TrianglePair& pair, LocalMinimum& minimum,
                 WorkCounters& counters) const;
   void report(double coordinates, LmdSet& lmds);
 
   Scene scene_;
+  bool coherent_;
   WideKernel kernel_;
+  double lever_ = 0.0;  ///< PairFilter::lever
+  double touch_ = 0.0;
   WideScratch scratch_;
   std::vector<TrianglePair> pending_;
   std::vector<LocalMinimum> minima_;
+
+  std::vector<WideFrontier> frontiers_;  ///< One a fixed body; empty where nothing is kept.
+  bool has_last_ = false;
+  Pose last_pose_;
+  RigidTransform last_transform_;
+  double pace_ = 0.0;  ///< Size of the motions of the last frames [m].
 };
 
 }  // namespace lmdbench

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 namespace lmdbench {
 
@@ -20,15 +21,20 @@ constexpr double PARALLEL_BAND = 2e-4;
 /// Distances that differ from the cutoff by less than this part of it are left to the exact kernel.
 constexpr double CUTOFF_MARGIN = 1e-9;
 
-PairVerdict worse(PairVerdict a, PairVerdict b) {
-  if (a == PairVerdict::NO_LMD || b == PairVerdict::NO_LMD) return PairVerdict::NO_LMD;
-  return a == PairVerdict::LMD && b == PairVerdict::LMD ? PairVerdict::LMD : PairVerdict::BORDERLINE;
-}
+/// (pi / 3) of the turn of a common perpendicular, rounded up.
+constexpr double TURN_FACTOR = 1.05;
 
-/// value >= 0 wanted, where `scale` * margin is rounding.
-PairVerdict at_least_zero(double value, double scaled_margin) {
-  if (value < -scaled_margin) return PairVerdict::NO_LMD;
-  return value > scaled_margin ? PairVerdict::LMD : PairVerdict::BORDERLINE;
+/// Answers combine: one NO_LMD decides, else one BORDERLINE.
+PairAnswer no_lmd(double slack) {
+  return {PairVerdict::NO_LMD, slack};
+}
+constexpr PairAnswer HOLDS{PairVerdict::LMD, 0.0};
+constexpr PairAnswer CLOSE{PairVerdict::BORDERLINE, 0.0};
+
+/// Adds one condition; true when it decides.
+bool settle(PairAnswer& answer, const PairAnswer& condition) {
+  if (condition.verdict != PairVerdict::LMD) answer = condition;
+  return condition.verdict == PairVerdict::NO_LMD;
 }
 
 /// One of the two meshes with its pose.
@@ -47,132 +53,135 @@ struct Side {
   Vec3 to_world(const Vec3& d_S) const { return is_moving ? X.direction(d_S) : d_S; }
 };
 
-/// Whether d (mesh frame, squared length given) moves away from `corner` as seen from p.
-PairVerdict away_from(const Vec3& d_S, double squared_d, const Vec3& to_corner, double margin, double tiny) {
-  const double along = d_S.dot(to_corner);
-  const double squared_length = to_corner.squaredNorm();
-  if (squared_length <= tiny * tiny) return PairVerdict::BORDERLINE;
-  if (along * along <= margin * margin * squared_d * squared_length) return PairVerdict::BORDERLINE;
-  return along < 0.0 ? PairVerdict::LMD : PairVerdict::NO_LMD;
-}
-
-PairVerdict in_vertex_cone(const Side& side, std::int32_t vertex, const Vec3& d_W, double margin,
-                           double tiny) {
-  const Surface& surface = side.surface;
-  const Vec3 d_S = side.to_surface(d_W);
-  const double squared_d = d_S.squaredNorm();
-  const Vec3& p = side.vertex_S(vertex);
-  PairVerdict verdict = PairVerdict::LMD;
-  for (const std::int32_t edge : surface.adjacency.vertex_edges[vertex]) {
-    const auto& ends = surface.adjacency.edges[static_cast<std::size_t>(edge)];
-    const Vec3 to_corner = side.vertex_S(ends[0] == vertex ? ends[1] : ends[0]) - p;
-    verdict = worse(verdict, away_from(d_S, squared_d, to_corner, margin, tiny));
-    if (verdict == PairVerdict::NO_LMD) return verdict;
-  }
-  return verdict;
-}
-
-/// @param parameter of the foot on the edge, 0 at its first end
-PairVerdict in_edge_cone(const Side& side, std::int32_t edge, double parameter, const Vec3& d_W,
-                         double margin, double tiny) {
-  const Surface& surface = side.surface;
-  const auto& ends = surface.adjacency.edges[static_cast<std::size_t>(edge)];
-  const Vec3 d_S = side.to_surface(d_W);
-  const double squared_d = d_S.squaredNorm();
-  const Vec3& p0 = side.vertex_S(ends[0]);
-  const Vec3 p = p0 + parameter * (side.vertex_S(ends[1]) - p0);
-  PairVerdict verdict = PairVerdict::LMD;
-  for (const std::int32_t triangle : surface.adjacency.edge_triangles[edge]) {
-    for (const std::int32_t corner : surface.mesh.triangles[static_cast<std::size_t>(triangle)]) {
-      if (corner == ends[0] || corner == ends[1]) continue;
-      verdict = worse(verdict, away_from(d_S, squared_d, side.vertex_S(corner) - p, margin, tiny));
-      if (verdict == PairVerdict::NO_LMD) return verdict;
-    }
-  }
-  return verdict;
-}
-
-struct Distances {
-  double cutoff, touch;
-
-  PairVerdict operator()(double squared_distance) const {
-    const double above = cutoff * (1.0 + CUTOFF_MARGIN), below = cutoff * (1.0 - CUTOFF_MARGIN);
-    if (squared_distance > above * above || squared_distance < 0.25 * touch * touch)
-      return PairVerdict::NO_LMD;
-    return squared_distance < below * below ? PairVerdict::LMD : PairVerdict::BORDERLINE;
-  }
-};
-
-PairVerdict inside_unit(double parameter, double margin) {
-  return worse(at_least_zero(parameter, margin), at_least_zero(1.0 - parameter, margin));
-}
-
 struct Test {
   const PairFilter& filter;
   Side moving, fixed;
-  Distances near;
 
   explicit Test(const PairFilter& f)
-      : filter(f), moving{f.moving, f.X_WM, true}, fixed{f.fixed, f.X_WM, false}, near{f.cutoff, f.touch} {}
+      : filter(f), moving{f.moving, f.X_WM, true}, fixed{f.fixed, f.X_WM, false} {}
 
-  PairVerdict vertex_vertex(std::int32_t a, std::int32_t b) const {
-    const Vec3 d = fixed.vertex_W(b) - moving.vertex_W(a);
-    PairVerdict verdict = near(d.squaredNorm());
-    if (verdict == PairVerdict::NO_LMD) return verdict;
-    verdict = worse(verdict, in_vertex_cone(moving, a, d, filter.margin, filter.tiny));
-    if (verdict == PairVerdict::NO_LMD) return verdict;
-    return worse(verdict, in_vertex_cone(fixed, b, -d, filter.margin, filter.tiny));
+  /// A length that must fall to zero before anything changes, less what rounding and the truth's tolerances
+  /// take.
+  double slack(double length) const { return std::max(0.0, length - 2.0 * filter.touch); }
+
+  PairAnswer near(double squared_distance) const {
+    const double above = filter.cutoff * (1.0 + CUTOFF_MARGIN), below = filter.cutoff * (1.0 - CUTOFF_MARGIN);
+    if (squared_distance > above * above) return no_lmd(slack(std::sqrt(squared_distance) - filter.cutoff));
+    if (squared_distance < 0.25 * filter.touch * filter.touch) return no_lmd(0.0);
+    return squared_distance < below * below ? HOLDS : CLOSE;
   }
 
-  PairVerdict vertex_edge(const Side& of_vertex, std::int32_t vertex, const Side& of_edge,
-                          std::int32_t edge) const {
+  /// Whether the foot is inside an edge.
+  /// @param per_length slack that a metre beyond the end gives
+  PairAnswer inside(double parameter, double length, double per_length = 1.0) const {
+    const double beyond = std::max(-parameter, parameter - 1.0);
+    if (beyond > filter.margin) return no_lmd(slack(beyond * length * per_length));
+    return beyond < -filter.margin ? HOLDS : CLOSE;
+  }
+
+  /// Whether d moves away from a corner.
+  /// @param turns slack that a unit of sine gives, for a d that only turns; 0 where d changes like a point
+  PairAnswer away_from(const Vec3& d_S, double squared_d, const Vec3& to_corner, double turns) const {
+    const double along = d_S.dot(to_corner);
+    const double squared_length = to_corner.squaredNorm();
+    if (squared_length <= filter.tiny * filter.tiny) return CLOSE;
+    if (along * along <= filter.margin * filter.margin * squared_d * squared_length) return CLOSE;
+    if (along < 0.0) return HOLDS;
+    const double component = along / std::sqrt(squared_length);
+    return no_lmd(turns > 0.0 ? turns * std::max(0.0, component / std::sqrt(squared_d) - filter.margin)
+                              : slack(component));
+  }
+
+  PairAnswer in_vertex_cone(const Side& side, std::int32_t vertex, const Vec3& d_W, double turns) const {
+    const Adjacency& adjacency = side.surface.adjacency;
+    const Vec3 d_S = side.to_surface(d_W);
+    const double squared_d = d_S.squaredNorm();
+    const Vec3& p = side.vertex_S(vertex);
+    PairAnswer answer = HOLDS;
+    for (const std::int32_t edge : adjacency.vertex_edges[vertex]) {
+      const auto& ends = adjacency.edges[static_cast<std::size_t>(edge)];
+      const Vec3 to_corner = side.vertex_S(ends[0] == vertex ? ends[1] : ends[0]) - p;
+      if (settle(answer, away_from(d_S, squared_d, to_corner, turns))) return answer;
+    }
+    return answer;
+  }
+
+  /// @param parameter of the foot on the edge, 0 at its first end
+  PairAnswer in_edge_cone(const Side& side, std::int32_t edge, double parameter, const Vec3& d_W,
+                          double turns) const {
+    const Surface& surface = side.surface;
+    const auto& ends = surface.adjacency.edges[static_cast<std::size_t>(edge)];
+    const Vec3 d_S = side.to_surface(d_W);
+    const double squared_d = d_S.squaredNorm();
+    const Vec3& p0 = side.vertex_S(ends[0]);
+    const Vec3 p = p0 + parameter * (side.vertex_S(ends[1]) - p0);
+    PairAnswer answer = HOLDS;
+    for (const std::int32_t triangle : surface.adjacency.edge_triangles[edge]) {
+      for (const std::int32_t corner : surface.mesh.triangles[static_cast<std::size_t>(triangle)]) {
+        if (corner == ends[0] || corner == ends[1]) continue;
+        if (settle(answer, away_from(d_S, squared_d, side.vertex_S(corner) - p, turns))) return answer;
+      }
+    }
+    return answer;
+  }
+
+  PairAnswer vertex_vertex(std::int32_t a, std::int32_t b) const {
+    const Vec3 d = fixed.vertex_W(b) - moving.vertex_W(a);
+    PairAnswer answer = HOLDS;
+    if (settle(answer, near(d.squaredNorm()))) return answer;
+    if (settle(answer, in_vertex_cone(moving, a, d, 0.0))) return answer;
+    settle(answer, in_vertex_cone(fixed, b, -d, 0.0));
+    return answer;
+  }
+
+  PairAnswer vertex_edge(const Side& of_vertex, std::int32_t vertex, const Side& of_edge,
+                         std::int32_t edge) const {
     const auto& ends = of_edge.surface.adjacency.edges[static_cast<std::size_t>(edge)];
     const Vec3 p = of_vertex.vertex_W(vertex);
     const Vec3 e0 = of_edge.vertex_W(ends[0]);
     const Vec3 u = of_edge.vertex_W(ends[1]) - e0;
     const double squared_length = u.squaredNorm();
     if (squared_length <= filter.tiny * filter.tiny)
-      return near((e0 - p).squaredNorm()) == PairVerdict::NO_LMD ? PairVerdict::NO_LMD
-                                                                 : PairVerdict::BORDERLINE;
+      return near((e0 - p).squaredNorm()).verdict == PairVerdict::NO_LMD ? no_lmd(0.0) : CLOSE;
     const double parameter = (p - e0).dot(u) / squared_length;
-    PairVerdict verdict = inside_unit(parameter, filter.margin);
-    if (verdict == PairVerdict::NO_LMD) return verdict;
+    PairAnswer answer = HOLDS;
+    if (settle(answer, inside(parameter, std::sqrt(squared_length)))) return answer;
     const Vec3 d = e0 + parameter * u - p;
-    verdict = worse(verdict, near(d.squaredNorm()));
-    if (verdict == PairVerdict::NO_LMD) return verdict;
-    verdict = worse(verdict, in_vertex_cone(of_vertex, vertex, d, filter.margin, filter.tiny));
-    if (verdict == PairVerdict::NO_LMD) return verdict;
-    return worse(verdict, in_edge_cone(of_edge, edge, parameter, -d, filter.margin, filter.tiny));
+    if (settle(answer, near(d.squaredNorm()))) return answer;
+    if (settle(answer, in_vertex_cone(of_vertex, vertex, d, 0.0))) return answer;
+    settle(answer, in_edge_cone(of_edge, edge, parameter, -d, 0.0));
+    return answer;
   }
 
-  PairVerdict vertex_face(const Side& of_vertex, std::int32_t vertex, const Side& of_face,
-                          std::int32_t face) const {
+  PairAnswer vertex_face(const Side& of_vertex, std::int32_t vertex, const Side& of_face,
+                         std::int32_t face) const {
     const Vec3& normal_S = of_face.surface.face_normals[static_cast<std::size_t>(face)];
-    if (normal_S.isZero(0.0)) return PairVerdict::NO_LMD;
+    if (normal_S.isZero(0.0)) return no_lmd(std::numeric_limits<double>::infinity());
     const auto& corners = of_face.surface.mesh.triangles[static_cast<std::size_t>(face)];
     const Vec3 p = of_vertex.vertex_W(vertex);
     const Vec3 n = of_face.to_world(normal_S);
     const std::array<Vec3, 3> x{of_face.vertex_W(corners[0]), of_face.vertex_W(corners[1]),
                                 of_face.vertex_W(corners[2])};
     const double height = n.dot(p - x[0]);
-    if (height < 0.0) return PairVerdict::NO_LMD;
-    PairVerdict verdict = near(height * height);
-    if (verdict == PairVerdict::NO_LMD) return verdict;
+    if (height < 0.0) return no_lmd(slack(-height));
+    PairAnswer answer = HOLDS;
+    if (settle(answer, near(height * height))) return answer;
     for (std::size_t k = 0; k < 3; ++k) {
       const Vec3 side = x[(k + 1) % 3] - x[k];
       const double squared_side = side.squaredNorm();
       const double squared_rise = (x[(k + 2) % 3] - x[k]).squaredNorm();
-      if (squared_side <= filter.tiny * filter.tiny) return PairVerdict::BORDERLINE;
-      // Twice the area of side and foot against twice that of the face's parallelogram bound.
-      const double inside = side.cross(p - x[k]).dot(n);
-      const double scale = std::sqrt(squared_side * squared_rise);
-      verdict = worse(verdict, at_least_zero(inside, filter.margin * scale));
-      if (verdict == PairVerdict::NO_LMD) return verdict;
+      if (squared_side <= filter.tiny * filter.tiny) return CLOSE;
+      // Distance from the side times its length, against that of a right angle.
+      const double distance = side.cross(p - x[k]).dot(n);
+      const double allowed = filter.margin * std::sqrt(squared_side * squared_rise);
+      if (distance < -allowed) return no_lmd(slack(-distance / std::sqrt(squared_side)));
+      if (!(distance > allowed)) answer = CLOSE;
     }
-    return worse(verdict, in_vertex_cone(of_vertex, vertex, -height * n, filter.margin, filter.tiny));
+    settle(answer, in_vertex_cone(of_vertex, vertex, -height * n, filter.lever));
+    return answer;
   }
 
-  PairVerdict edge_edge(std::int32_t a, std::int32_t b) const {
+  PairAnswer edge_edge(std::int32_t a, std::int32_t b) const {
     const auto& ends_a = moving.surface.adjacency.edges[static_cast<std::size_t>(a)];
     const auto& ends_b = fixed.surface.adjacency.edges[static_cast<std::size_t>(b)];
     const Vec3 p0 = moving.vertex_W(ends_a[0]);
@@ -187,50 +196,80 @@ struct Test {
       // Nearly parallel: each must come within reach of the other somewhere.
       const double reach = filter.cutoff + PARALLEL_BAND * (std::sqrt(uu) + std::sqrt(vv));
       const Vec3 across = uu >= vv ? Vec3(r - ur / uu * u) : Vec3(r - vr / vv * v);
-      return across.squaredNorm() <= reach * reach ? PairVerdict::BORDERLINE : PairVerdict::NO_LMD;
+      return across.squaredNorm() <= reach * reach ? CLOSE : no_lmd(0.0);
     }
     const double s = (uv * vr - vv * ur) / determinant;
-    PairVerdict verdict = inside_unit(s, filter.margin);
-    if (verdict == PairVerdict::NO_LMD) return verdict;
     const double t = (uu * vr - uv * ur) / determinant;
-    verdict = worse(verdict, inside_unit(t, filter.margin));
-    if (verdict == PairVerdict::NO_LMD) return verdict;
+    if (outside(s) || outside(t)) {
+      // The end beyond the other edge's plane through the common perpendicular, and how fast that plane can
+      // turn.
+      const double sine = std::sqrt(determinant / (uu * vv));
+      const Vec3 d = r + s * u - t * v;
+      const double beyond_s = std::max(-s, s - 1.0) * std::sqrt(uu),
+                   beyond_t = std::max(-t, t - 1.0) * std::sqrt(vv);
+      const double beyond = std::max(beyond_s, beyond_t);
+      // Every point of the edge must stay on its side, so the farthest one is the lever arm.
+      const double arm = beyond + d.norm() + std::sqrt(std::max(uu, vv));
+      const double turning = TURN_FACTOR * arm / (sine * filter.lever);
+      return no_lmd(std::min(slack(beyond * sine) / (1.0 + turning), 0.5 * sine * filter.lever));
+    }
+    PairAnswer answer = HOLDS;
+    if (!strictly_inside(s) || !strictly_inside(t)) answer = CLOSE;
     const Vec3 d = -(r + s * u - t * v);
-    verdict = worse(verdict, near(d.squaredNorm()));
-    if (verdict == PairVerdict::NO_LMD) return verdict;
-    verdict = worse(verdict, in_edge_cone(moving, a, s, d, filter.margin, filter.tiny));
-    if (verdict == PairVerdict::NO_LMD) return verdict;
-    return worse(verdict, in_edge_cone(fixed, b, t, -d, filter.margin, filter.tiny));
+    const double squared_d = d.squaredNorm();
+    if (settle(answer, near(squared_d))) return answer;
+    const double sine = std::sqrt(determinant / (uu * vv));
+    const double turns = filter.lever * sine / TURN_FACTOR;
+    if (settle(answer, in_edge_cone(moving, a, s, d, turns))) return limited(answer, squared_d, sine);
+    if (settle(answer, in_edge_cone(fixed, b, t, -d, turns))) return limited(answer, squared_d, sine);
+    return answer;
   }
 
-  PairVerdict edge_face(const Side& of_edge, std::int32_t edge, const Side& of_face,
-                        std::int32_t face) const {
+  bool outside(double parameter) const {
+    return parameter < -filter.margin || parameter > 1.0 + filter.margin;
+  }
+  bool strictly_inside(double parameter) const {
+    return parameter > filter.margin && parameter < 1.0 - filter.margin;
+  }
+
+  /// The slack of a turning common perpendicular holds while it turns smoothly and the edges do not pass
+  /// through each other.
+  PairAnswer limited(const PairAnswer& answer, double squared_d, double sine) const {
+    const double distance = std::sqrt(squared_d);
+    const double crossing = slack(distance) / (1.0 + TURN_FACTOR * distance / (sine * filter.lever));
+    return no_lmd(std::min({answer.slack, crossing, 0.5 * sine * filter.lever}));
+  }
+
+  PairAnswer edge_face(const Side& of_edge, std::int32_t edge, const Side& of_face, std::int32_t face) const {
     const Vec3& normal_S = of_face.surface.face_normals[static_cast<std::size_t>(face)];
-    if (normal_S.isZero(0.0)) return PairVerdict::NO_LMD;
+    if (normal_S.isZero(0.0)) return no_lmd(std::numeric_limits<double>::infinity());
     const auto& ends = of_edge.surface.adjacency.edges[static_cast<std::size_t>(edge)];
     const Vec3 e0 = of_edge.vertex_W(ends[0]);
     const Vec3 u = of_edge.vertex_W(ends[1]) - e0;
     const Vec3 n = of_face.to_world(normal_S);
     const double length = u.norm();
-    if (length > filter.tiny && std::abs(u.dot(n)) > PARALLEL_BAND * length) return PairVerdict::NO_LMD;
+    const double band = PARALLEL_BAND * length;
+    const double rise = std::abs(u.dot(n));
+    if (length > filter.tiny && rise > band)
+      return no_lmd(filter.lever * (rise / length - 0.5 * PARALLEL_BAND));
     const auto& corners = of_face.surface.mesh.triangles[static_cast<std::size_t>(face)];
     const double height = n.dot(e0 - of_face.vertex_W(corners[0]));
-    const double band = PARALLEL_BAND * length;
-    return height < -band || height > filter.cutoff + band ? PairVerdict::NO_LMD : PairVerdict::BORDERLINE;
+    if (height < -band) return no_lmd(slack(-height));
+    return height > filter.cutoff + band ? no_lmd(slack(height - filter.cutoff)) : CLOSE;
   }
 
-  PairVerdict face_face(std::int32_t a, std::int32_t b) const {
+  PairAnswer face_face(std::int32_t a, std::int32_t b) const {
     const Vec3& normal_a = moving.surface.face_normals[static_cast<std::size_t>(a)];
     const Vec3& normal_b = fixed.surface.face_normals[static_cast<std::size_t>(b)];
-    if (normal_a.isZero(0.0) || normal_b.isZero(0.0)) return PairVerdict::NO_LMD;
-    const Vec3 sum = moving.to_world(normal_a) + normal_b;
-    return sum.squaredNorm() <= PARALLEL_BAND * PARALLEL_BAND ? PairVerdict::BORDERLINE : PairVerdict::NO_LMD;
+    if (normal_a.isZero(0.0) || normal_b.isZero(0.0)) return no_lmd(std::numeric_limits<double>::infinity());
+    const double apart = (moving.to_world(normal_a) + normal_b).norm();
+    return apart > PARALLEL_BAND ? no_lmd(filter.lever * (apart - 0.5 * PARALLEL_BAND)) : CLOSE;
   }
 };
 
 }  // namespace
 
-PairVerdict PairFilter::operator()(const FeatureId& on_moving, const FeatureId& on_fixed) const {
+PairAnswer PairFilter::operator()(const FeatureId& on_moving, const FeatureId& on_fixed) const {
   const Test test(*this);
   const std::int32_t a = on_moving.index, b = on_fixed.index;
   switch (on_moving.kind) {
@@ -265,7 +304,7 @@ PairVerdict PairFilter::operator()(const FeatureId& on_moving, const FeatureId& 
       }
       break;
   }
-  return PairVerdict::BORDERLINE;
+  return {};
 }
 
 }  // namespace lmdbench

@@ -17,6 +17,13 @@ enum class PairVerdict : std::uint8_t {
               ///< decide.
 };
 
+/// What a test answers, and for how long: a pair without LMD has none either after any motion of the moving
+/// mesh that is smaller than `slack` (0 where nothing is known; see PairFilter::lever).
+struct PairAnswer {
+  PairVerdict verdict = PairVerdict::BORDERLINE;
+  double slack = 0.0;  ///< metres; meaningful for NO_LMD only
+};
+
 /// Quantities that a query fixes.
 struct PairFilter {
   const Surface& moving;
@@ -26,6 +33,12 @@ struct PairFilter {
   double touch;   ///< metres; pairs nearer than half of it are not this filter's: see Certified
   double margin;  ///< Relative to the lengths compared, or a sine. Far above rounding, far below geometry.
   double tiny;    ///< metres; a feature shorter than this is rounding in its size and always borderline
+  /// Metres that a radian of rotation counts as. The size of a motion is |change of the moving mesh's centre|
+  /// + lever * angle, summed over frames; with lever >= radius + 2 cutoff, for every p on the moving and q on
+  /// the fixed mesh that are within the cutoff after the motion, p moves by less than its size in the fixed
+  /// mesh's frame, q by less in the moving mesh's frame, and so does q - p in either; directions turn by less
+  /// than size / lever.
+  double lever;
 
   /// Decides by the one candidate point pair that the two features have: two vertices; a vertex and its
   /// projection on an edge or face; the feet of the common perpendicular of two edges. The conditions are
@@ -34,7 +47,18 @@ struct PairFilter {
   /// which the caps of the hierarchy have settled for nearly all, is left to the final test). Edges that are
   /// parallel to an edge or a face within 1e-4, and faces that are parallel, have no single candidate and are
   /// borderline where they can be near.
-  PairVerdict operator()(const FeatureId& on_moving, const FeatureId& on_fixed) const;
+  ///
+  /// The slack follows from what rejected the pair:
+  /// - too far, or on the inner side of a face: distances to points, lines and planes change by no more than
+  /// a motion;
+  /// - a foot beyond an end or side by h: so do distances to the planes through an end or side, square to the
+  /// edge or
+  ///   face. Two edges at the angle alpha: the plane through one edge and the common perpendicular n also
+  ///   turns, by no more than n; n turns by phi <= (pi / 3) theta / sin(alpha) while theta <= sin(alpha) / 2;
+  /// - d leaves a cone by d . e > 0 for a unit e: changes by no more than d does, or by |d| times the angle
+  /// where the
+  ///   direction is a face's normal or n.
+  PairAnswer operator()(const FeatureId& on_moving, const FeatureId& on_fixed) const;
 };
 
 }  // namespace lmdbench

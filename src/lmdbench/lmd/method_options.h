@@ -41,6 +41,8 @@ struct MethodOptions {
   double g5_tolerance_rad =
       0.5;                  ///< Decision E5: how far a 7x7 direction may leave its feature's normal set.
   bool literal_g3 = false;  ///< Ablation of decision E2: keep what the printed inequality keeps.
+  bool frame_coherence =
+      true;  ///< `certified` reuses the last frame's tests; the set is the same either way.
 };
 
 }  // namespace lmdbench

@@ -31,8 +31,8 @@ constexpr std::array REGISTRY{
                    return std::make_unique<Improved>(scene, options);
                  }},
     Registration{"certified",
-                 [](const Scene& scene, const MethodOptions&) -> std::unique_ptr<Method> {
-                   return std::make_unique<Certified>(scene);
+                 [](const Scene& scene, const MethodOptions& options) -> std::unique_ptr<Method> {
+                   return std::make_unique<Certified>(scene, options);
                  }},
     Registration{"exhaustive",
                  [](const Scene& scene, const MethodOptions&) -> std::unique_ptr<Method> {

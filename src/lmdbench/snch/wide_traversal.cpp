@@ -148,12 +148,6 @@ HWY_INLINE KindBits kind_bits(const WideNode& node) {
   return bits;
 }
 
-/// What opening a child narrows: its size, and more so the wider its cone is. The weight is the best of a few
-/// tried on scans (radius alone needs a tenth more tests).
-HWY_INLINE float gain(const WideNode& node, std::uint32_t lane) {
-  return node.radius[lane] * (0.2F + node.sine[lane]);
-}
-
 /// make_probe with vectors, the same operations in the same order.
 HWY_INLINE WideProbe make_probe_vector(const WideNode& node, std::uint32_t lane, const WideTransform& X) {
   const hn::CappedTag<float, 4> f;
@@ -202,15 +196,12 @@ void descend(const WideHierarchy& a, const WideHierarchy& b, const WideQuery& qu
     const std::uint32_t lane_a = slot_a % WIDE_WIDTH, lane_b = slot_b % WIDE_WIDTH;
     const WideRef ref_a = WideRef::from_bits(home_a.child[lane_a]);
     const WideRef ref_b = WideRef::from_bits(home_b.child[lane_b]);
-    // The child with more to gain is opened; a feature cannot be.
-    const bool open_a = static_cast<bool>(static_cast<int>(ref_b.is_feature()) |
-                                          (static_cast<int>(!ref_a.is_feature()) &
-                                           static_cast<int>(gain(home_a, lane_a) > gain(home_b, lane_b))));
+    const WideOpening opening = choose_opening(a, b, slot_a, slot_b);
+    const bool open_a = opening.open_a;
     const WideProbe probe = make_probe_vector(open_a ? home_b : home_a, open_a ? lane_b : lane_a,
                                               open_a ? query.b_in_a : query.a_in_b);
     const WideRef probe_ref = open_a ? ref_b : ref_a;
-    const std::uint32_t opened = open_a ? ref_a.node_index() : ref_b.node_index();
-    const WideNode& node = (open_a ? nodes_a : nodes_b)[opened];
+    const WideNode& node = (open_a ? nodes_a : nodes_b)[opening.node];
 
     const WideMasks masks = test(node, probe, query.limits);
     ++count.node_tests;
@@ -234,7 +225,7 @@ void descend(const WideHierarchy& a, const WideHierarchy& b, const WideQuery& qu
     for (std::size_t first = 0; first < WIDE_WIDTH; first += hn::Lanes(u)) {
       const auto list =
           hn::PromoteTo(u, hn::LoadU(hn::Rebind<std::uint8_t, decltype(u)>(), lanes.lane.data() + first));
-      hn::StoreU(hn::Add(list, hn::Set(u, opened * WIDE_WIDTH)), u, of_opened + first);
+      hn::StoreU(hn::Add(list, hn::Set(u, opening.node * WIDE_WIDTH)), u, of_opened + first);
       hn::StoreU(hn::Set(u, probe_slot), u, of_probe + first);
     }
     end += lanes.count;

@@ -47,6 +47,34 @@ struct WideCounters {
   std::uint64_t node_tests = 0;  ///< Tests of one child against eight.
 };
 
+/// Which of two children, each named by node * 8 + lane, a traversal opens.
+struct WideOpening {
+  bool open_a;
+  std::uint32_t node;  ///< The opened child's node.
+};
+
+/// What opening a child narrows: its size, and more so the wider its cone is. The weight is the best of a few
+/// tried on scans (size alone needs a tenth more tests).
+inline float opening_gain(const WideNode& node, std::uint32_t lane) {
+  return node.radius[lane] * (0.2F + node.sine[lane]);
+}
+
+/// The child with more to gain; a feature cannot be opened, and one of the two is a node.
+inline WideOpening choose_opening(const WideHierarchy& a, const WideHierarchy& b, std::uint32_t slot_a,
+                                  std::uint32_t slot_b) {
+  const WideNode& home_a = a.nodes[slot_a / WIDE_WIDTH];
+  const WideNode& home_b = b.nodes[slot_b / WIDE_WIDTH];
+  const std::uint32_t lane_a = slot_a % WIDE_WIDTH, lane_b = slot_b % WIDE_WIDTH;
+  const WideRef ref_a = WideRef::from_bits(home_a.child[lane_a]);
+  const WideRef ref_b = WideRef::from_bits(home_b.child[lane_b]);
+  // No short circuit: which side it is follows no pattern that a processor could learn.
+  const bool open_a =
+      static_cast<bool>(static_cast<int>(ref_b.is_feature()) |
+                        (static_cast<int>(!ref_a.is_feature()) &
+                         static_cast<int>(opening_gain(home_a, lane_a) > opening_gain(home_b, lane_b))));
+  return {open_a, open_a ? ref_a.node_index() : ref_b.node_index()};
+}
+
 /// Memory of traversals, kept between them so that none is allocated after the first few.
 struct WideScratch {
   /// Pairs of children to be tested, each child named by node * 8 + lane.

@@ -1,0 +1,209 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/lmd/certified.h>
+#include <lmdbench/lmd/exhaustive.h>
+
+#include <gtest/gtest.h>
+#include <support/scenes.h>
+
+#include <cmath>
+#include <cstddef>
+#include <numbers>
+#include <random>
+#include <vector>
+
+namespace lmdbench {
+namespace {
+
+using testing::grazing_pose;
+using testing::make_body;
+using testing::make_scene;
+using testing::random_direction;
+using testing::uniform;
+
+/// Swings about a pose: slow and fast, forth and back, standing still at times, with a jump now and then.
+std::vector<Pose> swing(const Pose& middle, double size, double speed, int frames, std::mt19937_64& random) {
+  std::vector<Pose> poses;
+  const Vec3 direction = random_direction(random), axis = random_direction(random);
+  const Vec3 arm = middle.translation;
+  for (int frame = 0; frame < frames; ++frame) {
+    const double phase = 2.0 * std::numbers::pi * (frame % 100 < 20 ? frame - frame % 100 : frame) * speed;
+    Pose pose;
+    const Eigen::Quaterniond turn(Eigen::AngleAxisd(0.2 * std::sin(1.3 * phase), axis));
+    pose.rotation = (turn * middle.rotation).normalized();
+    pose.translation = arm + 0.03 * size * std::sin(phase) * direction;
+    if (frame % 150 == 149) pose.translation += 0.2 * size * random_direction(random);
+    poses.push_back(pose);
+  }
+  return poses;
+}
+
+/// The coherent method at every pose of a path against truth and against a search from scratch.
+void expect_truth_along(const Scene& scene, double cutoff, const std::vector<Pose>& poses,
+                        std::size_t& lmd_count) {
+  Scene limited = scene;
+  limited.cutoff = cutoff;
+  MethodOptions from_scratch;
+  from_scratch.frame_coherence = false;
+  lmd_count = 0;
+  Certified coherent(limited), scratch(limited, from_scratch);
+  Exhaustive exhaustive(limited);
+  LmdSet kept, fresh, truth;
+  WorkCounters of_kept, of_fresh, of_truth;
+  for (std::size_t frame = 0; frame < poses.size(); ++frame) {
+    coherent.search(poses[frame], kept, of_kept);
+    scratch.search(poses[frame], fresh, of_fresh);
+    exhaustive.search(poses[frame], truth, of_truth);
+    ASSERT_EQ(kept.size(), fresh.size()) << "frame " << frame;
+    ASSERT_EQ(kept.size(), truth.size()) << "frame " << frame;
+    lmd_count += truth.size();
+    for (std::size_t i = 0; i < kept.size(); ++i) {
+      ASSERT_TRUE(same_feature_pair(kept[i], truth[i])) << "frame " << frame;
+      ASSERT_EQ(kept[i].point_moving, fresh[i].point_moving) << "frame " << frame;
+      ASSERT_EQ(kept[i].point_fixed, fresh[i].point_fixed) << "frame " << frame;
+      ASSERT_NEAR(kept[i].distance, truth[i].distance, 1e-12) << "frame " << frame;
+    }
+  }
+  EXPECT_LT(of_kept[Counter::NODE_PAIRS], of_fresh[Counter::NODE_PAIRS]);
+}
+
+void expect_truth_along(const Scene& scene, double cutoff, const std::vector<Pose>& poses) {
+  std::size_t lmds = 0;
+  expect_truth_along(scene, cutoff, poses, lmds);
+  EXPECT_GT(lmds, poses.size() / 4);
+}
+
+void expect_truth_on_swings(const Scene& scene, std::uint64_t seed) {
+  std::mt19937_64 random(seed);
+  const double size = bounding_box_diagonal(scene.fixed[0]->surface().mesh);
+  std::size_t all = 0;  // a patch has LMDs on its outer side alone
+  for (const double speed : {0.0002, 0.001, 0.002, 0.01}) {
+    const Pose pose = grazing_pose(scene, 0.01 * size, random);
+    std::size_t lmds = 0;
+    expect_truth_along(scene, 0.03 * size, swing(pose, size, speed, 200, random), lmds);
+    all += lmds;
+  }
+  EXPECT_GT(all, 300u);
+}
+
+TEST(CertifiedCoherence, FindsTheTruthOnBlobs) {
+  expect_truth_on_swings(make_scene(make_blob(1.0, 0.3, 3), make_blob(0.8, 0.3, 3), 0.0), 1);
+}
+
+TEST(CertifiedCoherence, FindsTheTruthOnToriAndPatches) {
+  expect_truth_on_swings(make_scene(make_torus(1.0, 0.4, 20, 10), make_patch(3.0, 10, 0.2), 0.0), 2);
+}
+
+TEST(CertifiedCoherence, FindsTheTruthOnNeedlesAndUnequalTriangles) {
+  expect_truth_on_swings(make_scene(make_needles(0.5, 2.0, 20), make_unequal(1.0, 6, 50.0), 0.0), 3);
+}
+
+TEST(CertifiedCoherence, FindsTheTruthOnBoxesThatSlideInParallel) {
+  const Scene scene = make_scene(make_box({1.0, 1.0, 1.0}, 3), make_box({1.0, 1.0, 1.0}, 2), 0.0);
+  std::vector<Pose> poses;
+  for (int frame = 0; frame < 400; ++frame) {
+    Pose pose;
+    pose.translation = {0.003 * frame, 0.0007 * frame, 1.05 - 0.0001 * frame};
+    const double rock = std::max(0.0, 1e-3 * std::sin(0.05 * frame));
+    pose.rotation = Eigen::AngleAxisd(rock, Vec3::UnitX());
+    poses.push_back(pose);
+  }
+  expect_truth_along(scene, 0.1, poses);
+}
+
+TEST(CertifiedCoherence, FindsTheTruthThroughContactAndPenetration) {
+  const Scene scene = make_scene(make_blob(1.0, 0.2, 2), make_box({1.0, 1.0, 1.0}, 3), 0.0);
+  std::vector<Pose> poses;
+  for (int frame = 0; frame < 300; ++frame) {
+    Pose pose;
+    pose.translation = {0.1, 0.2, 1.7 - 0.15 * (1.0 - std::cos(0.05 * frame)) - 0.0001 * frame};
+    poses.push_back(pose);
+  }
+  expect_truth_along(scene, 0.1, poses);
+}
+
+TEST(CertifiedCoherence, FindsTheTruthWithSeveralFixedBodies) {
+  Scene scene = make_scene(make_blob(1.0, 0.3, 2), make_box({0.5, 2.0, 2.0}), 0.0);
+  scene.fixed.push_back(make_body("other", translated(make_torus(1.0, 0.3, 20, 10), {0.0, 2.2, 0.4})));
+  std::mt19937_64 random(6);
+  Pose pose;
+  pose.translation = {1.3, 1.0, 0.0};
+  expect_truth_along(scene, 0.3, swing(pose, 2.0, 0.002, 300, random));
+}
+
+TEST(CertifiedCoherence, FindsTheTruthAtRandomPoses) {
+  // Nothing coheres: every frame falls back to a search from scratch.
+  const Scene scene = make_scene(make_blob(1.0, 0.3, 2), make_torus(1.0, 0.4, 20, 10), 0.0);
+  std::mt19937_64 random(7);
+  Scene limited = scene;
+  limited.cutoff = 0.1;
+  Certified coherent(limited);
+  Exhaustive exhaustive(limited);
+  LmdSet found, truth;
+  WorkCounters counters;
+  std::size_t lmds = 0;
+  for (int i = 0; i < 30; ++i) {
+    const Pose pose = grazing_pose(scene, 0.02, random);
+    coherent.search(pose, found, counters);
+    exhaustive.search(pose, truth, counters);
+    ASSERT_EQ(found.size(), truth.size());
+    lmds += truth.size();
+    for (std::size_t k = 0; k < truth.size(); ++k) EXPECT_TRUE(same_feature_pair(found[k], truth[k]));
+  }
+  EXPECT_GT(lmds, 30u);
+}
+
+TEST(PairFilter, NothingBecomesAnLmdBeforeItsSlackIsUsedUp) {
+  const Scene scene = make_scene(make_blob(1.0, 0.4, 2), make_blob(1.0, 0.3, 2), 0.0);
+  const Surface &moving = scene.moving->surface(), &fixed = scene.fixed[0]->surface();
+  const double cutoff = 0.3, radius = scene.moving->wide_hierarchy().radius;
+  const Vec3& origin = scene.moving->wide_hierarchy().origin;
+  const double lever = radius + 2.0 * cutoff;
+  std::mt19937_64 random(8);
+  WideScratch scratch;
+  std::size_t moved = 0, near_limit = 0;
+  for (int i = 0; i < 40; ++i) {
+    const Pose pose = grazing_pose(scene, 0.05, random);
+    const RigidTransform before(pose);
+    // A generous cutoff offers many pairs of every kind.
+    const WideQuery query(scene.moving->wide_hierarchy(), scene.fixed[0]->wide_hierarchy(), before, cutoff,
+                          1e-9);
+    WideCounters counters;
+    find_wide_pairs(scene.moving->wide_hierarchy(), scene.fixed[0]->wide_hierarchy(), query,
+                    WideKernel::VECTOR, scratch, counters);
+    const PairFilter first{moving, before, fixed, cutoff, 1e-9, 1e-5, 1e-8, lever};
+    for (const WidePair& pair : scratch.lmd_pairs) {
+      const PairAnswer answer = first(pair.a.feature_id(), pair.b.feature_id());
+      if (answer.verdict != PairVerdict::NO_LMD || !(answer.slack > 0.0)) continue;
+      for (int trial = 0; trial < 8; ++trial) {
+        const double size = 0.999 * std::min(answer.slack, 0.5), share = uniform(random);
+        const double angle = share * size / lever;
+        Pose after = pose;
+        const Eigen::Quaterniond turn(Eigen::AngleAxisd(angle, random_direction(random)));
+        const Vec3 centre = before.point(origin) + (1.0 - share) * size * random_direction(random);
+        after.rotation = (turn * pose.rotation).normalized();
+        after.translation = centre - after.rotation * origin;
+        const RigidTransform transform(after);
+        const PairFilter second{moving, transform, fixed, cutoff, 1e-9, 1e-5, 1e-8, lever};
+        ASSERT_NE(second(pair.a.feature_id(), pair.b.feature_id()).verdict, PairVerdict::LMD)
+            << to_string(pair.a.feature_id().kind) << " " << to_string(pair.b.feature_id().kind) << " slack "
+            << answer.slack;
+        ++moved;
+        // Beyond the slack something may well happen: the bound must not be empty.
+        const double angle_beyond = share * 3.0 * size / lever;
+        after.rotation =
+            (Eigen::AngleAxisd(angle_beyond, random_direction(random)) * pose.rotation).normalized();
+        after.translation = before.point(origin) + (1.0 - share) * 3.0 * size * random_direction(random) -
+                            after.rotation * origin;
+        const RigidTransform farther(after);
+        const PairFilter third{moving, farther, fixed, cutoff, 1e-9, 1e-5, 1e-8, lever};
+        if (third(pair.a.feature_id(), pair.b.feature_id()).verdict == PairVerdict::LMD) ++near_limit;
+      }
+    }
+  }
+  EXPECT_GT(moved, 10000u);
+  EXPECT_GT(near_limit, 20u);
+}
+
+}  // namespace
+}  // namespace lmdbench
