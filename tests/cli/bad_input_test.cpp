@@ -1,0 +1,168 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "program.h"
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <string>
+
+/// What a user can get wrong, through the real program: exit code, and a message that names the file and the
+/// place.
+namespace lmdbench::testing {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+constexpr int USAGE = 2;
+constexpr int INPUT_DATA = 3;
+constexpr int ENVIRONMENT = 4;
+
+const std::string SHAPES = "'" LMDBENCH_SOURCE_DIR "/experiments/shapes.json' ";
+
+class BadInput : public ::testing::Test {
+ protected:
+  /// Runs the shapes experiment with this change; nothing of it may leave a result.
+  Outcome run_with(const std::string& options) {
+    const Outcome outcome =
+        lmdbench("run " + SHAPES + options + " --out '" + (scratch_ / "r.h5").string() + "'");
+    EXPECT_THAT(outcome.out, IsEmpty());
+    EXPECT_FALSE(std::filesystem::exists(scratch_ / "r.h5"));
+    EXPECT_FALSE(std::filesystem::exists(scratch_ / "r.h5.part"));
+    EXPECT_THAT(outcome.err, HasSubstr("remedy: "));
+    return outcome;
+  }
+  Outcome run_path(const std::string& text) {
+    return run_with("--set '/path/file=" + scratch_.write("path.tum", text) + "'");
+  }
+  Outcome run_mesh(const std::string& name, const std::string& text) {
+    return run_with("--set '/moving/mesh=" + scratch_.write(name, text) + "'");
+  }
+
+  ScratchDirectory scratch_;
+};
+
+TEST_F(BadInput, UnknownKey) {
+  const Outcome outcome = run_with("--set /force/cutof_diagonal=0.1");
+  EXPECT_EQ(outcome.code, USAGE);
+  EXPECT_THAT(outcome.err, AllOf(HasSubstr("shapes.json: /force/cutof_diagonal: unknown key"),
+                                 HasSubstr("did you mean \"cutoff_diagonal\"?")));
+}
+
+TEST_F(BadInput, CutoffNotAboveZero) {
+  for (const std::string value : {"0", "-0.01"}) {
+    const Outcome outcome = run_with("--set /force/cutoff_diagonal=" + value);
+    EXPECT_EQ(outcome.code, USAGE);
+    EXPECT_THAT(outcome.err, AllOf(HasSubstr("/force/cutoff_diagonal: "), HasSubstr("found " + value)));
+  }
+}
+
+TEST_F(BadInput, NotANumber) {
+  const Outcome outcome = run_with("--set /force/maximum_force_n=nan");
+  EXPECT_EQ(outcome.code, USAGE);
+  EXPECT_THAT(outcome.err, HasSubstr("/force/maximum_force_n: "));
+}
+
+TEST_F(BadInput, BrokenJson) {
+  const Outcome outcome = lmdbench("run '" + scratch_.write("broken.json", "{\n \"name\": }") + "'");
+  EXPECT_EQ(outcome.code, USAGE);
+  EXPECT_THAT(outcome.err, HasSubstr("broken.json: line 2, column 10: not JSON"));
+}
+
+TEST_F(BadInput, MissingExperiment) {
+  const Outcome outcome = lmdbench("run /no/such/experiment.json");
+  EXPECT_EQ(outcome.code, USAGE);
+  EXPECT_THAT(outcome.err, HasSubstr("/no/such/experiment.json: cannot read"));
+}
+
+TEST_F(BadInput, UnknownMethodDriverAndDevice) {
+  EXPECT_THAT(run_with("--set /methods/0/name=orginal").err, HasSubstr("/methods/0/"));
+  EXPECT_THAT(run_with("--driver sundial").err, HasSubstr("/driver/kind: "));
+  const Outcome device = run_with("--set /device=phantom-9000");
+  EXPECT_EQ(device.code, USAGE);
+  EXPECT_THAT(device.err, AllOf(HasSubstr("shapes.json: /device: "), HasSubstr("phantom-desktop")));
+}
+
+TEST_F(BadInput, MissingMesh) {
+  const Outcome name = run_with("--set /moving/mesh=no-such-mesh");
+  EXPECT_EQ(name.code, INPUT_DATA);
+  EXPECT_THAT(name.err, AllOf(HasSubstr("manifest.json"), HasSubstr("no-such-mesh")));
+  const Outcome file = run_with("--set /moving/mesh=./no-such.off");
+  EXPECT_EQ(file.code, INPUT_DATA);
+  EXPECT_THAT(file.err, HasSubstr("no-such.off"));
+}
+
+TEST_F(BadInput, MissingPath) {
+  const Outcome outcome = run_with("--set /path/file=./no-such.tum");
+  EXPECT_EQ(outcome.code, INPUT_DATA);
+  EXPECT_THAT(outcome.err, HasSubstr("no-such.tum"));
+}
+
+TEST_F(BadInput, NaNInThePath) {
+  const Outcome outcome = run_path("0 0 0 0.2 0 0 0 1\n1 0 nan 0.2 0 0 0 1\n");
+  EXPECT_EQ(outcome.code, INPUT_DATA);
+  EXPECT_THAT(outcome.err, HasSubstr("path.tum: line 2"));
+}
+
+TEST_F(BadInput, TimeRunningBackwards) {
+  const Outcome outcome = run_path("0 0 0 0.2 0 0 0 1\n1 0 0 0.2 0 0 0 1\n0.5 0 0 0.2 0 0 0 1\n");
+  EXPECT_EQ(outcome.code, INPUT_DATA);
+  EXPECT_THAT(outcome.err, HasSubstr("path.tum: line 3"));
+}
+
+TEST_F(BadInput, QuaternionNotOfUnitLength) {
+  const Outcome outcome = run_path("0 0 0 0.2 0 0 0 2\n");
+  EXPECT_EQ(outcome.code, INPUT_DATA);
+  EXPECT_THAT(outcome.err, HasSubstr("path.tum: line 1"));
+}
+
+TEST_F(BadInput, EmptyPath) {
+  const Outcome outcome = run_path("# nothing\n");
+  EXPECT_EQ(outcome.code, INPUT_DATA);
+  EXPECT_THAT(outcome.err, HasSubstr("path.tum"));
+}
+
+TEST_F(BadInput, BrokenMeshFiles) {
+  EXPECT_EQ(run_mesh("text.off", "this is no mesh").code, INPUT_DATA);
+  EXPECT_EQ(run_mesh("empty.off", "OFF\n0 0 0\n").code, INPUT_DATA);
+  EXPECT_EQ(run_mesh("index.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 7\n").code, INPUT_DATA);
+  EXPECT_EQ(run_mesh("nan.off", "OFF\n3 1 0\n0 0 0\n1 nan 0\n0 1 0\n3 0 1 2\n").code, INPUT_DATA);
+  EXPECT_EQ(run_mesh("point.off", "OFF\n3 1 0\n1 1 1\n1 1 1\n1 1 1\n3 0 1 2\n").code, INPUT_DATA)
+      << "no extent";
+}
+
+TEST_F(BadInput, OutputThatCannotBeWritten) {
+  const Outcome outcome = lmdbench("run " + SHAPES + "--set /frames=30 --out /proc/no/r.h5");
+  EXPECT_EQ(outcome.code, ENVIRONMENT);
+  EXPECT_THAT(outcome.err, HasSubstr("/proc/no"));
+}
+
+TEST_F(BadInput, CommandLine) {
+  EXPECT_EQ(lmdbench("").code, USAGE);
+  EXPECT_EQ(lmdbench("dance").code, USAGE);
+  EXPECT_EQ(lmdbench("run").code, USAGE);
+  EXPECT_EQ(lmdbench("run " + SHAPES + " --no-such-option").code, USAGE);
+  EXPECT_EQ(lmdbench("query --moving sphere --fixed sphere").code, USAGE) << "the cutoff is missing";
+  EXPECT_EQ(lmdbench("query --moving sphere --fixed sphere --cutoff 0").code, USAGE);
+  EXPECT_EQ(lmdbench("query --moving sphere --fixed sphere --cutoff -1").code, USAGE);
+  EXPECT_EQ(lmdbench("query --moving sphere --fixed sphere --cutoff nan").code, USAGE);
+  EXPECT_EQ(lmdbench("query --moving sphere --fixed sphere --cutoff 0.1 --method magic").code, USAGE);
+  EXPECT_EQ(lmdbench("query --moving sphere --fixed no-such-mesh --cutoff 0.1").code, INPUT_DATA);
+}
+
+TEST_F(BadInput, NonManifoldMeshGoesOnWithAWarning) {
+  // Three triangles round one edge, above the torus.
+  const std::string fins = scratch_.write(
+      "fins.off", "OFF\n5 3 0\n0 0 0\n1 0 0\n0.5 1 0\n0.5 0 1\n0.5 -1 0\n3 0 1 2\n3 0 1 3\n3 0 1 4\n");
+  const std::string out = (scratch_ / "r.h5").string();
+  const Outcome outcome =
+      lmdbench("run " + SHAPES + "--set /frames=30 --set '/moving/mesh=" + fins + "' --out '" + out + "'");
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_THAT(outcome.err, HasSubstr("warning: moving mesh"));
+  EXPECT_THAT(outcome.out, HasSubstr("note: moving mesh"));
+  EXPECT_TRUE(std::filesystem::exists(out));
+}
+
+}  // namespace
+}  // namespace lmdbench::testing

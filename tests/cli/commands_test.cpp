@@ -1,0 +1,164 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "program.h"
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <fstream>
+#include <sstream>
+#include <string>
+#include <vector>
+
+namespace lmdbench::testing {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::Not;
+using ::testing::StartsWith;
+
+const std::string SHAPES = "'" LMDBENCH_SOURCE_DIR "/experiments/shapes.json' ";
+const std::string SHORT = SHAPES + "--set /frames=60 --set /driver/repetitions=2 ";
+
+std::vector<nlohmann::json> json_lines(const std::string& text) {
+  std::vector<nlohmann::json> lines;
+  std::istringstream stream(text);
+  for (std::string line; std::getline(stream, line);) lines.push_back(nlohmann::json::parse(line));
+  return lines;
+}
+
+TEST(Program, HelpAndVersionGoToStandardOutput) {
+  for (const std::string command : {"--help", "run --help", "plan --help", "query --help"}) {
+    const Outcome help = lmdbench(command);
+    EXPECT_EQ(help.code, 0) << command;
+    EXPECT_THAT(help.out, HasSubstr("Usage: ")) << command;
+    EXPECT_THAT(help.err, IsEmpty()) << command;
+  }
+  const Outcome version = lmdbench("--version");
+  EXPECT_EQ(version.code, 0);
+  EXPECT_THAT(version.out, StartsWith("lmdbench "));
+}
+
+TEST(Program, StandardOutputThatIsFullIsAnError) {
+  const ScratchDirectory scratch;
+  const Outcome outcome =
+      lmdbench("plan " + SHAPES + "> /dev/full 2> '" + (scratch / "err").string() + "' ; echo $?");
+  EXPECT_EQ(outcome.out, "4\n");
+  EXPECT_THAT(read_text(scratch / "err"), HasSubstr("standard output"));
+}
+
+TEST(RunCommand, WritesAResultFromAnyDirectory) {
+  const ScratchDirectory scratch;
+  const Outcome outcome = lmdbench("run " + SHORT, scratch.path());
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_TRUE(std::filesystem::exists(scratch / "results/shapes.h5")) << "the default place";
+  EXPECT_THAT(outcome.out, HasSubstr("shapes: 60 frames"));
+  EXPECT_THAT(outcome.err, HasSubstr("wrote results/shapes.h5"));
+  EXPECT_THAT(outcome.err, Not(HasSubstr("ETA"))) << "no bar off a terminal";
+  EXPECT_THAT(outcome.err, Not(HasSubstr("\x1b"))) << "no colours off a terminal";
+}
+
+TEST(RunCommand, JsonSummaryIsOneDocument) {
+  const ScratchDirectory scratch;
+  const Outcome outcome = lmdbench("run " + SHORT + "--json -q --out '" + (scratch / "r.h5").string() + "'");
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  const auto json = nlohmann::json::parse(outcome.out);
+  EXPECT_EQ(json["frames"], 60);
+  EXPECT_EQ(json["methods"][1]["label"], "improved");
+  EXPECT_THAT(outcome.err, IsEmpty()) << "-q tells errors only";
+}
+
+TEST(RunCommand, InterruptionEndsBySignalAndKeepsTheEarlierResult) {
+  const ScratchDirectory scratch;
+  const std::string result = scratch.write("r.h5", "an earlier result");
+  const Outcome outcome = lmdbench("run " + SHAPES + "--set /driver/repetitions=1000 --out '" + result +
+                                   "' & pid=$!; " + "sleep 1; kill -INT $pid; wait $pid; echo $?");
+  EXPECT_EQ(outcome.out, "130\n") << "a shell's number for the interrupt signal";
+  EXPECT_THAT(outcome.err, HasSubstr("interrupted: nothing was written"));
+  EXPECT_EQ(read_text(result), "an earlier result");
+  EXPECT_FALSE(std::filesystem::exists(scratch / "r.h5.part"));
+}
+
+TEST(PlanCommand, JsonAndText) {
+  const Outcome text = lmdbench("plan " + SHAPES);
+  EXPECT_EQ(text.code, 0);
+  EXPECT_THAT(text.out, HasSubstr("left out:\n"));
+  const Outcome json = lmdbench("plan --json " + SHAPES + "--set /probes/fcl/stride_frames=0");
+  EXPECT_EQ(json.code, 0);
+  const auto plan = nlohmann::json::parse(json.out);
+  EXPECT_EQ(plan["experiment"]["probes"]["fcl"]["stride_frames"], 0);
+  bool left_out = false;
+  for (const auto& item : plan["left_out"]) left_out = left_out || item["part"] == "FCL cross-check";
+  EXPECT_TRUE(left_out);
+}
+
+/// Two unit cubes; the moving one stands above the fixed one by the pose's z - 1.
+class QueryCommand : public ::testing::Test {
+ protected:
+  std::string cube() const {
+    return scratch_.write("cube.off",
+                          "OFF\n8 12 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n0 0 1\n1 0 1\n1 1 1\n0 1 1\n"
+                          "3 0 2 1\n3 0 3 2\n3 4 5 6\n3 4 6 7\n3 0 1 5\n3 0 5 4\n"
+                          "3 1 2 6\n3 1 6 5\n3 2 3 7\n3 2 7 6\n3 3 0 4\n3 3 4 7\n");
+  }
+  ScratchDirectory scratch_;
+};
+
+TEST_F(QueryCommand, PrintsALineAPoseInWorldCoordinates) {
+  // Turned by 45 degrees about x: an edge of the moving cube hangs over the fixed cube's upper face.
+  const std::string poses =
+      scratch_.write("p.tum", "1 0.25 0.5 1.01 0.3826834323650898 0 0 0.9238795325112867\n2 0 0 5 0 0 0 1\n");
+  const std::string mesh = cube();
+  for (const std::string method : {"exhaustive", "certified", "improved"}) {
+    const Outcome outcome =
+        lmdbench("query --moving '" + mesh + "' --fixed '" + mesh + "' --cutoff 0.05 --json --method " +
+                 method + " --poses '" + poses + "'");
+    ASSERT_EQ(outcome.code, 0) << outcome.err;
+    const auto lines = json_lines(outcome.out);
+    ASSERT_EQ(lines.size(), 2u);
+    EXPECT_EQ(lines[0]["time"], 1.0);
+    EXPECT_EQ(lines[0]["method"], method);
+    EXPECT_NEAR(lines[0]["minimum_distance"].get<double>(), 0.01, 1e-12) << method;
+    ASSERT_GE(lines[0]["lmds"].size(), 1u) << method;
+    const auto& lmd = lines[0]["lmds"][0];
+    EXPECT_NEAR(lmd["point_fixed"][2].get<double>(), 1.0, 1e-12) << method;
+    EXPECT_NEAR(lmd["point_moving"][2].get<double>(), 1.01, 1e-12) << method;
+    EXPECT_TRUE(lmd["feature_moving"]["index"].is_number_integer());
+    EXPECT_TRUE(lines[1]["minimum_distance"].is_null());
+    EXPECT_TRUE(lines[1]["lmds"].empty());
+  }
+}
+
+TEST_F(QueryCommand, ReadsPosesFromStandardInput) {
+  const std::string mesh = cube();
+  const Outcome outcome =
+      lmdbench("query --moving '" + mesh + "' --fixed '" + mesh +
+               "' --cutoff 0.5 --json --poses - <<END\n0 0 0 1.25 0 0 0 1\n3 0 0 1.125 0 0 0 1\nEND\n");
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  const auto lines = json_lines(outcome.out);
+  ASSERT_EQ(lines.size(), 2u);
+  EXPECT_EQ(lines[0]["minimum_distance"], 0.25);
+  EXPECT_EQ(lines[1]["minimum_distance"], 0.125);
+}
+
+TEST_F(QueryCommand, IdentityPoseWithoutPoses) {
+  const std::string mesh = cube();
+  const Outcome outcome =
+      lmdbench("query --moving '" + mesh + "' --fixed '" + mesh + "' --cutoff 0.5 --json");
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  const auto lines = json_lines(outcome.out);
+  ASSERT_EQ(lines.size(), 1u);
+  EXPECT_EQ(lines[0]["time"], 0.0);
+  EXPECT_EQ(lines[0]["minimum_distance"], 0.0) << "the cube touches its copy";
+  EXPECT_EQ(lines[0]["method"], "certified");
+}
+
+TEST_F(QueryCommand, TextIsForPeople) {
+  const Outcome outcome = lmdbench("query --moving sphere --fixed sphere --cutoff 0.5 --method exhaustive");
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_THAT(outcome.out, HasSubstr("exhaustive: "));
+}
+
+}  // namespace
+}  // namespace lmdbench::testing

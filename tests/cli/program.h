@@ -1,0 +1,72 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <sys/wait.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <stdexcept>
+#include <string>
+
+/// Running the built program as a user would.
+namespace lmdbench::testing {
+
+inline std::string read_text(const std::filesystem::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+}
+
+/// A directory of its own for every test, removed afterwards.
+class ScratchDirectory {
+ public:
+  ScratchDirectory() {
+    std::string name = (std::filesystem::temp_directory_path() / "lmdbench-cli-XXXXXX").string();
+    if (::mkdtemp(name.data()) == nullptr) throw std::runtime_error("cannot make " + name);
+    path_ = name;
+  }
+  ~ScratchDirectory() {
+    std::error_code ignored;
+    std::filesystem::remove_all(path_, ignored);
+  }
+  ScratchDirectory(const ScratchDirectory&) = delete;
+  ScratchDirectory& operator=(const ScratchDirectory&) = delete;
+
+  std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
+  const std::filesystem::path& path() const { return path_; }
+
+  /// Writes a file and returns its name.
+  std::string write(const std::string& name, const std::string& text) const {
+    std::ofstream(path_ / name, std::ios::binary) << text;
+    return (path_ / name).string();
+  }
+
+ private:
+  std::filesystem::path path_;
+};
+
+struct Outcome {
+  int code = -1;  ///< Exit code, or minus the signal that ended the program.
+  std::string out;
+  std::string err;
+};
+
+/// Runs `lmdbench ARGUMENTS` in a shell; the arguments may redirect and go on with other commands.
+/// @param directory working directory
+inline Outcome lmdbench(const std::string& arguments,
+                        const std::filesystem::path& directory = LMDBENCH_SOURCE_DIR) {
+  const ScratchDirectory scratch;
+  const std::string out = (scratch / "out").string(), err = (scratch / "err").string();
+  const std::string command = "cd '" + directory.string() + "' && ( '" LMDBENCH_PROGRAM "' " + arguments +
+                              " ) >'" + out + "' 2>'" + err + "'";
+  const int status = std::system(command.c_str());
+  Outcome outcome;
+  outcome.code = WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
+  outcome.out = read_text(out);
+  outcome.err = read_text(err);
+  return outcome;
+}
+
+}  // namespace lmdbench::testing

@@ -1,0 +1,38 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/cli/progress_bar.h>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace lmdbench {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+TEST(ProgressLine, ShowsShareRateAndTimeLeft) {
+  const std::string line = progress_line("run", 250, 1000, 50.0);
+  EXPECT_THAT(line, HasSubstr("run"));
+  EXPECT_THAT(line, HasSubstr(" 25 %"));
+  EXPECT_THAT(line, HasSubstr(" 5/s"));
+  EXPECT_THAT(line, HasSubstr("ETA 2:30"));
+}
+
+TEST(ProgressLine, HasNoRateBeforeAnythingIsDone) {
+  EXPECT_THAT(progress_line("run", 0, 1000, 0.0), Not(HasSubstr("ETA")));
+  EXPECT_THAT(progress_line("run", 0, 1000, 3.0), Not(HasSubstr("ETA")));
+}
+
+TEST(ProgressLine, KeepsItsLength) {
+  const auto bar = [](std::int64_t done) {
+    const std::string line = progress_line("run", done, 10, 1.0);
+    return line.find(']') - line.find('[');
+  };
+  EXPECT_EQ(bar(0), bar(10));
+  EXPECT_EQ(bar(3), bar(10));
+  EXPECT_THAT(progress_line("truth", 0, 0, 1.0), HasSubstr("100 %")) << "nothing to do is done";
+}
+
+}  // namespace
+}  // namespace lmdbench
