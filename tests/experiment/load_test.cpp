@@ -89,6 +89,36 @@ TEST(LoadExperiment, OverridesTakeJsonOrStrings) {
   EXPECT_EQ(experiment.title, "a=b") << "only the first = separates";
 }
 
+TEST(LoadExperiment, EveryMethodOptionIsRead) {
+  const Experiment experiment =
+      parse(MINIMAL, {"/methods/0/literal_g3=true", "/methods/1/visibility=orthogonal",
+                      "/methods/1/reduction=loss-free", "/methods/1/tracking_order=triangle-index",
+                      "/methods/1/literal_g3=true",
+                      R"(/methods/-={"name":"certified","force_law":"linear","frame_coherence":false})"});
+  EXPECT_TRUE(experiment.methods[0].options.literal_g3);
+  const MethodOptions& improved = experiment.methods[1].options;
+  EXPECT_EQ(improved.visibility, Visibility::ORTHOGONAL);
+  EXPECT_EQ(improved.reduction, Reduction::LOSS_FREE);
+  EXPECT_EQ(improved.tracking_order, TrackingOrder::TRIANGLE_INDEX);
+  EXPECT_TRUE(improved.literal_g3);
+  EXPECT_FALSE(experiment.methods[2].options.frame_coherence);
+  EXPECT_EQ(parse(MINIMAL, {"/methods/1/visibility=off"}).methods[1].options.visibility, Visibility::OFF);
+}
+
+TEST(LoadExperiment, DefaultsOfMethodsAreThoseOfTheLibrary) {
+  const Experiment experiment = parse(MINIMAL);
+  const MethodOptions library;
+  for (const MethodChoice& method : experiment.methods) {
+    EXPECT_EQ(method.options.visibility, library.visibility);
+    EXPECT_EQ(method.options.reduction, library.reduction);
+    EXPECT_EQ(method.options.tracking_order, library.tracking_order);
+    EXPECT_EQ(method.options.line_cone, library.line_cone);
+    EXPECT_EQ(method.options.literal_g3, library.literal_g3);
+    EXPECT_EQ(method.options.frame_coherence, library.frame_coherence);
+    EXPECT_DOUBLE_EQ(method.options.g5_tolerance_rad, library.g5_tolerance_rad);
+  }
+}
+
 TEST(LoadExperiment, RefusesMalformedOverrides) {
   EXPECT_THAT(message({"driver/repetitions=3"}), HasSubstr("--set driver/repetitions=3: not of the form"));
   EXPECT_THAT(message({"/driver/repetitions"}), HasSubstr("not of the form"));

@@ -85,6 +85,10 @@ MethodChoice method_choice(const Json& entry) {
                                                              : Visibility::VERTEX_NORMAL;
   if (entry.contains("reduction"))
     options.reduction = entry["reduction"] == "loss-free" ? Reduction::LOSS_FREE : Reduction::PUBLISHED;
+  if (entry.contains("tracking_order"))
+    options.tracking_order = entry["tracking_order"] == "triangle-index" ? TrackingOrder::TRIANGLE_INDEX
+                                                                         : TrackingOrder::NEAREST_FIRST;
+  if (entry.contains("frame_coherence")) options.frame_coherence = entry["frame_coherence"].get<bool>();
   if (entry.contains("literal_g3")) options.literal_g3 = entry["literal_g3"].get<bool>();
   return choice;
 }
