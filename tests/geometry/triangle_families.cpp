@@ -148,10 +148,11 @@ TrianglePair corner_over_feature(Random& random) {
 }
 
 TrianglePair crossing_edges(Random& random) {
-  const double angle = log_uniform(random, 1e-8, 1.5);
+  const double tangent_of_half = 0.5 * log_uniform(random, 1e-8, 1.8);
   const double gap = log_uniform(random, 1e-12, 1.0);
   const double s = 0.4 * uniform(random), t = 0.4 * uniform(random);
-  const Vec3 along(std::cos(angle), std::sin(angle), 0.0);
+  const double norm = 1.0 + tangent_of_half * tangent_of_half;
+  const Vec3 along((1.0 - tangent_of_half * tangent_of_half) / norm, 2.0 * tangent_of_half / norm, 0.0);
   TrianglePair pair;
   pair.a = {Vec3(-1.0 - s, 0.0, 0.0), Vec3(1.0 - s, 0.0, 0.0), Vec3(uniform(random), uniform(random), -1.0)};
   pair.b[0] = -(1.0 + t) * along + Vec3(0, 0, gap);
@@ -341,8 +342,9 @@ TrianglePair rigid_motions(Random& random) {
 TrianglePair facing_mesh_triangles(Random& random) {
   const Triangle regular{Vec3(1, 0, 0), Vec3(-0.5, std::sqrt(0.75), 0), Vec3(-0.5, -std::sqrt(0.75), 0)};
   const auto piece = [&](double height) {
-    const Mat3 turn = (Eigen::AngleAxisd(M_PI * uniform(random), Vec3::UnitZ()) *
-                       Eigen::AngleAxisd(0.3 * uniform(random), random_direction(random)))
+    const Eigen::Quaterniond about_z(uniform(random), 0.0, 0.0, uniform(random));
+    const Vec3 tilt = 0.15 * uniform(random) * random_direction(random);
+    const Mat3 turn = (about_z.normalized() * Eigen::Quaterniond(1.0, tilt[0], tilt[1], tilt[2]).normalized())
                           .toRotationMatrix();
     const Vec3 place(1.5 * uniform(random), 1.5 * uniform(random), height);
     Triangle t;
@@ -390,7 +392,14 @@ double uniform(Random& random) {
 }
 
 double log_uniform(Random& random, double low, double high) {
-  return low * std::exp(0.5 * (uniform(random) + 1.0) * std::log(high / low));
+  int octaves = 0;
+  std::frexp(high / low, &octaves);
+  for (;;) {
+    // Linear within an octave: near enough, and the same bits everywhere, which std::exp does not promise.
+    const double octave = 0.5 * (uniform(random) + 1.0) * octaves;
+    const double value = low * std::ldexp(1.0 + octave - std::floor(octave), static_cast<int>(octave));
+    if (value <= high) return value;
+  }
 }
 
 Vec3 random_point(Random& random) {

@@ -17,8 +17,8 @@ struct TrianglePair {
 using Random = std::mt19937_64;
 
 /// A family of triangle pairs that some published distance routine gets wrong, or could. The generator is
-/// deterministic given the engine's state, on every platform: it uses the engine's bits directly and none of
-/// the standard distributions, whose output the standard leaves open.
+/// deterministic given the engine's state, on every platform: it uses the engine's bits and correctly rounded
+/// operations only, no standard distribution and no transcendental function.
 struct TriangleFamily {
   std::string_view name;
   TrianglePair (*generate)(Random& random);
@@ -29,7 +29,7 @@ std::span<const TriangleFamily> triangle_families();
 
 /// Uniform in [-1, 1).
 double uniform(Random& random);
-/// Uniform in logarithm between two positive bounds.
+/// Uniform in logarithm between two positive bounds, nearly.
 double log_uniform(Random& random, double low, double high);
 /// Uniform in the cube [-1, 1)^3.
 Vec3 random_point(Random& random);

@@ -59,6 +59,8 @@ struct PlaneThrough {
     const double determinant = w.dot(normal);
     const double permanent = w.cwiseAbs().dot(magnitudes);
     if (std::abs(determinant) > ORIENT_3D_BOUND * permanent) return sign(determinant);
+    // A shared corner is the common reason to be here.
+    if (d == a || d == b || d == c) return 0;
     return exact_orientation_3d(a, b, c, d);
   }
 };

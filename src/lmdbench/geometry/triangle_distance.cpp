@@ -20,26 +20,46 @@ namespace {
 constexpr double SMALLEST_MAGNITUDE = 0x1p-100;
 constexpr double LARGEST_MAGNITUDE = 0x1p+100;
 
-/// Corner points are copied from the caller's triangle: scaling back would round denormal coordinates.
-Vec3 unscaled(const Vec3& point, TriangleFeature feature, const Triangle& triangle, int exponent) {
-  if (is_vertex(feature)) return triangle[local_index(feature)];
-  return point.unaryExpr([exponent](double value) { return std::ldexp(value, -exponent); });
+Triangle scaled(const Triangle& triangle, int exponent) {
+  Triangle result;
+  for (int k = 0; k < 3; ++k) {
+    result[k] = triangle[k].unaryExpr([exponent](double value) { return std::ldexp(value, exponent); });
+  }
+  return result;
+}
+
+/// Takes a point and its feature from the scaled triangle back to the caller's. A corner is copied, because
+/// scaling back would round denormal coordinates; of corners that scaling made equal it is the lowest,
+/// whatever their order.
+void scale_back(const Triangle& triangle, const Triangle& scaled_triangle, int exponent, Vec3& point,
+                TriangleFeature& feature) {
+  if (!is_vertex(feature)) {
+    point = point.unaryExpr([exponent](double value) { return std::ldexp(value, -exponent); });
+    return;
+  }
+  const Vec3 scaled_corner = scaled_triangle[local_index(feature)];
+  for (int k = 0; k < 3; ++k) {
+    if (scaled_triangle[k] == scaled_corner &&
+        lexicographic_less(triangle[k], triangle[local_index(feature)])) {
+      feature = vertex_feature(k);
+    }
+  }
+  point = triangle[local_index(feature)];
 }
 
 TrianglePairDistance distance_out_of_range(const Triangle& a, const Triangle& b, double magnitude) {
   const int exponent = -std::ilogb(magnitude);
-  const auto scaled = [exponent](const Triangle& triangle) {
-    Triangle result;
-    for (int i = 0; i < 3; ++i) {
-      result[i] = triangle[i].unaryExpr([exponent](double value) { return std::ldexp(value, exponent); });
-    }
-    return result;
-  };
+  const Triangle scaled_a = scaled(a, exponent);
+  const Triangle scaled_b = scaled(b, exponent);
   TrianglePairDistance result = kernel::distance_by_all_candidates(
-      scaled(a), scaled(b), coincidence_length(std::ldexp(magnitude, exponent)));
-  result.point_a = unscaled(result.point_a, result.feature_a, a, exponent);
-  result.point_b = unscaled(result.point_b, result.feature_b, b, exponent);
-  if (result.intersecting) result.point_b = result.point_a;
+      scaled_a, scaled_b, coincidence_length(std::ldexp(magnitude, exponent)));
+  scale_back(a, scaled_a, exponent, result.point_a, result.feature_a);
+  scale_back(b, scaled_b, exponent, result.point_b, result.feature_b);
+  if (result.intersecting) {
+    const bool use_b = is_vertex(result.feature_b) &&
+                       (!is_vertex(result.feature_a) || lexicographic_less(result.point_b, result.point_a));
+    (use_b ? result.point_a : result.point_b) = use_b ? result.point_b : result.point_a;
+  }
   result.squared_distance = (result.point_a - result.point_b).squaredNorm();
   result.minimiser_measure = std::ldexp(result.minimiser_measure, -exponent * result.minimiser_dimension);
   return result;
