@@ -16,16 +16,14 @@
 #include <vector>
 
 /// The lockstep driver: one clock instead of threads, so that results depend on the scene alone, while the
-/// staleness that threads would cause is an explicit number of frames. It steps through the path as the
-/// paper's threads would (sections 4.3 and 5):
-///  1. A search whose latency is over arrives: its set is tracked to this frame's pose (the second tracking
-///  of
-///     section 4.3) and replaces the working set.
+/// staleness that threads would cause is an explicit number of frames. A frame does what the paper's threads
+/// would (sections 4.3 and 5):
+///  1. A search whose latency is over arrives: its set is tracked to this frame's pose (second tracking) and
+///     replaces the working set.
 ///  2. Every `search_every_frames` a global search starts at this frame's pose, followed by the first
-///  tracking
-///     (reduction) at the same pose. With a latency of 0 it arrives at once.
+///     tracking (reduction) at the same pose. With a latency of 0 it arrives at once.
 ///  3. The local part tracks the working set to this frame's pose.
-///  4. Force: LMDs within the cutoff are summed and clipped by the device.
+///  4. LMDs within the cutoff are summed into a force, which the device clips.
 /// Methods without local tracking search in every frame instead.
 namespace lmdbench {
 
