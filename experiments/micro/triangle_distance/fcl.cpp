@@ -8,9 +8,9 @@ namespace lmdbench::micro {
 
 /// FCL's kernel, with witness points.
 DistanceImplementation fcl_distance() {
-  return {"fcl", [](std::span<const TrianglePair> pairs, std::span<double> distances) {
+  return {"fcl", [](const PairFamily& pairs, std::span<double> distances) {
             for (std::size_t i = 0; i < pairs.size(); ++i)
-              distances[i] = fcl_triangle_distance(pairs[i].a, pairs[i].b).distance;
+              distances[i] = fcl_triangle_distance(pairs.a[i], pairs.b[i]).distance;
           }};
 }
 

@@ -20,7 +20,7 @@ constexpr double TOLERANCE = 1e-7;
 
 std::string objection(const PairFamily& family, const std::vector<double>& distances) {
   for (std::size_t i = 0; i < distances.size(); ++i) {
-    const double expected = reference_triangle_distance(family.pairs[i].a, family.pairs[i].b);
+    const double expected = reference_triangle_distance(family.a[i], family.b[i]);
     if (!(std::abs(distances[i] - expected) <= TOLERANCE))
       return "pair " + std::to_string(i) + " of family " + family.name + ": " + std::to_string(distances[i]) +
              " instead of " + std::to_string(expected);
@@ -29,18 +29,18 @@ std::string objection(const PairFamily& family, const std::vector<double>& dista
 }
 
 void run(benchmark::State& state, const DistanceImplementation& implementation, const PairFamily& family) {
-  std::vector<double> distances(family.pairs.size());
-  implementation.run(family.pairs, distances);
+  std::vector<double> distances(family.size());
+  implementation.run(family, distances);
   const std::string wrong = objection(family, distances);
   if (!wrong.empty()) {
     state.SkipWithError(wrong.c_str());
     return;
   }
   for (auto _ : state) {
-    implementation.run(family.pairs, distances);
+    implementation.run(family, distances);
     benchmark::DoNotOptimize(distances.data());
   }
-  state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(family.pairs.size()));
+  state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(family.size()));
 }
 
 }  // namespace

@@ -11,29 +11,28 @@
 
 namespace lmdbench::micro {
 
-struct TrianglePair {
-  Triangle a;
-  Triangle b;
+/// A family of pairs (a[i], b[i]), the same in every run.
+struct PairFamily {
+  std::string name;
+  std::vector<Triangle> a;
+  std::vector<Triangle> b;
+
+  std::size_t size() const { return a.size(); }
 };
 
 /// Task "triangle distance": the distances of many pairs. One implementation a file; the whole list is handed
 /// over, so that batched kernels fit.
 struct DistanceImplementation {
   std::string name;
-  std::function<void(std::span<const TrianglePair> pairs, std::span<double> distances)> run;
+  std::function<void(const PairFamily& pairs, std::span<double> distances)> run;
 };
 
 DistanceImplementation lmdbench_scalar_distance();
+DistanceImplementation lmdbench_batched_distance();
 DistanceImplementation fcl_distance();
 
 /// All that this build knows.
 std::vector<DistanceImplementation> distance_implementations();
-
-/// A family of pairs, the same in every run.
-struct PairFamily {
-  std::string name;
-  std::vector<TrianglePair> pairs;
-};
 
 /// Triangles with sides of about 1, in general position:
 ///  - "random": independent, a few sizes apart, so kernels with early exits take them;

@@ -10,9 +10,9 @@ namespace lmdbench::micro {
 
 /// The exact-form kernel of the program, one pair at a time, with its witness points and closest features.
 DistanceImplementation lmdbench_scalar_distance() {
-  return {"lmdbench-scalar", [](std::span<const TrianglePair> pairs, std::span<double> distances) {
+  return {"lmdbench-scalar", [](const PairFamily& pairs, std::span<double> distances) {
             for (std::size_t i = 0; i < pairs.size(); ++i)
-              distances[i] = std::sqrt(triangle_distance(pairs[i].a, pairs[i].b).squared_distance);
+              distances[i] = std::sqrt(triangle_distance(pairs.a[i], pairs.b[i]).squared_distance);
           }};
 }
 

@@ -9,6 +9,11 @@
 namespace lmdbench::micro {
 namespace {
 
+struct TrianglePair {
+  Triangle a;
+  Triangle b;
+};
+
 constexpr std::uint64_t SEED = 3;
 
 /// Corners in a unit ball round the centre; slivers are drawn again, they are another benchmark's subject.
@@ -46,15 +51,19 @@ TrianglePair near_pair(Random& random) {
 }  // namespace
 
 std::vector<DistanceImplementation> distance_implementations() {
-  return {lmdbench_scalar_distance(), fcl_distance()};
+  return {lmdbench_scalar_distance(), lmdbench_batched_distance(), fcl_distance()};
 }
 
 std::vector<PairFamily> pair_families(std::size_t count) {
   Random random(SEED);
-  std::vector<PairFamily> families = {{"random", {}}, {"near", {}}};
+  std::vector<PairFamily> families = {{"random", {}, {}}, {"near", {}, {}}};
+  const auto add = [](PairFamily& family, const TrianglePair& pair) {
+    family.a.push_back(pair.a);
+    family.b.push_back(pair.b);
+  };
   for (std::size_t i = 0; i < count; ++i) {
-    families[0].pairs.push_back(random_pair(random));
-    families[1].pairs.push_back(near_pair(random));
+    add(families[0], random_pair(random));
+    add(families[1], near_pair(random));
   }
   return families;
 }
