@@ -1,0 +1,36 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <lmdbench/lmd/lmd.h>
+#include <lmdbench/lmd/scene.h>
+
+#include <micro/match.h>
+
+#include <string>
+
+namespace lmdbench::completeness {
+
+/// Distances and points that differ by more than this, relative to the diagonal, are different ones: some
+/// thousand roundings of a coordinate.
+inline constexpr double POSITION_TOLERANCE = 1e-12;
+
+/// How far reported LMD sets are from the true ones, summed over poses.
+struct Judgement {
+  micro::MatchCount pairs;     ///< By feature pair.
+  std::size_t duplicates = 0;  ///< LMDs beyond one a feature pair.
+  std::size_t poses = 0;
+  std::size_t wrong_poses = 0;             ///< Poses with anything wrong.
+  double worst_distance_difference = 0.0;  ///< Over matched pairs, relative to the diagonal.
+  double worst_point_difference = 0.0;     ///< The same for the points on both meshes.
+
+  Judgement& operator+=(const Judgement& other);
+};
+
+/// Compares one pose's sets.
+/// @param diagonal  scale of the differences [m]
+/// @param objection receives what is wrong, in words with features and distances; empty when nothing is
+Judgement judge(const LmdSet& truth, const LmdSet& reported, const Scene& scene, double diagonal,
+                std::string& objection);
+
+}  // namespace lmdbench::completeness
