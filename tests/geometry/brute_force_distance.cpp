@@ -36,6 +36,15 @@ Real length(const Vector& a) {
 
 using Corners = std::array<Vector, 3>;
 
+/// Part of the largest coordinate below which an altitude is nothing.
+constexpr Real FLAT = 1e-18L;
+
+Real largest(const Corners& t) {
+  Real result = 0;
+  for (const Vector& p : t) result = std::max({result, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
+  return result;
+}
+
 Corners extended(const Triangle& t) {
   Corners result;
   for (int i = 0; i < 3; ++i) result[i] = {t[i][0], t[i][1], t[i][2]};
@@ -72,16 +81,17 @@ bool projects_inside(const Vector& p, const Corners& t, const Vector& n) {
 Real corners_and_edges_to_face(const Corners& from, const Corners& t) {
   const Vector n = cross(t[1] - t[0], t[2] - t[0]);
   const Real length_n = length(n);
-  if (length_n == 0) return INFINITY;
-  Real best = INFINITY;
-  std::array<Real, 3> height;
-  // Heights are measured from the foot on the longest edge: a needle's normal may turn about that edge by its
-  // rounding, which tilts the plane only across the needle, where there is nothing of it.
   int longest = 0;
   for (int k = 1; k < 3; ++k) {
     if (length(t[(k + 1) % 3] - t[k]) > length(t[(longest + 1) % 3] - t[longest])) longest = k;
   }
   const Vector e = t[(longest + 1) % 3] - t[longest];
+  // The normal of a flatter triangle is rounding, and its face is no farther from its edges than this.
+  if (!(length_n > FLAT * largest(t) * length(e))) return INFINITY;
+  Real best = INFINITY;
+  std::array<Real, 3> height;
+  // Heights are measured from the foot on the longest edge: a needle's normal may turn about that edge by its
+  // rounding, which tilts the plane only across the needle, where there is nothing of it.
   for (int k = 0; k < 3; ++k) {
     const Vector r = from[k] - t[longest];
     height[k] = dot(r - dot(r, e) / dot(e, e) * e, n) / length_n;

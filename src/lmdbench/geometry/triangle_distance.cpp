@@ -20,6 +20,7 @@ namespace {
 constexpr double SMALLEST_MAGNITUDE = 0x1p-100;
 constexpr double LARGEST_MAGNITUDE = 0x1p+100;
 
+/// @param exponent brings the largest coordinate to [1, 2)
 Triangle scaled(const Triangle& triangle, int exponent) {
   Triangle result;
   for (int k = 0; k < 3; ++k) {
@@ -47,7 +48,7 @@ void scale_back(const Triangle& triangle, const Triangle& scaled_triangle, int e
   point = triangle[local_index(feature)];
 }
 
-TrianglePairDistance distance_out_of_range(const Triangle& a, const Triangle& b, double magnitude) {
+TrianglePairDistance distance_by_scaled_candidates(const Triangle& a, const Triangle& b, double magnitude) {
   const int exponent = -std::ilogb(magnitude);
   const Triangle scaled_a = scaled(a, exponent);
   const Triangle scaled_b = scaled(b, exponent);
@@ -75,9 +76,8 @@ TrianglePairDistance triangle_distance(const Triangle& a, const Triangle& b) {
   // The descent proves nothing where a coordinate is not a number.
   if (in_range && kernel::certified_descent(a, b, tolerance, result)) return result;
   if (!all_finite(a) || !all_finite(b)) return result;
-  const bool all_zero = magnitude == 0.0;
-  return in_range || all_zero ? kernel::distance_by_all_candidates(a, b, tolerance)
-                              : distance_out_of_range(a, b, magnitude);
+  return in_range || magnitude == 0.0 ? kernel::distance_by_all_candidates(a, b, tolerance)
+                                      : distance_by_scaled_candidates(a, b, magnitude);
 }
 
 }  // namespace lmdbench

@@ -141,9 +141,24 @@ bool segments_on_common_line_overlap(const Triangle& a, const Triangle& b, const
   return orientation_3d(pa, qa, pb, qb) <= 0 && orientation_3d(pa, ra, rb, pb) <= 0;
 }
 
-}  // namespace
+/// See triangles_intersect.
+constexpr double TINY_PART = 0x1p-200;
 
-bool triangles_intersect(const Triangle& a, const Triangle& b) {
+bool has_tiny_coordinate(const Triangle& triangle, double limit) {
+  return std::any_of(triangle.begin(), triangle.end(), [limit](const Vec3& corner) {
+    return (corner.array() != 0.0 && corner.array().abs() < limit).any();
+  });
+}
+
+Triangle without_tiny_coordinates(const Triangle& triangle, double limit) {
+  Triangle result;
+  for (int k = 0; k < 3; ++k) {
+    result[k] = triangle[k].unaryExpr([limit](double x) { return std::abs(x) < limit ? 0.0 : x; });
+  }
+  return result;
+}
+
+bool exactly_intersect(const Triangle& a, const Triangle& b) {
   const Sides sides(a, b);
   if (sides.planes_separate()) return false;
   if (sides.is_generic()) return segments_on_common_line_overlap(a, b, sides);
@@ -159,6 +174,16 @@ bool triangles_intersect(const Triangle& a, const Triangle& b) {
     if (segment_meets_triangle(edge, a, axis_a)) return true;
   }
   return false;
+}
+
+}  // namespace
+
+bool triangles_intersect(const Triangle& a, const Triangle& b) {
+  const double limit = TINY_PART * std::max(largest_coordinate(a), largest_coordinate(b));
+  if (has_tiny_coordinate(a, limit) || has_tiny_coordinate(b, limit)) {
+    return exactly_intersect(without_tiny_coordinates(a, limit), without_tiny_coordinates(b, limit));
+  }
+  return exactly_intersect(a, b);
 }
 
 std::optional<Segment> intersection_segment(const Triangle& a, const Triangle& b) {

@@ -10,8 +10,9 @@
 namespace lmdbench {
 
 /// True exactly when the closed triangles share a point. Decided by the signs of exact orientation
-/// predicates, for touching, coplanar and degenerate triangles too.
-/// @pre finite coordinates whose triple products neither overflow nor underflow
+/// predicates, for touching, coplanar and degenerate triangles too. Coordinates below 2^-200 of the largest
+/// are taken as 0, because the low bits of their triple products would underflow.
+/// @pre finite coordinates, the largest of them 0 or in [2^-100, 2^100]
 bool triangles_intersect(const Triangle& a, const Triangle& b);
 
 /// The segment that two intersecting triangles of different planes share: one piece of an intersection
