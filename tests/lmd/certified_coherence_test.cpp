@@ -171,9 +171,9 @@ TEST(PairFilter, NothingBecomesAnLmdBeforeItsSlackIsUsedUp) {
     WideCounters counters;
     find_wide_pairs(scene.moving->wide_hierarchy(), scene.fixed[0]->wide_hierarchy(), query,
                     WideKernel::VECTOR, scratch, counters);
-    const PairFilter first{moving, before, fixed, cutoff, 1e-9, 1e-5, 1e-8, lever};
+    const PairFilter first{moving, before, fixed, cutoff, 1e-9, 1e-5, 1e-8};
     for (const WidePair& pair : scratch.lmd_pairs) {
-      const PairAnswer answer = first(pair.a.feature_id(), pair.b.feature_id());
+      const PairAnswer answer = first(pair.a.feature_id(), pair.b.feature_id(), lever);
       if (answer.verdict != PairVerdict::NO_LMD || !(answer.slack > 0.0)) continue;
       for (int trial = 0; trial < 8; ++trial) {
         const double size = 0.999 * std::min(answer.slack, 0.5), share = uniform(random);
@@ -184,8 +184,8 @@ TEST(PairFilter, NothingBecomesAnLmdBeforeItsSlackIsUsedUp) {
         after.rotation = (turn * pose.rotation).normalized();
         after.translation = centre - after.rotation * origin;
         const RigidTransform transform(after);
-        const PairFilter second{moving, transform, fixed, cutoff, 1e-9, 1e-5, 1e-8, lever};
-        ASSERT_NE(second(pair.a.feature_id(), pair.b.feature_id()).verdict, PairVerdict::LMD)
+        const PairFilter second{moving, transform, fixed, cutoff, 1e-9, 1e-5, 1e-8};
+        ASSERT_NE(second(pair.a.feature_id(), pair.b.feature_id(), lever).verdict, PairVerdict::LMD)
             << to_string(pair.a.feature_id().kind) << " " << to_string(pair.b.feature_id().kind) << " slack "
             << answer.slack;
         ++moved;
@@ -196,8 +196,8 @@ TEST(PairFilter, NothingBecomesAnLmdBeforeItsSlackIsUsedUp) {
         after.translation = before.point(origin) + (1.0 - share) * 3.0 * size * random_direction(random) -
                             after.rotation * origin;
         const RigidTransform farther(after);
-        const PairFilter third{moving, farther, fixed, cutoff, 1e-9, 1e-5, 1e-8, lever};
-        if (third(pair.a.feature_id(), pair.b.feature_id()).verdict == PairVerdict::LMD) ++near_limit;
+        const PairFilter third{moving, farther, fixed, cutoff, 1e-9, 1e-5, 1e-8};
+        if (third(pair.a.feature_id(), pair.b.feature_id(), lever).verdict == PairVerdict::LMD) ++near_limit;
       }
     }
   }

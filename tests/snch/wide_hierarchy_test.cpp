@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/mesh/polar_cone.h>
 #include <lmdbench/snch/polar_cap.h>
-#include <lmdbench/snch/wide_frontier.h>
 #include <lmdbench/snch/wide_hierarchy.h>
+#include <lmdbench/snch/wide_slack.h>
 #include <lmdbench/snch/wide_traversal.h>
 
 #include <gtest/gtest.h>
@@ -281,14 +281,16 @@ TEST(WideSlack, VectorAndScalarAgreeBitForBit) {
       const auto touch_lanes = static_cast<std::uint32_t>(random() & 0xFFu);
       if (!query.possible || home.child[lane] == 0) continue;
       const WideProbe probe = make_probe(home, lane, query.a_in_b);
-      const auto horizon = static_cast<float>(0.02 * uniform(random));
-      const WideSlackMasks scalar =
-          test_lanes_slack_scalar(node, probe, query.limits, 1.5F, horizon, touch_lanes);
-      const WideSlackMasks vector = test_lanes_slack(node, probe, query.limits, 1.5F, horizon, touch_lanes);
+      const WidePaces paces{static_cast<float>(1000.0 * uniform(random)),
+                            static_cast<float>(1000.0 * uniform(random)),
+                            static_cast<float>(4.0 * uniform(random))};
+      const WideSlackMasks scalar = test_lanes_slack_scalar(node, probe, query.limits, paces, touch_lanes);
+      const WideSlackMasks vector = test_lanes_slack(node, probe, query.limits, paces, touch_lanes);
       ASSERT_EQ(scalar.used, vector.used);
       ASSERT_EQ(scalar.lmd, vector.lmd);
       ASSERT_EQ(scalar.touch, vector.touch);
-      ASSERT_EQ(scalar.slack, vector.slack);
+      ASSERT_EQ(scalar.length_slack, vector.length_slack);
+      ASSERT_EQ(scalar.angle_slack, vector.angle_slack);
       ++(scalar.lmd != 0 ? alive : dead);
     }
   }
@@ -323,10 +325,13 @@ TEST(WideSlack, NothingBecomesAnLmdBeforeItsSlackIsUsedUp) {
     const double size = 2.0 + b.centre.norm();
     const WideLimits limits{static_cast<float>(cutoff * (1.0 + 1e-7)), 0.0F,
                             static_cast<float>(POSITION_ROUNDING * size)};
-    const WideSlackMasks masks = test_lanes_slack(node, probe, limits, static_cast<float>(lever), 0.0F, 0u);
+    const WidePaces paces{static_cast<float>(uniform(random)), static_cast<float>(uniform(random)), 0.0F};
+    const WideSlackMasks masks = test_lanes_slack(node, probe, limits, paces, 0u);
     if (masks.lmd != 0) continue;
     ++rejected;
-    ASSERT_LE(static_cast<double>(masks.slack), motion * (1.0 + 1e-6)) << i;
+    EXPECT_TRUE(static_cast<double>(masks.length_slack) <= motion * (1.0 + 1e-6) ||
+                static_cast<double>(masks.angle_slack) <= angle * (1.0 + 1e-6))
+        << i;
   }
   EXPECT_GT(rejected, 5000u);
 }

@@ -22,11 +22,8 @@ constexpr double RELATIVE_TOUCH = 1e-9;
 constexpr double FILTER_MARGIN = 1e-5;
 /// PairFilter::tiny relative to the coordinates: roundings of such a length's ends are well under the margin.
 constexpr double RELATIVE_TINY = 1e-8;
-/// A test that was kept lives for at least this many frames of the present pace: more means fewer repeated
-/// tests, but more that are kept for nothing.
-constexpr double HORIZON_FRAMES = 12.0;
-/// Share of the last frames' pace that is still expected in the next frame.
-constexpr double PACE_DECAY = 0.9;
+/// Motions of a frame that are larger than this many cutoffs are jumps: next to nothing would be kept.
+constexpr double LARGEST_PACE = 1.0;
 /// Two minima whose distances differ by more than this part of them cannot be on one plateau (its tolerance
 /// is 1e-9).
 constexpr double APART = 1e-6;
@@ -88,20 +85,9 @@ Certified::Certified(Scene scene, const MethodOptions& options, WideKernel kerne
     : scene_(std::move(scene)), coherent_(options.frame_coherence), kernel_(kernel) {
   double extent = scene_.moving->wide_hierarchy().radius;
   for (const auto& body : scene_.fixed) extent = std::max(extent, body->wide_hierarchy().radius);
-  lever_ = scene_.moving->wide_hierarchy().radius + 2.0 * scene_.cutoff;
-  // Without a cutoff that means something there is nothing to save, and the lever would be without bound.
+  // Without a cutoff that means something there is nothing to save, and levers would be without bound.
   coherent_ = coherent_ && scene_.cutoff <= 10.0 * extent;
   frontiers_.resize(scene_.fixed.size());
-}
-
-/// Size of the motion, rounded up (PairFilter::lever): the angle is 2 asin(s) <= 2 (s + s^3) for the length s
-/// of the relative quaternion's vector part, s <= 0.8.
-double Certified::motion_since_last(const RigidTransform& transform, const Pose& X_WM) const {
-  const Vec3& origin = scene_.moving->wide_hierarchy().origin;
-  const double shift = (transform.point(origin) - last_transform_.point(origin)).norm();
-  const double sine = (X_WM.rotation * last_pose_.rotation.conjugate()).vec().norm();
-  if (sine > 0.8) return std::numeric_limits<double>::infinity();
-  return (shift + lever_ * 2.0 * (sine + sine * sine * sine)) * (1.0 + 1e-12) + 1e-3 * touch_;
 }
 
 bool Certified::evaluate(const PairFilter& filter, std::int32_t body, const TrianglePair& pair,
@@ -132,10 +118,10 @@ bool Certified::evaluate(const PairFilter& filter, std::int32_t body, const Tria
 }
 
 /// Settles a candidate or leaves its triangle pairs to decide_pending; returns what WideFrontier asks for.
-double Certified::decide(const PairFilter& filter, std::int32_t body, const WidePair& candidate,
+double Certified::decide(const PairFilter& filter, std::int32_t body, const WidePair& candidate, double lever,
                          WorkCounters& counters) {
   const FeatureId on_moving = candidate.a.feature_id(), on_fixed = candidate.b.feature_id();
-  const PairAnswer answer = filter(on_moving, on_fixed);
+  const PairAnswer answer = filter(on_moving, on_fixed, lever);
   if (answer.verdict == PairVerdict::NO_LMD) return answer.slack;
   const auto triangles_moving = filter.moving.incident_triangles(on_moving);
   const auto triangles_fixed = filter.fixed.incident_triangles(on_fixed);
@@ -215,15 +201,17 @@ void Certified::search(const Pose& X_WM, LmdSet& lmds, WorkCounters& counters) {
   }
   // The same in neighbouring frames, so that what was kept with it stays valid.
   const double touch = RELATIVE_TOUCH * std::exp2(std::ceil(std::log2(coordinates)));
-  const double motion = has_last_ && touch == touch_ ? motion_since_last(transform, X_WM)
-                                                     : std::numeric_limits<double>::infinity();
-  touch_ = touch;
-  pace_ = std::isfinite(motion) ? std::max(motion, PACE_DECAY * pace_) : 0.0;
-  const double horizon = HORIZON_FRAMES * pace_;
-  const bool keep = coherent_ && std::isfinite(motion) && horizon <= scene_.cutoff;
-  has_last_ = true;
-  last_pose_ = X_WM;
-  last_transform_ = transform;
+  bool keep = false;
+  if (coherent_) {
+    if (has_last_ && touch == touch_) {
+      keep = clocks_.advance(moving, transform, X_WM, 1e-3 * touch) &&
+             clocks_.largest_shift_pace() <= LARGEST_PACE * scene_.cutoff;
+    } else {
+      clocks_.reset(moving, transform, X_WM);
+    }
+    has_last_ = true;
+    touch_ = touch;
+  }
 
   for (std::size_t i = 0; i < scene_.fixed.size(); ++i) {
     const auto body = static_cast<std::int32_t>(i);
@@ -234,27 +222,26 @@ void Certified::search(const Pose& X_WM, LmdSet& lmds, WorkCounters& counters) {
                             scene_.cutoff,
                             touch,
                             FILTER_MARGIN,
-                            RELATIVE_TINY * coordinates,
-                            lever_};
+                            RELATIVE_TINY * coordinates};
     const WideQuery query(moving, fixed, transform, scene_.cutoff, touch);
     WideCounters work;
-    const auto decide_pair = [&](const WidePair& pair, bool touches) {
+    const auto decide_pair = [&](const WidePair& pair, bool touches, double lever) {
       ++counters[Counter::LEAF_PAIRS];
-      return touches ? decide_touching(filter, pair, counters) : decide(filter, body, pair, counters);
+      return touches ? decide_touching(filter, pair, counters) : decide(filter, body, pair, lever, counters);
     };
     WideFrontier& frontier = frontiers_[i];
     if (keep && query.possible) {
       if (frontier.empty()) {
-        frontier.start(moving, fixed, query, lever_, horizon, work);
+        frontier.start(moving, fixed, query, clocks_, scene_.cutoff, work);
       } else {
-        frontier.advance(moving, fixed, query, lever_, horizon, motion, work);
+        frontier.advance(moving, fixed, query, clocks_, scene_.cutoff, work);
       }
-      frontier.for_each_due(decide_pair);
+      frontier.for_each_due(clocks_, decide_pair);
     } else {
       frontier.clear();
       find_wide_pairs(moving, fixed, query, kernel_, scratch_, work);
-      for (const WidePair& pair : scratch_.lmd_pairs) decide_pair(pair, false);
-      for (const WidePair& pair : scratch_.touch_pairs) decide_pair(pair, true);
+      for (const WidePair& pair : scratch_.lmd_pairs) decide_pair(pair, false, 1.0);
+      for (const WidePair& pair : scratch_.touch_pairs) decide_pair(pair, true, 1.0);
     }
     decide_pending(filter, body, counters);
     counters[Counter::NODE_PAIRS] += work.node_pairs;

@@ -45,7 +45,7 @@ namespace lmdbench {
 /// The merging of plateaus is the truth's, and it sees the same minima.
 ///
 /// Frame coherence: where the pose moves by little, step 1 is not made anew; the tests of the last frames are
-/// kept with the motion that each stands (wide_frontier.h), and so are the answers of step 2 (PairFilter).
+/// kept with the motion that each stands (wide_slack.h), and so are the answers of step 2 (PairFilter).
 /// Only what has expired is done again, and what may be an LMD is decided in every frame. Where the pose
 /// jumps, the frame is searched from scratch and nothing is kept. The set is the same either way; the work
 /// counters tell what was done.
@@ -68,8 +68,7 @@ class Certified : public Method {
     auto operator<=>(const TrianglePair&) const = default;
   };
 
-  double motion_since_last(const RigidTransform& transform, const Pose& X_WM) const;
-  double decide(const PairFilter& filter, std::int32_t body, const WidePair& candidate,
+  double decide(const PairFilter& filter, std::int32_t body, const WidePair& candidate, double lever,
                 WorkCounters& counters);
   double decide_touching(const PairFilter& filter, const WidePair& candidate, WorkCounters& counters);
   void decide_pending(const PairFilter& filter, std::int32_t body, WorkCounters& counters);
@@ -80,17 +79,14 @@ class Certified : public Method {
   Scene scene_;
   bool coherent_;
   WideKernel kernel_;
-  double lever_ = 0.0;  ///< PairFilter::lever
   double touch_ = 0.0;
   WideScratch scratch_;
   std::vector<TrianglePair> pending_;
   std::vector<LocalMinimum> minima_;
 
   std::vector<WideFrontier> frontiers_;  ///< One a fixed body; empty where nothing is kept.
-  bool has_last_ = false;
-  Pose last_pose_;
-  RigidTransform last_transform_;
-  double pace_ = 0.0;  ///< Size of the motions of the last frames [m].
+  MotionClocks clocks_;
+  bool has_last_ = false;  ///< The clocks hold the last frame's pose.
 };
 
 }  // namespace lmdbench

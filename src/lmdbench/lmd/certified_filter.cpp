@@ -55,10 +55,11 @@ struct Side {
 
 struct Test {
   const PairFilter& filter;
+  double lever;
   Side moving, fixed;
 
-  explicit Test(const PairFilter& f)
-      : filter(f), moving{f.moving, f.X_WM, true}, fixed{f.fixed, f.X_WM, false} {}
+  Test(const PairFilter& f, double lever_of_motions)
+      : filter(f), lever(lever_of_motions), moving{f.moving, f.X_WM, true}, fixed{f.fixed, f.X_WM, false} {}
 
   /// A length that must fall to zero before anything changes, less what rounding and the truth's tolerances
   /// take.
@@ -177,7 +178,7 @@ struct Test {
       if (distance < -allowed) return no_lmd(slack(-distance / std::sqrt(squared_side)));
       if (!(distance > allowed)) answer = CLOSE;
     }
-    settle(answer, in_vertex_cone(of_vertex, vertex, -height * n, filter.lever));
+    settle(answer, in_vertex_cone(of_vertex, vertex, -height * n, lever));
     return answer;
   }
 
@@ -210,8 +211,8 @@ struct Test {
       const double beyond = std::max(beyond_s, beyond_t);
       // Every point of the edge must stay on its side, so the farthest one is the lever arm.
       const double arm = beyond + d.norm() + std::sqrt(std::max(uu, vv));
-      const double turning = TURN_FACTOR * arm / (sine * filter.lever);
-      return no_lmd(std::min(slack(beyond * sine) / (1.0 + turning), 0.5 * sine * filter.lever));
+      const double turning = TURN_FACTOR * arm / (sine * lever);
+      return no_lmd(std::min(slack(beyond * sine) / (1.0 + turning), 0.5 * sine * lever));
     }
     PairAnswer answer = HOLDS;
     if (!strictly_inside(s) || !strictly_inside(t)) answer = CLOSE;
@@ -219,7 +220,7 @@ struct Test {
     const double squared_d = d.squaredNorm();
     if (settle(answer, near(squared_d))) return answer;
     const double sine = std::sqrt(determinant / (uu * vv));
-    const double turns = filter.lever * sine / TURN_FACTOR;
+    const double turns = lever * sine / TURN_FACTOR;
     if (settle(answer, in_edge_cone(moving, a, s, d, turns))) return limited(answer, squared_d, sine);
     if (settle(answer, in_edge_cone(fixed, b, t, -d, turns))) return limited(answer, squared_d, sine);
     return answer;
@@ -236,8 +237,8 @@ struct Test {
   /// through each other.
   PairAnswer limited(const PairAnswer& answer, double squared_d, double sine) const {
     const double distance = std::sqrt(squared_d);
-    const double crossing = slack(distance) / (1.0 + TURN_FACTOR * distance / (sine * filter.lever));
-    return no_lmd(std::min({answer.slack, crossing, 0.5 * sine * filter.lever}));
+    const double crossing = slack(distance) / (1.0 + TURN_FACTOR * distance / (sine * lever));
+    return no_lmd(std::min({answer.slack, crossing, 0.5 * sine * lever}));
   }
 
   PairAnswer edge_face(const Side& of_edge, std::int32_t edge, const Side& of_face, std::int32_t face) const {
@@ -250,8 +251,7 @@ struct Test {
     const double length = u.norm();
     const double band = PARALLEL_BAND * length;
     const double rise = std::abs(u.dot(n));
-    if (length > filter.tiny && rise > band)
-      return no_lmd(filter.lever * (rise / length - 0.5 * PARALLEL_BAND));
+    if (length > filter.tiny && rise > band) return no_lmd(lever * (rise / length - 0.5 * PARALLEL_BAND));
     const auto& corners = of_face.surface.mesh.triangles[static_cast<std::size_t>(face)];
     const double height = n.dot(e0 - of_face.vertex_W(corners[0]));
     if (height < -band) return no_lmd(slack(-height));
@@ -263,14 +263,14 @@ struct Test {
     const Vec3& normal_b = fixed.surface.face_normals[static_cast<std::size_t>(b)];
     if (normal_a.isZero(0.0) || normal_b.isZero(0.0)) return no_lmd(std::numeric_limits<double>::infinity());
     const double apart = (moving.to_world(normal_a) + normal_b).norm();
-    return apart > PARALLEL_BAND ? no_lmd(filter.lever * (apart - 0.5 * PARALLEL_BAND)) : CLOSE;
+    return apart > PARALLEL_BAND ? no_lmd(lever * (apart - 0.5 * PARALLEL_BAND)) : CLOSE;
   }
 };
 
 }  // namespace
 
-PairAnswer PairFilter::operator()(const FeatureId& on_moving, const FeatureId& on_fixed) const {
-  const Test test(*this);
+PairAnswer PairFilter::operator()(const FeatureId& on_moving, const FeatureId& on_fixed, double lever) const {
+  const Test test(*this, lever);
   const std::int32_t a = on_moving.index, b = on_fixed.index;
   switch (on_moving.kind) {
     case FeatureKind::VERTEX:

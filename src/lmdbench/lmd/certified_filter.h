@@ -17,8 +17,8 @@ enum class PairVerdict : std::uint8_t {
               ///< decide.
 };
 
-/// What a test answers, and for how long: a pair without LMD has none either after any motion of the moving
-/// mesh that is smaller than `slack` (0 where nothing is known; see PairFilter::lever).
+/// What a test answers, and for how long: a pair without LMD has none either after a motion of the moving
+/// mesh whose size (wide_slack.h) is smaller than `slack`; 0 where nothing is known.
 struct PairAnswer {
   PairVerdict verdict = PairVerdict::BORDERLINE;
   double slack = 0.0;  ///< metres; meaningful for NO_LMD only
@@ -33,13 +33,6 @@ struct PairFilter {
   double touch;   ///< metres; pairs nearer than half of it are not this filter's: see Certified
   double margin;  ///< Relative to the lengths compared, or a sine. Far above rounding, far below geometry.
   double tiny;    ///< metres; a feature shorter than this is rounding in its size and always borderline
-  /// Metres that a radian of rotation counts as. The size of a motion is |change of the moving mesh's centre|
-  /// + lever * angle, summed over frames; with lever >= radius + 2 cutoff, for every p on the moving and q on
-  /// the fixed mesh that are within the cutoff after the motion, p moves by less than its size in the fixed
-  /// mesh's frame, q by less in the moving mesh's frame, and so does q - p in either; directions turn by less
-  /// than size / lever.
-  double lever;
-
   /// Decides by the one candidate point pair that the two features have: two vertices; a vertex and its
   /// projection on an edge or face; the feet of the common perpendicular of two edges. The conditions are
   /// those of the ground truth's first-order test (first_order.h) with `margin` in place of its tolerance:
@@ -58,7 +51,8 @@ struct PairFilter {
   /// - d leaves a cone by d . e > 0 for a unit e: changes by no more than d does, or by |d| times the angle
   /// where the
   ///   direction is a face's normal or n.
-  PairAnswer operator()(const FeatureId& on_moving, const FeatureId& on_fixed) const;
+  /// @param lever of the size of motions that the slack is for [m]: a size bounds the angle by size / lever
+  PairAnswer operator()(const FeatureId& on_moving, const FeatureId& on_fixed, double lever) const;
 };
 
 }  // namespace lmdbench

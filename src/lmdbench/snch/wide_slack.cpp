@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include <lmdbench/snch/wide_frontier.h>
+#include <lmdbench/snch/wide_slack.h>
 
 #include <algorithm>
 #include <cmath>
@@ -11,6 +11,8 @@
 #define HWY_TARGET_INCLUDE "lmdbench/snch/wide_slack.cpp"
 #include <hwy/foreach_target.h>
 // After foreach_target.h:
+#include <lmdbench/snch/wide_vectors-inl.h>
+
 #include <hwy/highway.h>
 
 HWY_BEFORE_NAMESPACE();
@@ -18,20 +20,9 @@ namespace lmdbench::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-using Lanes = hn::CappedTag<float, WIDE_WIDTH>;
-
-template <class Mask>
-HWY_INLINE std::uint32_t mask_bits(Lanes lanes, Mask mask, std::uint32_t first) {
-  alignas(8) std::uint8_t bytes[8] = {};
-  hn::StoreMaskBits(lanes, mask, bytes);
-  const std::uint32_t all = hn::Lanes(lanes) >= 8 ? 0xFFu : (1u << hn::Lanes(lanes)) - 1u;
-  return (bytes[0] & all) << first;
-}
-
-/// The same operations in the same order as test_lanes_slack_scalar, but for the least slack, which has no
-/// order.
-void TestSlack(const WideNode& node, const WideProbe& probe, const WideLimits& limits, float lever,
-               float horizon, std::uint32_t touch_lanes, WideSlackMasks& masks) {
+/// The same operations in the same order as test_lanes_slack_scalar.
+HWY_INLINE WideSlackMasks test_slack(const WideNode& node, const WideProbe& probe, const WideLimits& limits,
+                                     const WidePaces& paces, std::uint32_t touch_lanes) {
   const Lanes f;
   const hn::RebindToUnsigned<Lanes> u;
   const auto squared = [](auto x) HWY_ATTR { return hn::Mul(x, x); };
@@ -48,13 +39,15 @@ void TestSlack(const WideNode& node, const WideProbe& probe, const WideLimits& l
   const auto probe_thickness = hn::Set(f, probe.thickness);
   const auto probe_cosine = hn::Set(f, probe.cosine);
   const auto probe_sine = hn::Set(f, probe.sine);
-  const auto horizon_lanes = hn::Set(f, horizon);
+  const auto horizon_lanes = hn::Set(f, paces.horizon);
+  const auto per_metre = hn::Set(f, paces.frames_per_metre);
+  const auto per_radian = hn::Set(f, paces.frames_per_radian);
   const auto infinite = hn::Set(f, std::numeric_limits<float>::infinity());
   const auto half_diagonal = hn::Set(f, 0.7F);
-  auto least = infinite;
+  auto least_length = infinite, least_angle = infinite;
   alignas(32) static constexpr std::uint32_t LANE_BITS[WIDE_WIDTH] = {1, 2, 4, 8, 16, 32, 64, 128};
 
-  masks = WideSlackMasks{};
+  WideSlackMasks masks;
   for (std::uint32_t first = 0; first < WIDE_WIDTH; first += static_cast<std::uint32_t>(hn::Lanes(f))) {
     const auto dx = hn::Sub(hn::Load(f, node.centre[0] + first), hn::Set(f, probe.centre[0]));
     const auto dy = hn::Sub(hn::Load(f, node.centre[1] + first), hn::Set(f, probe.centre[1]));
@@ -97,8 +90,7 @@ void TestSlack(const WideNode& node, const WideProbe& probe, const WideLimits& l
     const auto g2_cosines = hn::Add(
         hn::Sub(hn::Sub(hn::Mul(cosine, probe_cosine), hn::Mul(sine, probe_sine)), direction_rounding),
         between);
-    const auto g2 =
-        hn::Mul(hn::Div(g2_cosines, hn::IfThenElse(hn::Le(between, zero), across, one)), hn::Set(f, lever));
+    const auto g2 = hn::Div(g2_cosines, hn::IfThenElse(hn::Le(between, zero), across, one));
     const auto side_probe = hn::Add(hn::Mul(radii, probe_cosine),
                                     hn::Mul(probe_sine, hn::Min(reach_probe, hn::Mul(cutoff, probe_cosine))));
     const auto side_lane =
@@ -111,26 +103,62 @@ void TestSlack(const WideNode& node, const WideProbe& probe, const WideLimits& l
         hn::Max(hn::Max(hn::Neg(reach_probe), hn::Neg(reach_lane)),
                 hn::Mul(hn::Max(hn::Sub(lateral_probe, side_probe), hn::Sub(lateral_lane, side_lane)),
                         half_diagonal));
-    const auto lmd_slack = hn::Max(g1, hn::Max(g2, g3));
+    const auto length_slack = hn::Max(g1, g3);
+    const auto length_frames = hn::Mul(length_slack, per_metre);
+    const auto angle_frames = hn::Mul(g2, per_radian);
+    const auto by_length = hn::Ge(length_frames, angle_frames);
 
     const auto used = hn::RebindMask(f, hn::Ne(hn::Load(u, node.child + first), hn::Zero(u)));
     const auto touch_matters = hn::RebindMask(
         f, hn::Ne(hn::And(hn::Load(u, LANE_BITS + first), hn::Set(u, touch_lanes)), hn::Zero(u)));
-    const auto lmd = hn::And(used, hn::Le(lmd_slack, horizon_lanes));
-    const auto touch = hn::And(hn::And(used, touch_matters), hn::Le(touch_slack, horizon_lanes));
+    const auto lmd = hn::And(used, hn::Le(hn::Max(length_frames, angle_frames), horizon_lanes));
+    const auto touch =
+        hn::And(hn::And(used, touch_matters), hn::Le(hn::Mul(touch_slack, per_metre), horizon_lanes));
     masks.used |= mask_bits(f, used, first);
     masks.lmd |= mask_bits(f, lmd, first);
     masks.touch |= mask_bits(f, touch, first);
-    const auto lmd_dead = hn::IfThenElse(hn::AndNot(lmd, used), lmd_slack, infinite);
-    const auto touch_dead =
-        hn::IfThenElse(hn::AndNot(touch, hn::And(used, touch_matters)), touch_slack, infinite);
-    // A lane below which there is another test has no expiry here, whichever test let it through; one with a
-    // final pair keeps both. Taking the lesser for all is safe.
-    least = hn::Min(least, hn::Min(lmd_dead, touch_dead));
+    const auto dead = hn::AndNot(lmd, used);
+    const auto touch_dead = hn::AndNot(touch, hn::And(used, touch_matters));
+    least_length = hn::Min(least_length, hn::IfThenElse(hn::And(dead, by_length), length_slack, infinite));
+    least_length = hn::Min(least_length, hn::IfThenElse(touch_dead, touch_slack, infinite));
+    least_angle = hn::Min(least_angle, hn::IfThenElse(hn::AndNot(by_length, dead), g2, infinite));
   }
-  alignas(32) float slacks[WIDE_WIDTH];
-  hn::Store(least, f, slacks);
-  masks.slack = *std::min_element(slacks, slacks + hn::Lanes(f));
+  masks.length_slack = hn::GetLane(hn::MinOfLanes(f, least_length));
+  masks.angle_slack = hn::GetLane(hn::MinOfLanes(f, least_angle));
+  return masks;
+}
+
+void TestSlack(const WideNode& node, const WideProbe& probe, const WideLimits& limits, const WidePaces& paces,
+               std::uint32_t touch_lanes, WideSlackMasks& masks) {
+  masks = test_slack(node, probe, limits, paces, touch_lanes);
+}
+
+/// Nothing here depends on an earlier test, so that a processor works on several at once.
+void TestBatch(const WideHierarchy& a, const WideHierarchy& b, const WideQuery& query,
+               std::vector<WideKeptTest>& tests) {
+  for (WideKeptTest& test : tests) {
+    const WideOpening opening = choose_opening(a, b, test.slot_a, test.slot_b);
+    const bool open_a = opening.open_a;
+    const std::uint32_t home_slot = open_a ? test.slot_b : test.slot_a;
+    const WideNode& home = (open_a ? b : a).nodes[home_slot / WIDE_WIDTH];
+    const std::uint32_t home_lane = home_slot % WIDE_WIDTH;
+    const WideNode& node = (open_a ? a : b).nodes[opening.node];
+    const WideProbe probe = make_probe_vector(home, home_lane, open_a ? query.b_in_a : query.a_in_b);
+    const WideRef probe_ref = WideRef::from_bits(home.child[home_lane]);
+    const KindBits kinds = kind_bits(node);
+    // What can only touch matters for faces alone.
+    const bool may_touch = !probe_ref.is_feature() || probe_ref.is_face();
+    const std::uint32_t touch_lanes = may_touch ? kinds.faces | (0xFFu & ~kinds.features) : 0u;
+    const WideSlackMasks masks = test_slack(node, probe, query.limits, test.paces, touch_lanes);
+    const std::uint32_t final_lanes = probe_ref.is_feature() ? kinds.features : 0u;
+    test.opening = opening;
+    test.used = masks.used;
+    test.opened = (masks.lmd | masks.touch) & ~final_lanes;
+    test.lmd = masks.lmd & final_lanes;
+    test.touch = masks.touch & final_lanes;
+    test.length_slack = masks.length_slack;
+    test.angle_slack = masks.angle_slack;
+  }
 }
 
 }  // namespace lmdbench::HWY_NAMESPACE
@@ -141,18 +169,23 @@ HWY_AFTER_NAMESPACE();
 namespace lmdbench {
 
 HWY_EXPORT(TestSlack);
+HWY_EXPORT(TestBatch);
+
+void test_batch(const WideHierarchy& a, const WideHierarchy& b, const WideQuery& query,
+                std::vector<WideKeptTest>& tests) {
+  HWY_DYNAMIC_DISPATCH(TestBatch)(a, b, query, tests);
+}
 
 WideSlackMasks test_lanes_slack(const WideNode& node, const WideProbe& probe, const WideLimits& limits,
-                                float lever, float horizon, std::uint32_t touch_lanes) {
+                                const WidePaces& paces, std::uint32_t touch_lanes) {
   WideSlackMasks masks;
-  HWY_DYNAMIC_DISPATCH(TestSlack)(node, probe, limits, lever, horizon, touch_lanes, masks);
+  HWY_DYNAMIC_DISPATCH(TestSlack)(node, probe, limits, paces, touch_lanes, masks);
   return masks;
 }
 
 WideSlackMasks test_lanes_slack_scalar(const WideNode& node, const WideProbe& probe, const WideLimits& limits,
-                                       float lever, float horizon, std::uint32_t touch_lanes) {
+                                       const WidePaces& paces, std::uint32_t touch_lanes) {
   WideSlackMasks masks;
-  masks.slack = std::numeric_limits<float>::infinity();
   for (std::uint32_t lane = 0; lane < WIDE_WIDTH; ++lane) {
     if (node.child[lane] == 0) continue;
     const std::uint32_t bit = 1u << lane;
@@ -181,7 +214,7 @@ WideSlackMasks test_lanes_slack_scalar(const WideNode& node, const WideProbe& pr
         std::max({apart, apart_probe, -reach_probe, apart_lane, -reach_lane}) - limits.touch;
     const float g1 = std::max({apart, apart_probe, apart_lane}) - limits.cutoff;
     const float g2 = ((cosine * probe.cosine - sine * probe.sine) - DIRECTION_ROUNDING + between) /
-                     (between <= 0.0F ? across : 1.0F) * lever;
+                     (between <= 0.0F ? across : 1.0F);
     const float side_probe =
         radii * probe.cosine + probe.sine * std::min(reach_probe, limits.cutoff * probe.cosine);
     const float side_lane = radii * cosine + sine * std::min(reach_lane, limits.cutoff * cosine);
@@ -190,18 +223,22 @@ WideSlackMasks test_lanes_slack_scalar(const WideNode& node, const WideProbe& pr
     const float lateral_lane = std::sqrt(std::max(least_squared_distance - z_lane * z_lane, 0.0F)) * cosine;
     const float g3 = std::max(
         {-reach_probe, -reach_lane, std::max(lateral_probe - side_probe, lateral_lane - side_lane) * 0.7F});
-    const float lmd_slack = std::max({g1, g2, g3});
+    const float length_slack = std::max(g1, g3);
+    const float length_frames = length_slack * paces.frames_per_metre;
+    const float angle_frames = g2 * paces.frames_per_radian;
 
     const bool touch_matters = (touch_lanes >> lane & 1u) != 0;
-    if (lmd_slack <= horizon) {
+    if (std::max(length_frames, angle_frames) <= paces.horizon) {
       masks.lmd |= bit;
+    } else if (length_frames >= angle_frames) {
+      masks.length_slack = std::min(masks.length_slack, length_slack);
     } else {
-      masks.slack = std::min(masks.slack, lmd_slack);
+      masks.angle_slack = std::min(masks.angle_slack, g2);
     }
-    if (touch_matters && touch_slack <= horizon) {
+    if (touch_matters && touch_slack * paces.frames_per_metre <= paces.horizon) {
       masks.touch |= bit;
     } else if (touch_matters) {
-      masks.slack = std::min(masks.slack, touch_slack);
+      masks.length_slack = std::min(masks.length_slack, touch_slack);
     }
   }
   return masks;

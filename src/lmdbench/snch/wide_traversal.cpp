@@ -14,6 +14,8 @@
 #define HWY_TARGET_INCLUDE "lmdbench/snch/wide_traversal.cpp"
 #include <hwy/foreach_target.h>
 // After foreach_target.h:
+#include <lmdbench/snch/wide_vectors-inl.h>
+
 #include <hwy/highway.h>
 
 HWY_BEFORE_NAMESPACE();
@@ -23,17 +25,6 @@ namespace hn = hwy::HWY_NAMESPACE;
 
 /// Entries of a queue that has never been used; it grows by doubling.
 constexpr std::size_t QUEUE_START = 4096;
-
-/// Lanes per vector: eight, or four twice where vectors are 128 bits wide.
-using Lanes = hn::CappedTag<float, WIDE_WIDTH>;
-
-template <class Mask>
-HWY_INLINE std::uint32_t mask_bits(Lanes lanes, Mask mask, std::uint32_t first) {
-  alignas(8) std::uint8_t bytes[8] = {};
-  hn::StoreMaskBits(lanes, mask, bytes);
-  const std::uint32_t all = hn::Lanes(lanes) >= 8 ? 0xFFu : (1u << hn::Lanes(lanes)) - 1u;
-  return (bytes[0] & all) << first;
-}
 
 /// The same operations in the same order as test_lanes_scalar.
 struct VectorTest {
@@ -129,49 +120,6 @@ struct ScalarTest {
     return test_lanes_scalar(node, probe, limits);
   }
 };
-
-/// What the children of a node are, as bit masks.
-struct KindBits {
-  std::uint32_t features = 0;
-  std::uint32_t faces = 0;
-};
-
-HWY_INLINE KindBits kind_bits(const WideNode& node) {
-  const Lanes f;
-  const hn::RebindToUnsigned<Lanes> u;
-  KindBits bits;
-  for (std::uint32_t first = 0; first < WIDE_WIDTH; first += static_cast<std::uint32_t>(hn::Lanes(u))) {
-    const auto child = hn::Load(u, node.child + first);
-    bits.features |= mask_bits(f, hn::RebindMask(f, hn::Gt(child, hn::Set(u, WideRef::INDEX_MASK))), first);
-    bits.faces |= mask_bits(f, hn::RebindMask(f, hn::Gt(child, hn::Set(u, WideRef::FIRST_FACE - 1u))), first);
-  }
-  return bits;
-}
-
-/// make_probe with vectors, the same operations in the same order.
-HWY_INLINE WideProbe make_probe_vector(const WideNode& node, std::uint32_t lane, const WideTransform& X) {
-  const hn::CappedTag<float, 4> f;
-  WideProbe probe;
-  for (std::size_t row = 0; row < 4; row += hn::Lanes(f)) {
-    const auto column0 = hn::Load(f, X.columns[0] + row);
-    const auto column1 = hn::Load(f, X.columns[1] + row);
-    const auto column2 = hn::Load(f, X.columns[2] + row);
-    const auto centre = hn::Add(hn::Add(hn::Add(hn::Mul(column0, hn::Set(f, node.centre[0][lane])),
-                                                hn::Mul(column1, hn::Set(f, node.centre[1][lane]))),
-                                        hn::Mul(column2, hn::Set(f, node.centre[2][lane]))),
-                                hn::Load(f, X.translation + row));
-    const auto axis = hn::Add(hn::Add(hn::Mul(column0, hn::Set(f, node.axis[0][lane])),
-                                      hn::Mul(column1, hn::Set(f, node.axis[1][lane]))),
-                              hn::Mul(column2, hn::Set(f, node.axis[2][lane])));
-    hn::Store(centre, f, probe.centre + row);
-    hn::Store(axis, f, probe.axis + row);
-  }
-  probe.radius = node.radius[lane];
-  probe.thickness = node.thickness[lane];
-  probe.cosine = node.cosine[lane];
-  probe.sine = node.sine[lane];
-  return probe;
-}
 
 /// First in, first out, without a data-dependent branch but for found pairs: a processor then works on
 /// several tests at once, because none waits for what the one before it appends.

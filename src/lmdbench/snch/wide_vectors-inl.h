@@ -1,0 +1,79 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// Vector helpers of the wide hierarchy, compiled once for every instruction set: included after
+// foreach_target.h, with an include guard that Highway toggles.
+#if defined(LMDBENCH_SNCH_WIDE_VECTORS_INL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef LMDBENCH_SNCH_WIDE_VECTORS_INL_H
+#undef LMDBENCH_SNCH_WIDE_VECTORS_INL_H
+#else
+#define LMDBENCH_SNCH_WIDE_VECTORS_INL_H
+#endif
+
+#include <lmdbench/snch/wide_node_test.h>
+
+#include <hwy/highway.h>
+
+HWY_BEFORE_NAMESPACE();
+namespace lmdbench::HWY_NAMESPACE {
+
+namespace hn = hwy::HWY_NAMESPACE;
+
+/// Lanes per vector: eight, or four twice where vectors are 128 bits wide.
+using Lanes = hn::CappedTag<float, WIDE_WIDTH>;
+
+template <class Mask>
+HWY_INLINE std::uint32_t mask_bits(Lanes lanes, Mask mask, std::uint32_t first) {
+  alignas(8) std::uint8_t bytes[8] = {};
+  hn::StoreMaskBits(lanes, mask, bytes);
+  const std::uint32_t all = hn::Lanes(lanes) >= 8 ? 0xFFu : (1u << hn::Lanes(lanes)) - 1u;
+  return (bytes[0] & all) << first;
+}
+
+/// What the children of a node are, as bit masks.
+struct KindBits {
+  std::uint32_t features = 0;
+  std::uint32_t faces = 0;
+};
+
+HWY_INLINE KindBits kind_bits(const WideNode& node) {
+  const Lanes f;
+  const hn::RebindToUnsigned<Lanes> u;
+  KindBits bits;
+  for (std::uint32_t first = 0; first < WIDE_WIDTH; first += static_cast<std::uint32_t>(hn::Lanes(u))) {
+    const auto child = hn::Load(u, node.child + first);
+    bits.features |= mask_bits(f, hn::RebindMask(f, hn::Gt(child, hn::Set(u, WideRef::INDEX_MASK))), first);
+    bits.faces |= mask_bits(f, hn::RebindMask(f, hn::Gt(child, hn::Set(u, WideRef::FIRST_FACE - 1u))), first);
+  }
+  return bits;
+}
+
+/// make_probe with vectors, the same operations in the same order.
+HWY_INLINE WideProbe make_probe_vector(const WideNode& node, std::uint32_t lane, const WideTransform& X) {
+  const hn::CappedTag<float, 4> f;
+  WideProbe probe;
+  for (std::size_t row = 0; row < 4; row += hn::Lanes(f)) {
+    const auto column0 = hn::Load(f, X.columns[0] + row);
+    const auto column1 = hn::Load(f, X.columns[1] + row);
+    const auto column2 = hn::Load(f, X.columns[2] + row);
+    const auto centre = hn::Add(hn::Add(hn::Add(hn::Mul(column0, hn::Set(f, node.centre[0][lane])),
+                                                hn::Mul(column1, hn::Set(f, node.centre[1][lane]))),
+                                        hn::Mul(column2, hn::Set(f, node.centre[2][lane]))),
+                                hn::Load(f, X.translation + row));
+    const auto axis = hn::Add(hn::Add(hn::Mul(column0, hn::Set(f, node.axis[0][lane])),
+                                      hn::Mul(column1, hn::Set(f, node.axis[1][lane]))),
+                              hn::Mul(column2, hn::Set(f, node.axis[2][lane])));
+    hn::Store(centre, f, probe.centre + row);
+    hn::Store(axis, f, probe.axis + row);
+  }
+  probe.radius = node.radius[lane];
+  probe.thickness = node.thickness[lane];
+  probe.cosine = node.cosine[lane];
+  probe.sine = node.sine[lane];
+  return probe;
+}
+
+}  // namespace lmdbench::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif  // include guard
