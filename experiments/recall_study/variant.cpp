@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 namespace lmdbench::recall_study {
 namespace {
@@ -32,22 +33,29 @@ std::vector<Variant> improved_variants() {
   vertex_normal.visibility = Visibility::VERTEX_NORMAL;
   MethodOptions orthogonal;
   orthogonal.visibility = Visibility::ORTHOGONAL;
+  MethodOptions literal_g3 = off;
+  literal_g3.literal_g3 = true;
   std::vector<Variant> variants = {
       {"cones only (visibility off)", "improved", off, 0},
       {"visibility vertex-normal", "improved", vertex_normal, 0},
       {"visibility orthogonal", "improved", orthogonal, 0},
+      {"G3 as printed (E2), visibility off", "improved", literal_g3, 0},
   };
-  for (MethodOptions options : {off, vertex_normal})
-    for (const Reduction reduction : {Reduction::PUBLISHED, Reduction::LOSS_FREE}) {
-      options.reduction = reduction;
-      variants.push_back({fmt::format("visibility {}, {} reduction",
-                                      options.visibility == Visibility::OFF ? "off" : "vertex-normal",
-                                      reduction == Reduction::PUBLISHED ? "published" : "loss-free"),
-                          "improved", options, 1});
-    }
-  MethodOptions by_index = off;
-  by_index.tracking_order = TrackingOrder::TRIANGLE_INDEX;
-  variants.push_back({"visibility off, published reduction by triangle index", "improved", by_index, 1});
+  const auto add_tracked = [&variants](const std::string& label, MethodOptions options, Reduction reduction,
+                                       TrackingOrder order) {
+    options.reduction = reduction;
+    options.tracking_order = order;
+    variants.push_back({label, "improved", options, 1});
+  };
+  for (const auto& [name, options] : {std::pair("off", off), std::pair("vertex-normal", vertex_normal)}) {
+    const std::string visibility = fmt::format("visibility {}, ", name);
+    add_tracked(visibility + "published reduction", options, Reduction::PUBLISHED,
+                TrackingOrder::NEAREST_FIRST);
+    add_tracked(visibility + "published reduction in triangle order", options, Reduction::PUBLISHED,
+                TrackingOrder::TRIANGLE_INDEX);
+    add_tracked(visibility + "loss-free reduction", options, Reduction::LOSS_FREE,
+                TrackingOrder::NEAREST_FIRST);
+  }
   return variants;
 }
 
