@@ -150,6 +150,42 @@ TEST_F(BuildMeshTest, TellsAFailedDownloadAndHowToGoWithoutOne) {
                              HasSubstr("apt-get update"), HasSubstr("some-package_*.deb")));
 }
 
+// The same source as an npm package with a compressed mesh.
+class BuildNpmMeshTest : public BuildMeshTest {
+ protected:
+  void SetUp() override {
+    BuildMeshTest::SetUp();
+    fs::create_directories(folder_.path() / "npm" / "package" / "models");
+    write_off(folder_.path() / "npm" / "package" / "models" / "blob.off", make_blob(1.0, 0.3, 3));
+    run({"gzip", "npm/package/models/blob.off"});
+    run({"tar", "-czf", (sources() / "some-package-1.0.0.tgz").string(), "-C", "npm", "package"});
+    nlohmann::json document = nlohmann::json::parse(R"({
+      "format": "lmdbench-mesh-manifest", "format_version": 1, "sources": {},
+      "meshes": {"blob": {"description": "d", "source": "blob", "triangles": 1280, "optional": true}}})");
+    document["sources"]["blob"] = {{"registry", "npm"},      {"package", "some-package"},
+                                   {"version", "1.0.0"},     {"path", "package/models/blob.off.gz"},
+                                   {"sha256", source_hash_}, {"licence", "l"},
+                                   {"credit", "c"}};
+    manifest_ = load_manifest(folder_.write("meshes/manifest.json", document.dump()));
+  }
+};
+
+TEST_F(BuildNpmMeshTest, UnpacksCompressedMeshes) {
+  const BuildOutcome outcome = build("blob");
+  EXPECT_TRUE(outcome.matches_manifest);
+  EXPECT_EQ(import_mesh(outcome.file).vertices, make_blob(1.0, 0.3, 3).vertices);
+  EXPECT_TRUE(fs::exists(sources() / "blob.off")) << "kept, without .gz";
+}
+
+TEST_F(BuildNpmMeshTest, TellsThatNpmIsMissing) {
+  fs::remove_all(sources());
+  const std::string path = std::getenv("PATH");
+  ::setenv("PATH", folder_.path().c_str(), 1);
+  const std::string message = message_of<EnvironmentError>([&] { build("blob"); });
+  ::setenv("PATH", path.c_str(), 1);
+  EXPECT_THAT(message, AllOf(HasSubstr("npm"), HasSubstr("cannot be started"), HasSubstr("install npm")));
+}
+
 TEST_F(BuildMeshTest, ShapesNeedNoSource) {
   fs::remove_all(sources());
   EXPECT_TRUE(build("block").matches_manifest);

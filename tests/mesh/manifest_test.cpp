@@ -47,6 +47,22 @@ TEST(ManifestTest, ReadsEntriesWithTheirSources) {
   EXPECT_TRUE(manifest.find("block")->shape);
 }
 
+TEST(ManifestTest, ReadsNpmSourcesAndOptionalMeshes) {
+  const TemporaryFolder folder;
+  json document = small_manifest();
+  json& source = document["sources"]["thing"];
+  source.erase("archive");
+  source["registry"] = "npm";
+  source["version"] = "1.1.1";
+  document["meshes"]["thing-1k"]["optional"] = true;
+  const Manifest manifest = load_manifest(folder.write("manifest.json", document.dump()));
+  const ManifestEntry* thing = manifest.find("thing-1k");
+  EXPECT_TRUE(thing->optional);
+  EXPECT_FALSE(manifest.find("block")->optional);
+  EXPECT_EQ(thing->source->registry, MeshRegistry::NPM);
+  EXPECT_EQ(thing->source->version, "1.1.1");
+}
+
 struct BadManifest {
   std::string name;
   std::function<void(json&)> spoil;
@@ -76,6 +92,12 @@ INSTANTIATE_TEST_SUITE_P(
                     "/sources/thing/path"},
         BadManifest{"option", [](json& d) { d["sources"]["thing"]["archive"] = "--x"; },
                     "/sources/thing/archive"},
+        BadManifest{"registry", [](json& d) { d["sources"]["thing"]["registry"] = "attic"; },
+                    "/sources/thing/registry"},
+        BadManifest{"npm_without_version", [](json& d) { d["sources"]["thing"]["registry"] = "npm"; },
+                    "/sources/thing"},
+        BadManifest{"debian_without_archive", [](json& d) { d["sources"]["thing"].erase("archive"); },
+                    "/sources/thing"},
         BadManifest{"package", [](json& d) { d["sources"]["thing"]["package"] = "-o x"; },
                     "/sources/thing/package"},
         BadManifest{"no_licence", [](json& d) { d["sources"]["thing"].erase("licence"); }, "/sources/thing"},

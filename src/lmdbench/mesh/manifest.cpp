@@ -64,6 +64,27 @@ void validate(const nlohmann::json& document, const std::filesystem::path& file)
   throw InputError(file.string(), pointer_of(deepest->context), deepest->description, MANIFEST_REMEDY);
 }
 
+MeshSource read_source(const std::string& name, const nlohmann::ordered_json& source,
+                       const std::string& file) {
+  MeshSource result;
+  result.name = name;
+  result.registry = source.value("registry", "debian") == "npm" ? MeshRegistry::NPM : MeshRegistry::DEBIAN;
+  const bool npm = result.registry == MeshRegistry::NPM;
+  if (npm != source.contains("version") || npm == source.contains("archive"))
+    throw InputError(file, "/sources/" + name,
+                     npm ? "is of npm: it needs 'version' and has no 'archive'"
+                         : "is of Debian: it needs 'archive' and has no 'version'",
+                     MANIFEST_REMEDY);
+  result.package = source.at("package");
+  result.version = source.value("version", "");
+  result.archive = source.value("archive", "");
+  result.path = source.at("path");
+  result.sha256 = source.at("sha256");
+  result.licence = source.at("licence");
+  result.credit = source.at("credit");
+  return result;
+}
+
 ManifestEntry read_entry(const std::string& name, const nlohmann::ordered_json& mesh,
                          const nlohmann::ordered_json& sources, const std::string& file) {
   const std::string pointer = "/meshes/" + name;
@@ -77,6 +98,7 @@ ManifestEntry read_entry(const std::string& name, const nlohmann::ordered_json& 
   entry.description = mesh.at("description");
   entry.triangles = mesh.at("triangles");
   entry.sha256 = mesh.value("sha256", "");
+  entry.optional = mesh.value("optional", false);
   if (mesh.contains("target_triangles")) entry.target_triangles = mesh.at("target_triangles");
   if (mesh.contains("shape")) {
     if (entry.target_triangles) fail("is a shape: 'target_triangles' is for sources");
@@ -85,14 +107,7 @@ ManifestEntry read_entry(const std::string& name, const nlohmann::ordered_json& 
   }
   const std::string key = mesh.at("source");
   if (!sources.contains(key)) fail(fmt::format("names the source '{}', which is not in /sources", key));
-  const auto& source = sources.at(key);
-  entry.source = MeshSource{key,
-                            source.at("package"),
-                            source.at("archive"),
-                            source.at("path"),
-                            source.at("sha256"),
-                            source.at("licence"),
-                            source.at("credit")};
+  entry.source = read_source(key, sources.at(key), file);
   return entry;
 }
 

