@@ -85,18 +85,19 @@ def error_axis(axes, errors, any_failed):
 
 def spread(index, count, lane_decades):
     """Factor that keeps the points of one lane apart, which all have the same error."""
-    return 10 ** (0.9 * lane_decades * ((index + 0.5) / count - 0.5))
+    return 10 ** (0.3 * lane_decades * ((index + 0.5) / count - 0.5))
 
 
 def draw_panel(axes, points, quantities, label, markers, colours):
     quantity, lenient = quantities
     errors = [getattr(point, name) for point in points for name in quantities if name]
     zero, failed, lane_decades = error_axis(axes, errors, any(point.failure for point in points))
-    for index, point in enumerate(points):
+    in_lane = [point for point in points if point.failure or getattr(point, quantity) == 0]
+    for point in points:
         error = getattr(point, quantity)
         colour = colours[point.method.label]
         bad = bool(point.failure)
-        lane = spread(index, len(points), lane_decades)
+        lane = spread(in_lane.index(point), len(in_lane), lane_decades) if point in in_lane else 1.0
         place = failed * lane if bad else (error if error > 0 else zero * lane)
         if lenient and not bad:
             open_error = getattr(point, lenient)
