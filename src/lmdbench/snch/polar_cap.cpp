@@ -81,22 +81,12 @@ Scratch& scratch() {
   return instance;
 }
 
-std::optional<PolarCap> vertex_cap(const Surface& surface, std::int32_t vertex) {
-  if (surface.adjacency.vertex_triangles[vertex].empty()) return std::nullopt;
-  Scratch& work = scratch();
-  const Vec3& p = surface.mesh.vertices[static_cast<std::size_t>(vertex)];
-  for (const std::int32_t edge : surface.adjacency.vertex_edges[vertex]) {
-    const auto& ends = surface.adjacency.edges[static_cast<std::size_t>(edge)];
-    Vec3 direction =
-        surface.mesh.vertices[static_cast<std::size_t>(ends[0] == vertex ? ends[1] : ends[0])] - p;
-    const double length = direction.norm();
-    if (length > 0.0) work.constraints.push_back({direction / length, POLAR_SLACK});
-  }
-  if (has_outer_side(surface, {FeatureKind::VERTEX, vertex}))
-    work.constraints.push_back(
-        {-surface.vertex_pseudo_normals[static_cast<std::size_t>(vertex)], POLAR_SLACK});
-
+/// Crossings of two constraints' planes that satisfy all others. False when no two planes cross.
+bool find_crossings(Scratch& work) {
   const std::size_t count = work.constraints.size();
+  work.order.clear();
+  work.extremes.directions.clear();
+  work.extremes.slack = 0.0;
   for (std::size_t k = 0; k < count; ++k) work.order.push_back(count - 1 - k);
   bool crossed = false;
   for (std::size_t i = 0; i < count; ++i) {
@@ -118,7 +108,31 @@ std::optional<PolarCap> vertex_cap(const Surface& surface, std::int32_t vertex) 
       }
     }
   }
-  if (!crossed) return PolarCap{};
+  return crossed;
+}
+
+std::optional<PolarCap> vertex_cap(const Surface& surface, std::int32_t vertex) {
+  if (surface.adjacency.vertex_triangles[vertex].empty()) return std::nullopt;
+  Scratch& work = scratch();
+  const Vec3& p = surface.mesh.vertices[static_cast<std::size_t>(vertex)];
+  for (const std::int32_t edge : surface.adjacency.vertex_edges[vertex]) {
+    const auto& ends = surface.adjacency.edges[static_cast<std::size_t>(edge)];
+    Vec3 direction =
+        surface.mesh.vertices[static_cast<std::size_t>(ends[0] == vertex ? ends[1] : ends[0])] - p;
+    const double length = direction.norm();
+    if (length > 0.0) work.constraints.push_back({direction / length, POLAR_SLACK});
+  }
+  if (!find_crossings(work)) return PolarCap{};
+  if (work.extremes.directions.empty()) return std::nullopt;
+  // Saddles are done here, and so are peaks, all of whose directions are outer ones: whether a vertex has an
+  // outer side costs a walk round it.
+  const Vec3& outer = surface.vertex_pseudo_normals[static_cast<std::size_t>(vertex)];
+  const bool all_outer = std::all_of(work.extremes.directions.begin(), work.extremes.directions.end(),
+                                     [&](const Vec3& direction) { return direction.dot(outer) >= 0.0; });
+  if (!all_outer && has_outer_side(surface, {FeatureKind::VERTEX, vertex})) {
+    work.constraints.push_back({-outer, POLAR_SLACK});
+    find_crossings(work);
+  }
   return cap_around(work.extremes);
 }
 

@@ -3,6 +3,7 @@
 #include <lmdbench/geometry/cone.h>
 #include <lmdbench/snch/polar_cap.h>
 #include <lmdbench/snch/single_precision.h>
+#include <lmdbench/snch/wide_bounds.h>
 #include <lmdbench/snch/wide_hierarchy.h>
 
 #include <tbb/blocked_range.h>
@@ -22,8 +23,6 @@ namespace {
 constexpr std::size_t WIDTH = WIDE_WIDTH;
 /// Sets smaller than this are divided by one thread.
 constexpr std::size_t PARALLEL_GRAIN = 4096;
-constexpr int AXIS_STEPS = 12;
-constexpr int CENTRE_STEPS = 12;
 /// Widening of stored cosines and sines: a few roundings of single precision.
 constexpr double CONE_ROUNDING = 5e-7;
 
@@ -238,60 +237,53 @@ class Builder {
     });
   }
 
+  /// Steps that the bounds of a set are refined by: more for the small sets, of which most tests are made,
+  /// and where a step is cheap. Against none they save a quarter of the tests.
+  static int refinement_steps(std::size_t size) {
+    if (size == 1) return 0;
+    return size <= WIDTH * WIDTH ? 8 : 2;
+  }
+
   /// Bounds of one child, rounded outwards.
   void bound(WideNode& node, std::size_t lane, const Range& range) const {
-    const std::span<const Item> items(items_.data() + range.begin, range.size());
-    const PolarCap cap = enclosing_cap(items);
-    const bool carries_lmd =
-        std::any_of(items.begin(), items.end(), [](const Item& item) { return item.carries_lmd; });
-    Eigen::Vector3f axis(to_single(cap.axis[0]), to_single(cap.axis[1]), to_single(cap.axis[2]));
-    const Vec3 rounded_axis = axis.cast<double>();
-    const bool has_axis = !cap.is_all_directions() && carries_lmd;
-    if (!has_axis) axis.setZero();
-
-    // The centre halves the extent along the cone's axis, and the box across it.
-    Vec3 low = Vec3::Constant(std::numeric_limits<double>::infinity()), high = -low;
-    double low_along = std::numeric_limits<double>::infinity(), high_along = -low_along;
-    for_each_corner(items, [&](const Vec3& p) {
-      low = low.cwiseMin(p);
-      high = high.cwiseMax(p);
-      if (has_axis) {
-        low_along = std::min(low_along, p.dot(rounded_axis));
-        high_along = std::max(high_along, p.dot(rounded_axis));
-      }
-    });
-    Vec3 middle = 0.5 * (low + high);
-    if (has_axis)
-      middle += (0.5 * (low_along + high_along) - middle.dot(rounded_axis)) / rounded_axis.squaredNorm() *
-                rounded_axis;
-    Vec3 best = middle;
-    double best_squared = std::numeric_limits<double>::infinity();
-    for (int step = 0; step < CENTRE_STEPS; ++step) {
-      double farthest = 0.0;
-      Vec3 far = middle;
-      for_each_corner(items, [&](const Vec3& p) {
-        const double squared = (p - middle).squaredNorm();
-        if (squared > farthest) {
-          farthest = squared;
-          far = p;
-        }
-      });
-      if (farthest < best_squared) {
-        best_squared = farthest;
-        best = middle;
-      }
-      Vec3 move = far - middle;
-      if (has_axis) move -= move.dot(rounded_axis) / rounded_axis.squaredNorm() * rounded_axis;
-      middle += move / (step + 2.0) * 0.5;
+    thread_local std::vector<PolarCap> caps;
+    thread_local std::vector<std::int32_t> vertices;
+    thread_local std::vector<Vec3> points;
+    caps.clear();
+    vertices.clear();
+    points.clear();
+    bool carries_lmd = false, all_directions = false;
+    for (std::size_t i = range.begin; i < range.end; ++i) {
+      const Item& item = items_[i];
+      const Corners corners(surface_, item.ref.feature_id());
+      vertices.insert(vertices.end(), corners.view().begin(), corners.view().end());
+      if (!item.carries_lmd) continue;
+      carries_lmd = true;
+      all_directions = all_directions || item.cap.is_all_directions();
+      caps.push_back(item.cap);
     }
-    middle = best;
+    // Neighbouring features share most of their corners; where few steps go over them that is not worth
+    // sorting out.
+    if (range.size() <= WIDTH * WIDTH && range.size() > 1) {
+      std::sort(vertices.begin(), vertices.end());
+      vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+    }
+    for (const std::int32_t vertex : vertices)
+      points.push_back(surface_.mesh.vertices[static_cast<std::size_t>(vertex)] - result_.origin);
+
+    const int steps = refinement_steps(range.size());
+    const PolarCap cap = carries_lmd && !all_directions ? enclosing_cap(caps, steps) : PolarCap{};
+    const bool has_axis = !cap.is_all_directions();
+    const Eigen::Vector3f axis(to_single(cap.axis[0]), to_single(cap.axis[1]), to_single(cap.axis[2]));
+    const Vec3 rounded_axis = axis.cast<double>();
+    const Vec3 middle = disc_centre(points, rounded_axis, steps);
     const Eigen::Vector3f centre(to_single(middle[0]), to_single(middle[1]), to_single(middle[2]));
     const Vec3 rounded_centre = centre.cast<double>();
     double squared_radius = 0.0, thickness = 0.0;
-    for_each_corner(items, [&](const Vec3& p) {
+    for (const Vec3& p : points) {
       squared_radius = std::max(squared_radius, (p - rounded_centre).squaredNorm());
-      if (has_axis) thickness = std::max(thickness, std::abs((p - rounded_centre).dot(rounded_axis)));
-    });
+      thickness = std::max(thickness, std::abs((p - rounded_centre).dot(rounded_axis)));
+    }
 
     // Corners were moved to the origin in double precision; that rounding is 1e-16 of the mesh and is added
     // too.
@@ -309,63 +301,6 @@ class Builder {
     } else {
       node.cosine[lane] = has_axis ? std::max(0.0F, static_cast<float>(cap.cosine - CONE_ROUNDING)) : 0.0F;
       node.sine[lane] = has_axis ? std::min(1.0F, static_cast<float>(cap.sine + CONE_ROUNDING)) : 1.0F;
-    }
-  }
-
-  /// Circular cone around the caps of all items that carry LMDs; all directions when it would not be convex.
-  static PolarCap enclosing_cap(std::span<const Item> items) {
-    if (items.size() == 1) return items[0].cap;
-    Vec3 sum = Vec3::Zero();
-    for (const Item& item : items) {
-      if (!item.carries_lmd) continue;
-      if (item.cap.is_all_directions()) return {};
-      sum += item.cap.axis;
-    }
-    const double length = sum.norm();
-    if (!(length > 1e-9)) return {};
-    PolarCap cap;
-    cap.axis = sum / length;
-    double cosine = -1.0;
-    Vec3 axis = cap.axis;
-    for (int step = 0; step < AXIS_STEPS; ++step) {
-      double least = 1.0;
-      const Item* widest = nullptr;
-      for (const Item& item : items) {
-        if (!item.carries_lmd) continue;
-        const double between = std::min(1.0, axis.dot(item.cap.axis));
-        const double reach =
-            between * item.cap.cosine - std::sqrt(std::max(0.0, 1.0 - between * between)) * item.cap.sine;
-        if (reach < least) {
-          least = reach;
-          widest = &item;
-        }
-      }
-      if (least > cosine) {
-        cosine = least;
-        cap.axis = axis;
-      }
-      if (widest == nullptr) break;
-      // Towards the far side of the cap that sticks out most, by ever smaller steps.
-      Vec3 across = widest->cap.axis - axis.dot(widest->cap.axis) * axis;
-      const double across_length = across.norm();
-      if (!(across_length > 1e-12)) break;
-      across /= across_length;
-      const double sine = std::sqrt(std::max(0.0, 1.0 - least * least));
-      axis = (axis + sine / (step + 2.0) * across).normalized();
-    }
-    cosine -= 1e-15;
-    if (!(cosine > 0.0)) return {};
-    cap.cosine = cosine;
-    cap.sine = std::sqrt(std::max(0.0, 1.0 - cosine * cosine));
-    return cap;
-  }
-
-  template <class Visitor>
-  void for_each_corner(std::span<const Item> items, Visitor&& visit) const {
-    for (const Item& item : items) {
-      const Corners corners(surface_, item.ref.feature_id());
-      for (const std::int32_t vertex : corners.view())
-        visit(Vec3(surface_.mesh.vertices[static_cast<std::size_t>(vertex)] - result_.origin));
     }
   }
 
