@@ -54,6 +54,21 @@ find_python() {
   return "$EXIT_ENVIRONMENT"
 }
 
+# apt_as_root ARGUMENT...: apt-get with the rights that it needs, asking nothing.
+apt_as_root() {
+  local as_root=()
+  if ((EUID != 0)); then
+    # Without a terminal nobody can type a password: then only a sudo that asks for none is of use.
+    if command -v sudo >/dev/null && { [[ -t 0 ]] || sudo -n true 2>/dev/null; }; then
+      as_root=(sudo)
+    else
+      say "error: apt-get needs root, and there is no usable sudo (remedy: as root, apt-get $*)"
+      return "$EXIT_ENVIRONMENT"
+    fi
+  fi
+  "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get -q -o Acquire::Retries=3 "$@" </dev/null >&2
+}
+
 # build_preset PRESET [cmake option]...
 build_preset() {
   local preset="$1"

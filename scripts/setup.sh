@@ -25,18 +25,6 @@ if ((${#missing[@]} == 0)); then
 fi
 
 say "Missing packages: ${missing[*]}"
-as_root=()
-if ((EUID != 0)); then
-  # Without a terminal nobody can type a password: then only a sudo that asks for none is of use.
-  if command -v sudo >/dev/null && { [[ -t 0 ]] || sudo -n true 2>/dev/null; }; then
-    as_root=(sudo)
-  else
-    die "$EXIT_ENVIRONMENT" "installing needs root, and there is no usable sudo" \
-      "(remedy: as root, apt-get update && apt-get install --no-install-recommends ${missing[*]})"
-  fi
-fi
-apt=("${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get -q -o Acquire::Retries=3)
-"${apt[@]}" update </dev/null >&2 ||
-  die "$EXIT_ENVIRONMENT" "apt-get update failed (remedy: check the network and /etc/apt/sources.list)"
-"${apt[@]}" install -y --no-install-recommends "${missing[@]}" </dev/null >&2 ||
-  die "$EXIT_ENVIRONMENT" "apt-get install failed (remedy: read its message above; Debian 12 has every package)"
+{ apt_as_root update && apt_as_root install -y --no-install-recommends "${missing[@]}"; } ||
+  die "$EXIT_ENVIRONMENT" "packages are missing (remedy: see the message above; then, as root," \
+    "apt-get update && apt-get install --no-install-recommends ${missing[*]})"
