@@ -30,7 +30,7 @@ struct AccuracyRow {
 /// contact is in question, extended precision elsewhere.
 std::vector<AccuracyRow> judge_accuracy(int pairs);
 
-/// Median time of a pair [ns] for each kernel, in runs that alternate between the kernels.
+/// Median processor time of a pair [ns] for each kernel, in runs that alternate between the kernels.
 std::vector<double> time_kernels(const TriangleFamily& family, int pairs, int repetitions);
 
 /// The table of answers in Markdown. The same on every machine.

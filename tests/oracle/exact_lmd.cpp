@@ -67,6 +67,9 @@ class ExactBody {
         for (const std::int32_t corner : corners(triangle))
           if (d * (point(corner) - p) > 0) return false;
     }
+    // Of a triangle without area several features share each point: which of them carries it is open.
+    for (const std::int32_t triangle : surface_.incident_triangles(feature))
+      if (nearly_flat(triangle)) certain = false;
     return !has_side(feature) || on_outer_side(feature, d, certain);
   }
 
@@ -83,8 +86,6 @@ class ExactBody {
   }
 
   bool on_outer_side(const FeatureId& feature, const Vector& d, bool& certain) const {
-    for (const std::int32_t triangle : surface_.incident_triangles(feature))
-      if (nearly_flat(triangle)) certain = false;
     switch (feature.kind) {
       case FeatureKind::FACE:
         return d * normal(feature.index) > 0;

@@ -27,7 +27,8 @@ int main() {
       PUBLISHED_TABLE, PUBLISHED_PAIRS, WRONG_ERROR, GROSS_ERROR,
       accuracy_markdown(judge_accuracy(PUBLISHED_PAIRS), PUBLISHED_PAIRS));
   fmt::print(
-      "## Times\n\nns a pair, median of {} alternating runs over {} pairs; batch in {}. All but CGAL give "
+      "## Times\n\nns of processor time a pair, median of {} alternating runs over {} pairs; batch in {}. "
+      "All but CGAL give "
       "witness points too.\n\n| family |",
       REPETITIONS, TIMED_PAIRS, lmdbench::triangle_distance_batch_target());
   for (const DistanceKernel& kernel : distance_kernels()) fmt::print(" {} |", kernel.name);

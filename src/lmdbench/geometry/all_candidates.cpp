@@ -17,7 +17,8 @@
 
 // Steps of distance_by_all_candidates:
 // - sort the corners of each triangle and the two triangles, so that the caller's order cannot change a bit;
-// - an exact intersection test; triangles that cross are answered by the middle of the segment they share;
+// - triangles that cross by a margin are answered by the middle of the segment they share;
+// - an exact intersection test for the others;
 // - 9 edge pairs and 6 corner-face pairs, each a feasible pair of points; keep the nearest;
 // - where an edge is parallel to a face, or both faces are parallel, and as near: take the middle of the
 // overlap.
@@ -196,20 +197,12 @@ TrianglePairDistance shared_point(const Vec3& point, double length, double toler
   return result;
 }
 
-/// The answer for triangles that cross with the middle of the shared segment inside both: the usual
-/// intersection.
-std::optional<TrianglePairDistance> crossing_faces(const Query& query) {
+/// The answer for triangles that cross by a margin with the middle of the shared segment inside both: the
+/// usual intersection, and no case for exact predicates.
+std::optional<TrianglePairDistance> certain_crossing(const Query& query) {
   if (!query.face_a.has_face || !query.face_b.has_face) return std::nullopt;
-  // Nearly coplanar triangles share a polygon rather than a segment.
-  const Vec3 normal = query.face_a.e.cross(query.face_a.h);
-  const double slope_1 = normal.dot(query.b.corners[1] - query.b.corners[0]);
-  const double slope_2 = normal.dot(query.b.corners[2] - query.b.corners[0]);
-  if (!(std::max(slope_1 * slope_1, slope_2 * slope_2) >
-        4.0 * query.tolerance * query.tolerance * query.face_a.squared_e * query.face_a.squared_h)) {
-    return std::nullopt;
-  }
   const auto shared = shared_segment(query.a.corners, query.face_a, query.b.corners, query.face_b);
-  if (!shared.is_clear) return std::nullopt;
+  if (!shared.is_certain) return std::nullopt;
   const Vec3 middle = shared.middle();
   if (!query.face_a.is_interior(query.face_a.weights(middle))) return std::nullopt;
   if (!query.face_b.is_interior(query.face_b.weights(middle))) return std::nullopt;
@@ -252,10 +245,8 @@ TrianglePairDistance answer_intersection(const Query& query, const TrianglePairD
 /// @pre a before b in lexicographic order of sorted corners
 TrianglePairDistance ordered_distance(const SortedTriangle& a, const SortedTriangle& b, double tolerance) {
   const Query query(a, b, tolerance);
+  if (const auto crossing = certain_crossing(query)) return *crossing;
   const bool intersecting = triangles_intersect(a.corners, b.corners);
-  if (intersecting) {
-    if (const auto crossing = crossing_faces(query)) return *crossing;
-  }
   const EdgePairs edge_pairs = examine_edge_pairs(query);
   TrianglePairDistance best = edge_pairs.nearest;
   const TrianglePairDistance on_b = nearest_corner_of_a_to_face_of_b(a, query.face_b);

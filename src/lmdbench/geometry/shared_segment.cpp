@@ -10,6 +10,14 @@
 #include <cmath>
 
 namespace lmdbench::kernel {
+namespace {
+
+/// Part of the longest edge by which the corners are off the plane, and the overlap is long, in a certain
+/// intersection; also the least ratio of altitude and edge of the face. Rounding moves the ends of the chord
+/// by 1e-16 over this.
+constexpr double CERTAIN_PART = 1e-5;
+
+}  // namespace
 
 SharedSegment shared_segment(const FaceFrame& face, const Triangle& corners) {
   SharedSegment result;
@@ -54,6 +62,15 @@ SharedSegment shared_segment(const FaceFrame& face, const Triangle& corners) {
   result.begin = ends[0] + begin * chord;
   result.end = end == 1.0 ? ends[1] : Vec3(ends[0] + end * chord);
   result.length = (end - begin) * chord.norm();
+  const double squared_longest =
+      std::max({face.squared_e, (corners[1] - corners[0]).squaredNorm(),
+                (corners[2] - corners[1]).squaredNorm(), (corners[2] - corners[0]).squaredNorm()});
+  constexpr double SQUARED_PART = CERTAIN_PART * CERTAIN_PART;
+  const double least_squared_height =
+      std::min({height[0] * height[0], height[1] * height[1], height[2] * height[2]});
+  result.is_certain = result.is_clear && face.squared_h > SQUARED_PART * face.squared_e &&
+                      result.length * result.length > SQUARED_PART * squared_longest &&
+                      least_squared_height > SQUARED_PART * squared_longest * face.squared_e * face.squared_h;
   return result;
 }
 

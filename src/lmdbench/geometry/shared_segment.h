@@ -11,6 +11,8 @@ namespace lmdbench::kernel {
 struct SharedSegment {
   bool has_chord = false;  ///< false where no corner or edge of one meets the plane of the other in a point
   bool is_clear = false;   ///< false where only rounding decides whether the chord and the face overlap
+  bool is_certain =
+      false;  ///< the triangles intersect by a margin (CERTAIN_PART) that needs no exact predicate
   Vec3 begin, end;
   double length = 0.0;
 
