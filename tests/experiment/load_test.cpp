@@ -59,7 +59,6 @@ TEST(LoadExperiment, FillsDefaultsFromTheSchema) {
   ASSERT_EQ(experiment.methods.size(), 2u);
   EXPECT_EQ(experiment.methods[0].label, "original");
   EXPECT_EQ(experiment.methods[0].force_law, ForceLaw::LINEAR);
-  EXPECT_DOUBLE_EQ(experiment.methods[0].options.g5_tolerance_rad, 0.5);
   EXPECT_EQ(experiment.methods[1].options.visibility, Visibility::VERTEX_NORMAL);
 }
 

@@ -4,9 +4,11 @@
 #include <lmdbench/experiment/fcl_probe.h>
 #include <lmdbench/snch/minimum_distance.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <memory>
+#include <tuple>
 
 namespace lmdbench {
 namespace {
@@ -74,6 +76,11 @@ FclCheck probe_fcl(const Scene& scene, const LockstepInput& input, const std::ve
         !progress(static_cast<std::int64_t>(check.frames.size()), static_cast<std::int64_t>(frames.size())))
       throw Interrupted();
   }
+  // Not in the order in which the experiment lists its methods: the result must not depend on it.
+  std::sort(check.exceptions.begin(), check.exceptions.end(),
+            [](const FclException& a, const FclException& b) {
+              return std::tie(a.frame, a.who) < std::tie(b.frame, b.who);
+            });
   return check;
 }
 

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstddef>
 #include <map>
 #include <set>
 #include <system_error>
@@ -18,14 +19,17 @@ namespace {
 
 /// What the run itself found out that a reader must know.
 void note_findings(const Experiment& experiment, RunResult& result) {
-  for (const MethodRecord& record : result.records) {
-    const auto in_contact =
+  std::map<std::string, std::ptrdiff_t>
+      in_contact;  // by label: notes must not depend on the order of methods
+  for (const MethodRecord& record : result.records)
+    in_contact[record.label] =
         std::count_if(record.frames.begin(), record.frames.end(),
                       [](const FrameRecord& frame) { return frame.contact_without_direction > 0; });
-    if (in_contact > 0)
+  for (const auto& [label, count] : in_contact) {
+    if (count > 0)
       result.warnings.push_back(
           fmt::format("{}: touching triangles in {} of {} frames; there an LMD keeps its last direction",
-                      record.label, in_contact, record.frames.size()));
+                      label, count, result.prepared.times.size()));
   }
   if (experiment.driver.repetitions == 1)
     result.warnings.push_back("a single repetition: its times include the warm-up");

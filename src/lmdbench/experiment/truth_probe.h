@@ -15,7 +15,8 @@
 /// The truth probe: on a stride of frames the exhaustive LMD set is computed at the frame and at the next
 /// one, outside the timed frames, and every method is compared with it. Force errors compare rendered forces
 /// (clipped by the same device) under the method's own law, so that they show what the LMD set costs and not
-/// what the law changes.
+/// what the law changes. Where the meshes touch, a true LMD at distance 0 has no direction and adds no force,
+/// while a method in motion keeps its last direction (E12): the force errors of such frames say little.
 namespace lmdbench {
 
 /// The two force laws, for arrays indexed by ForceLaw.

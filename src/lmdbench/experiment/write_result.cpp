@@ -45,8 +45,8 @@ void write_counters(ResultWriter& writer, const std::string& group, const std::v
   for (std::size_t i = 0; i < COUNTER_COUNT; ++i) {
     const auto counter = static_cast<Counter>(i);
     const std::string name(counter_name(counter));
-    write_column(writer, {group + "/" + name, "1", name + " of the " + of}, rows,
-                 [&](const Row& row) { return static_cast<std::int64_t>(row.counters[counter]); });
+    write_column(writer, {fmt::format("{}/{}", group, name), "1", fmt::format("{} of the {}", name, of)},
+                 rows, [&](const Row& row) { return static_cast<std::int64_t>(row.counters[counter]); });
   }
 }
 
