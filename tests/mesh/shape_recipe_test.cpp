@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/mesh/flaws.h>
 #include <lmdbench/mesh/shape_recipe.h>
 #include <lmdbench/mesh/shapes.h>
 
@@ -39,6 +40,21 @@ TEST(ShapeRecipeTest, PassesItsParametersOn) {
   expect_same(R"({"kind":"wedge","width":1,"length":2,"height":3})", make_wedge(1, 2, 3));
   expect_same(R"({"kind":"l-block","size":2})", make_l_block(2));
   expect_same(R"({"kind":"two-boxes","size":[1,2,3],"gap":0.5})", make_two_boxes({1, 2, 3}, 0.5));
+  expect_same(R"({"kind":"caps","radius":1,"height":2,"count":12})", make_caps(1, 2, 12));
+}
+
+TEST(ShapeRecipeTest, MakesFlawsInOtherShapes) {
+  const auto expect_same = [](const std::string& recipe, const TriangleMesh& wanted) {
+    const TriangleMesh made = make(recipe);
+    EXPECT_EQ(made.vertices, wanted.vertices) << recipe;
+    EXPECT_EQ(made.triangles, wanted.triangles) << recipe;
+  };
+  const std::string of = R"("of":{"kind":"l-block","size":1}})";
+  expect_same(R"({"kind":"holes","every":3,)" + of, with_holes(make_l_block(1), 3));
+  expect_same(R"({"kind":"duplicates","every":4,)" + of, with_duplicates(make_l_block(1), 4));
+  expect_same(R"({"kind":"flips","every":5,)" + of, with_flips(make_l_block(1), 5));
+  expect_same(R"({"kind":"fins","every":6,"height":0.5,)" + of, with_fins(make_l_block(1), 6, 0.5));
+  expect_same(R"({"kind":"zero-areas","every":7,)" + of, with_zero_areas(make_l_block(1), 7));
 }
 
 struct BadRecipe {
@@ -65,6 +81,8 @@ INSTANTIATE_TEST_SUITE_P(
         BadRecipe{"too_many", R"({"kind":"sphere","radius":1,"subdivisions":30})", "subdivisions",
                   "from 0 to 9"},
         BadRecipe{"fraction", R"({"kind":"sphere","radius":1,"subdivisions":1.5})", "subdivisions", "1.5"},
+        BadRecipe{"within", R"({"kind":"holes","every":2,"of":{"kind":"l-block","size":0}})", "of/size",
+                  "not positive"},
         BadRecipe{"flat", R"({"kind":"box","size":[1,1,0],"cells":1})", "size", "three positive"},
         BadRecipe{"planar", R"({"kind":"box","size":[1,1],"cells":1})", "size", "three positive"},
         BadRecipe{"fat_torus",

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/error.h>
+#include <lmdbench/mesh/flaws.h>
 #include <lmdbench/mesh/shape_recipe.h>
 #include <lmdbench/mesh/shapes.h>
 
@@ -58,6 +59,8 @@ class Recipe {
       fail(key, "is not three positive lengths", "write [x, y, z] in metres");
     return result;
   }
+  /// A recipe within this one.
+  TriangleMesh shape(const char* key) { return make_shape(at(key), file_, pointer_ + "/" + key); }
   void finish() const {
     for (const auto& [key, value] : json_.items())
       if (key != "kind" && !used_.contains(key))
@@ -108,6 +111,10 @@ const std::map<std::string, Maker>& makers() {
          return make_needles(r.length("radius"), r.length("height"), r.integer("count", 3, 100000),
                              r.number("groove", 0.0, 1.0));
        }},
+      {"caps",
+       [](Recipe& r) {
+         return make_caps(r.length("radius"), r.length("height"), r.integer("count", 3, 100000));
+       }},
       {"patch",
        [](Recipe& r) {
          return make_patch(r.length("size"), r.integer("cells", 1, 1500), r.number("wave_height", 0.0));
@@ -115,7 +122,17 @@ const std::map<std::string, Maker>& makers() {
       {"wedge",
        [](Recipe& r) { return make_wedge(r.length("width"), r.length("length"), r.length("height")); }},
       {"l-block", [](Recipe& r) { return make_l_block(r.length("size")); }},
-      {"two-boxes", [](Recipe& r) { return make_two_boxes(r.lengths("size"), r.length("gap")); }}};
+      {"two-boxes", [](Recipe& r) { return make_two_boxes(r.lengths("size"), r.length("gap")); }},
+      {"holes", [](Recipe& r) { return with_holes(r.shape("of"), r.integer("every", 2, 1000000)); }},
+      {"duplicates",
+       [](Recipe& r) { return with_duplicates(r.shape("of"), r.integer("every", 1, 1000000)); }},
+      {"flips", [](Recipe& r) { return with_flips(r.shape("of"), r.integer("every", 1, 1000000)); }},
+      {"fins",
+       [](Recipe& r) {
+         return with_fins(r.shape("of"), r.integer("every", 1, 1000000), r.length("height"));
+       }},
+      {"zero-areas",
+       [](Recipe& r) { return with_zero_areas(r.shape("of"), r.integer("every", 1, 1000000)); }}};
   return table;
 }
 

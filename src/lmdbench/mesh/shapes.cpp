@@ -8,6 +8,7 @@
 #include <cmath>
 #include <map>
 #include <numbers>
+#include <numeric>
 #include <utility>
 
 namespace lmdbench {
@@ -196,6 +197,37 @@ TriangleMesh make_needles(double radius, double height, int count, double groove
     const std::int32_t next = (i + 1) % ring;
     mesh.triangles.push_back({i, next, ring});
     mesh.triangles.push_back({next, i, ring + 1});
+  }
+  return mesh;
+}
+
+TriangleMesh make_caps(double radius, double height, int count) {
+  assert(count >= 3);
+  TriangleMesh mesh;
+  for (const bool upper : {false, true}) {
+    for (std::int32_t i = 0; i < count; ++i) {
+      const auto [x, y] = circle_point(i, count);
+      const double z = upper ? 0.5 + 0.125 * (x * x - y * y) : -0.5;
+      mesh.vertices.emplace_back(radius * x, radius * y, height * z);
+    }
+  }
+  for (std::int32_t i = 0; i < count; ++i) {
+    const std::int32_t next = (i + 1) % count;
+    mesh.triangles.push_back({i, next, next + count});
+    mesh.triangles.push_back({i, next + count, i + count});
+  }
+  std::vector<std::int32_t> outline(static_cast<std::size_t>(count));
+  std::iota(outline.begin(), outline.end(), 0);
+  while (outline.size() > 2) {
+    std::vector<std::int32_t> inner;
+    for (std::size_t i = 0; i < outline.size(); i += 2) {
+      inner.push_back(outline[i]);
+      if (i + 1 == outline.size()) break;
+      const std::int32_t a = outline[i], b = outline[i + 1], c = outline[(i + 2) % outline.size()];
+      mesh.triangles.push_back({a, c, b});
+      mesh.triangles.push_back({a + count, b + count, c + count});
+    }
+    outline = std::move(inner);
   }
   return mesh;
 }

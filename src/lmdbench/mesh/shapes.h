@@ -33,6 +33,11 @@ TriangleMesh make_unequal(double radius, int cells, double ratio);
 /// ridges; 0 makes it convex.
 TriangleMesh make_needles(double radius, double height, int count, double groove = 0.3);
 
+/// Drum of 4 * count - 4 triangles, upright along z: its two ends, flat the lower and a saddle of height
+/// `height` / 4 the upper, are made of caps, triangles with one angle near 180 degrees, by cutting ears off
+/// the outline again and again. The outermost angles are 180 - 360 / count degrees.
+TriangleMesh make_caps(double radius, double height, int count);
+
 /// Open wavy patch over the square [-size/2, size/2]^2, outer side up: 2 * cells^2 triangles, one boundary
 /// loop.
 TriangleMesh make_patch(double size, int cells, double wave_height);
