@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/lmd/first_order.h>
 #include <lmdbench/lmd/plateau.h>
 
 #include <algorithm>
@@ -48,13 +49,16 @@ bool feature_pair_less(const Lmd& a, const Lmd& b) {
          std::tie(b.fixed_body, b.feature_moving, b.feature_fixed);
 }
 
-/// Equal distance and direction up to rounding of the points' coordinates.
+/// Equal distance and direction up to rounding of the points' coordinates and up to the tilt that the
+/// first-order test lets pass on each side: faces tilted by so little count as parallel there, so they must
+/// here, or one plateau would be reported corner by corner.
 bool same_plane_of_contact(const Lmd& a, const Lmd& b) {
   if (a.intersecting != b.intersecting) return false;
   if (a.intersecting) return true;
   const double coordinates =
       std::max(a.point_moving.cwiseAbs().maxCoeff(), a.point_fixed.cwiseAbs().maxCoeff());
-  const double rounding = 64.0 * std::numeric_limits<double>::epsilon() * coordinates;
+  const double rounding = 64.0 * std::numeric_limits<double>::epsilon() * coordinates +
+                          2.0 * FIRST_ORDER_TOLERANCE * (a.point_moving - b.point_moving).norm();
   if (std::abs(a.distance - b.distance) > PLATEAU_TOLERANCE * std::max(a.distance, b.distance) + rounding)
     return false;
   const Vec3 difference = (a.point_fixed - a.point_moving) - (b.point_fixed - b.point_moving);
