@@ -1,0 +1,148 @@
+#!/usr/bin/env python3
+# SPDX-FileCopyrightText: The lmdbench authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""What the methods make of the extreme scenes: a row a scene and method, with its errors against exhaustive truth.
+Reads the result files alone. With --check it fails where a value is not a number that must be one, or where a method
+that promises the true set (certified, exhaustive) does not have it in every probed frame."""
+
+import argparse
+import json
+
+import numpy as np
+
+from lmdbench_results import EXIT_CHECK_FAILED, Result, run_script, truth_of
+
+EXACT_METHODS = ("certified", "exhaustive")
+HEADINGS = ("scene", "method", "contact frames", "LMDs", "recall [%]", "precision [%]", "frames wrong",
+            "distance error [cutoff]", "force error [F_max]", "force jump [F_max]", "true jump", "not a number", "stands")
+NOT_MEASURED = "-"
+# Values that must be numbers in every frame, and those that must be in every frame with an LMD.
+ALWAYS = ("force", "torque", "effective_stiffness")
+WITH_LMDS = ("minimum_distance",)
+# A method stands in a scene when it has nearly the whole true set and its force never is far from the true one.
+STANDS_RECALL = 0.99
+STANDS_FORCE = 0.25  # of F_max: what a hand feels as a jerk (JUMP_SHARE of summary.py)
+
+
+def not_a_number(method):
+    """How many values are not finite that must be."""
+    with_lmds = method.read("lmd_count") > 0
+    count = sum(int(np.count_nonzero(~np.isfinite(method.read(name)))) for name in ALWAYS)
+    count += sum(int(np.count_nonzero(~np.isfinite(method.read(name)[with_lmds]))) for name in WITH_LMDS)
+    truth = truth_of(method)
+    return count + (int(np.count_nonzero(~np.isfinite(truth.force_error))) if truth else 0)
+
+
+def started(result, truth):
+    """The probed frames from the first on in which a search can have arrived: none can tell anything before."""
+    latency = int(result.h5["/methods"].attrs["search_latency_frames"])
+    return truth.frames >= latency
+
+
+def frames_wrong(truth, considered):
+    """Probed frames in which the method's set is not the true one."""
+    recall_missing = (truth.true_count > 0) & ~(truth.recall == 1.0)
+    precision_missing = (truth.count > 0) & ~(truth.precision == 1.0)
+    return int(np.count_nonzero((recall_missing | precision_missing)[considered]))
+
+
+def worst(values):
+    values = np.abs(np.asarray(values, dtype=float))
+    values = values[np.isfinite(values)]
+    return float(values.max()) if values.size else float("nan")
+
+
+def measure(method):
+    result, truth = method.result, truth_of(method)
+    force = result.maximum_force()
+    # Where the meshes touch, a pair at distance 0 has no direction of its own and no force is the true one.
+    considered = started(result, truth)
+    apart = considered & ~(result.read("/reference/minimum_distance") == 0.0)
+    of_truth, of_method = truth.true_count * considered, truth.count * considered
+    row = {
+        "scene": result.name.removeprefix("extreme-"),
+        "method": method.label,
+        "contact_frames": int(np.count_nonzero(method.read("lmd_count") > 0)),
+        "touching_frames": int(np.count_nonzero(method.read("contact_without_direction") > 0)),
+        "lmds_maximum": int(method.read("lmd_count").max()),
+        "probed_frames": int(np.count_nonzero(considered)),
+        "recall": truth.pooled(truth.recall, of_truth),
+        "precision": truth.pooled(truth.precision, of_method),
+        "recall_adjacent": truth.pooled(truth.recall_adjacent, of_truth),
+        "precision_adjacent": truth.pooled(truth.precision_adjacent, of_method),
+        "frames_wrong": frames_wrong(truth, considered),
+        "distance_error_cutoff": worst(truth.minimum_distance_error[considered]) / result.scene("cutoff_m"),
+        "force_error_fmax": worst(truth.force_error[apart]) / force,
+        "force_jump_fmax": worst(method.force_jumps()) / force,
+        "true_force_jump_fmax": worst(result.read(f"/reference/force_jump_{method.force_law}")) / force,
+        "not_a_number": not_a_number(method),
+    }
+    row["stands"] = bool(row["not_a_number"] == 0 and not row["recall_adjacent"] < STANDS_RECALL
+                         and row["force_error_fmax"] <= STANDS_FORCE)
+    return row
+
+
+def cells(row):
+    def percent(share):
+        strict, adjacent = row[share], row[share + "_adjacent"]
+        return NOT_MEASURED if not np.isfinite(strict) else f"{100 * strict:.1f} ({100 * adjacent:.1f})"
+
+    def number(value):
+        return NOT_MEASURED if not np.isfinite(value) else ("0" if value == 0 else f"{value:.2g}")
+
+    return [row["scene"], row["method"], f"{row['contact_frames']} ({row['touching_frames']})", str(row["lmds_maximum"]),
+            percent("recall"), percent("precision"), f"{row['frames_wrong']} of {row['probed_frames']}",
+            number(row["distance_error_cutoff"]), number(row["force_error_fmax"]), number(row["force_jump_fmax"]),
+            number(row["true_force_jump_fmax"]), str(row["not_a_number"]), "yes" if row["stands"] else "no"]
+
+
+def markdown(rows):
+    lines = ["| " + " | ".join(HEADINGS) + " |", "|" + "---|" * len(HEADINGS)]
+    return "\n".join(lines + ["| " + " | ".join(cells(row)) + " |" for row in rows])
+
+
+LEGEND = f"""\
+Contact frames: frames with an LMD (in parentheses: with triangles that touch and an LMD without a direction of its own).
+LMDs: most in a frame. Recall, precision: pooled over the probed frames, same features (in parentheses: or features that
+share a triangle). Frames wrong: probed frames in which the set is not the true one. Probed frames count from the first
+one in which a search can have arrived. Distance error: the worst. Force error: the worst of the frames in which the
+meshes are apart (in contact no force is the true one), against the true force under the same law. Force jump: the
+largest change from one frame to the next; beside it the largest of the true force in the probed frames. Not a number:
+values that must be numbers and are not. Stands: recall with adjacent features at least {STANDS_RECALL:.0%}, force never off by
+more than {STANDS_FORCE:.0%} of F_max, no value missing."""
+
+
+def complaints(rows):
+    for row in rows:
+        place = f"{row['scene']}, {row['method']}"
+        if row["not_a_number"]:
+            yield f"{place}: {row['not_a_number']} values are not a number"
+        if row["probed_frames"] == 0:
+            yield f"{place}: no probed frame"
+        if row["method"] in EXACT_METHODS and row["frames_wrong"]:
+            yield f"{place}: {row['frames_wrong']} of {row['probed_frames']} sets are not the true one"
+
+
+def main(argv):
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("results", nargs="+", metavar="RESULT.h5")
+    parser.add_argument("--out", metavar="NAME", help="also write NAME.md and NAME.json")
+    parser.add_argument("--check", action="store_true", help="exit code 1 where a promise is broken")
+    arguments = parser.parse_args(argv)
+    rows = [measure(method) for file in arguments.results for method in Result(file).methods.values()]
+    text = markdown(rows) + "\n\n" + LEGEND + "\n"
+    print(text, end="")
+    if arguments.out:
+        with open(f"{arguments.out}.md", "w", encoding="utf-8") as file:
+            file.write("# Extreme scenes\n\n" + text)
+        with open(f"{arguments.out}.json", "w", encoding="utf-8") as file:
+            json.dump([{key: None if value != value else value for key, value in row.items()} for row in rows], file, indent=1)
+            file.write("\n")
+    broken = list(complaints(rows)) if arguments.check else []
+    for complaint in broken:
+        print(f"broken: {complaint}")
+    return EXIT_CHECK_FAILED if broken else 0
+
+
+if __name__ == "__main__":
+    raise SystemExit(run_script(main))
