@@ -2,344 +2,210 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "oracle/exact_lmd.h"
 
-#include "oracle/exact_distance.h"
-#include "oracle/feature_boxes.h"
 #include <CGAL/Gmpq.h>
-#include <CGAL/Lazy_exact_nt.h>
-#include <CGAL/Simple_cartesian.h>
+#include <Eigen/Geometry>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <limits>
 #include <optional>
-#include <sstream>
 
 namespace lmdbench::testing {
 namespace {
 
-using Number = CGAL::Lazy_exact_nt<CGAL::Gmpq>;
-using Kernel = CGAL::Simple_cartesian<Number>;
-using Point = Kernel::Point_3;
-using Vector = Kernel::Vector_3;
+using Number = CGAL::Gmpq;
 
-constexpr double EPSILON = std::numeric_limits<double>::epsilon();
-/// Roundings that a distance or a difference of points may carry in double precision, in epsilons of the
-/// largest coordinate.
-constexpr double ROUNDINGS = 64.0;
-/// Sine below which an outer side or the area of a triangle is left to rounding.
-constexpr double UNCERTAIN_SINE = 1e-9;
-
-Vec3 rounded(const Point& p) {
-  return {CGAL::to_double(p.x()), CGAL::to_double(p.y()), CGAL::to_double(p.z())};
-}
-
-/// One mesh of the scene in the world, in exact numbers.
-class ExactBody {
- public:
-  ExactBody(const Surface& surface, const RigidTransform& X_WS) : surface_(surface) {
-    for (const Vec3& vertex : surface.mesh.vertices) {
-      vertices_W_.push_back(X_WS.point(vertex));
-      const Vec3& p = vertices_W_.back();
-      points_.emplace_back(p[0], p[1], p[2]);
-    }
-  }
-
-  const Surface& surface() const { return surface_; }
-  const std::vector<Vec3>& vertices_W() const { return vertices_W_; }
-  const Point& point(std::int32_t vertex) const { return points_[static_cast<std::size_t>(vertex)]; }
-  const auto& edge(std::int32_t index) const {
-    return surface_.adjacency.edges[static_cast<std::size_t>(index)];
-  }
-  const auto& corners(std::int32_t triangle) const {
-    return surface_.mesh.triangles[static_cast<std::size_t>(triangle)];
-  }
-  Vector normal(std::int32_t triangle) const {
-    const auto& [a, b, c] = corners(triangle);
-    return CGAL::cross_product(point(b) - point(a), point(c) - point(a));
-  }
-
-  /// The first-order condition: no corner of the incident triangles is nearer, and the outer side.
-  /// @param certain is made false where the outcome hangs on rounding
-  bool admits(const FeatureId& feature, const Point& p, const Vector& d, bool& certain) const {
-    if (feature.kind != FeatureKind::FACE) {
-      for (const std::int32_t triangle : surface_.incident_triangles(feature))
-        for (const std::int32_t corner : corners(triangle))
-          if (d * (point(corner) - p) > 0) return false;
-    }
-    // Of a triangle without area several features share each point: which of them carries it is open.
-    for (const std::int32_t triangle : surface_.incident_triangles(feature))
-      if (nearly_flat(triangle)) certain = false;
-    return !has_side(feature) || on_outer_side(feature, d, certain);
-  }
-
- private:
-  bool has_side(const FeatureId& feature) const {
-    if (feature.kind == FeatureKind::FACE) return true;
-    if (surface_.is_boundary(feature)) return false;
-    if (feature.kind == FeatureKind::EDGE)
-      return !surface_.edge_is_non_manifold[static_cast<std::size_t>(feature.index)];
-    const auto edges = surface_.adjacency.vertex_edges[feature.index];
-    return std::none_of(edges.begin(), edges.end(), [&](std::int32_t e) {
-      return surface_.edge_is_non_manifold[static_cast<std::size_t>(e)];
-    });
-  }
-
-  bool on_outer_side(const FeatureId& feature, const Vector& d, bool& certain) const {
-    switch (feature.kind) {
-      case FeatureKind::FACE:
-        return d * normal(feature.index) > 0;
-      case FeatureKind::EDGE:
-        return on_outer_side_of_edge(feature.index, d);
-      case FeatureKind::VERTEX:
-        break;
-    }
-    return on_outer_side_of_vertex(feature.index, d, certain);
-  }
-
-  /// Sign of d . (n1 / |n1| + n2 / |n2|), by comparing squares instead of taking roots.
-  bool on_outer_side_of_edge(std::int32_t edge_index, const Vector& d) const {
-    Number positive = 0, negative = 0;  // squares of the terms of either sign, two terms at most
-    for (const std::int32_t triangle : surface_.adjacency.edge_triangles[edge_index]) {
-      const Vector n = normal(triangle);
-      const Number squared_length = n.squared_length();
-      if (squared_length == 0) continue;
-      const Number product = d * n;
-      const Number squared = product * product / squared_length;
-      if (product > 0) positive += squared;
-      if (product < 0) negative += squared;
-    }
-    return positive > negative;
-  }
-
-  bool on_outer_side_of_vertex(std::int32_t vertex, const Vector& d, bool& certain) const {
-    using Wide = std::array<long double, 3>;
-    const auto wide = [](const Vec3& v) { return Wide{v[0], v[1], v[2]}; };
-    const auto minus = [](const Wide& a, const Wide& b) {
-      return Wide{a[0] - b[0], a[1] - b[1], a[2] - b[2]};
-    };
-    const auto dot = [](const Wide& a, const Wide& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; };
-    const auto cross = [](const Wide& a, const Wide& b) {
-      return Wide{a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-    };
-    const auto length = [&](const Wide& a) { return std::sqrt(dot(a, a)); };
-    const Wide direction{CGAL::to_double(d.x()), CGAL::to_double(d.y()), CGAL::to_double(d.z())};
-    long double sum = 0.0L, weights = 0.0L;
-    for (const std::int32_t triangle : surface_.adjacency.vertex_triangles[vertex]) {
-      if (normal(triangle).squared_length() == 0) continue;
-      auto order = corners(triangle);
-      while (order[0] != vertex) std::rotate(order.begin(), order.begin() + 1, order.end());
-      const Wide p = wide(vertices_W_[static_cast<std::size_t>(vertex)]);
-      const Wide u = minus(wide(vertices_W_[static_cast<std::size_t>(order[1])]), p);
-      const Wide v = minus(wide(vertices_W_[static_cast<std::size_t>(order[2])]), p);
-      const Wide n = cross(u, v);
-      const long double doubled_area = length(n);
-      if (doubled_area == 0.0L) continue;
-      const long double angle = std::atan2(doubled_area, dot(u, v));
-      sum += angle * dot(n, direction) / doubled_area;
-      weights += angle;
-    }
-    if (!(std::abs(sum) > static_cast<long double>(UNCERTAIN_SINE) * weights * length(direction)))
-      certain = false;
-    return sum > 0.0L;
-  }
-
-  bool nearly_flat(std::int32_t triangle) const {
-    const auto& [a, b, c] = corners(triangle);
-    const auto at = [&](std::int32_t i) { return vertices_W_[static_cast<std::size_t>(i)]; };
-    const Vec3 u = at(b) - at(a), v = at(c) - at(a);
-    const double longest = std::max({u.squaredNorm(), v.squaredNorm(), (v - u).squaredNorm()});
-    return !(u.cross(v).norm() > UNCERTAIN_SINE * longest);
-  }
-
-  const Surface& surface_;
-  std::vector<Vec3> vertices_W_;
-  std::vector<Point> points_;
+struct Point {
+  Number x, y, z;
 };
 
-struct Critical {
+Point exact(const Vec3& p) {
+  return {Number(p[0]), Number(p[1]), Number(p[2])};
+}
+Point operator-(const Point& a, const Point& b) {
+  return {a.x - b.x, a.y - b.y, a.z - b.z};
+}
+Point operator+(const Point& a, const Point& b) {
+  return {a.x + b.x, a.y + b.y, a.z + b.z};
+}
+Point operator*(const Number& s, const Point& a) {
+  return {s * a.x, s * a.y, s * a.z};
+}
+Number dot(const Point& a, const Point& b) {
+  return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+Point cross(const Point& a, const Point& b) {
+  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+bool is_inside(const Number& t) {
+  return t > 0 && t < 1;
+}
+
+/// Cosine below which the outer side of a direction is in doubt. The pseudo-normals are rounded to 1e-16.
+constexpr double CLEAR_COSINE = 1e-9;
+
+/// One mesh in the world.
+struct Side {
+  const Surface& surface;
+  RigidTransform transform;
+  std::vector<Vec3> vertices;
+  std::vector<Point> exact_vertices;
+
+  Side(const Surface& mesh, const Pose& pose) : surface(mesh), transform(pose) {
+    for (const Vec3& vertex : surface.mesh.vertices) {
+      vertices.push_back(transform.point(vertex));
+      exact_vertices.push_back(exact(vertices.back()));
+    }
+  }
+
+  /// Vertex numbers of a feature: one, two or three.
+  std::vector<std::int32_t> corners(const FeatureId& feature) const {
+    const auto index = static_cast<std::size_t>(feature.index);
+    switch (feature.kind) {
+      case FeatureKind::VERTEX:
+        return {feature.index};
+      case FeatureKind::EDGE: {
+        const auto& edge = surface.adjacency.edges[index];
+        return {edge[0], edge[1]};
+      }
+      case FeatureKind::FACE:
+        break;
+    }
+    const auto& face = surface.mesh.triangles[index];
+    return {face[0], face[1], face[2]};
+  }
+
+  std::vector<Point> exact_corners(const FeatureId& feature) const {
+    std::vector<Point> result;
+    for (const std::int32_t corner : corners(feature)) {
+      result.push_back(exact_vertices[static_cast<std::size_t>(corner)]);
+    }
+    return result;
+  }
+
+  Eigen::AlignedBox3d box(const FeatureId& feature) const {
+    Eigen::AlignedBox3d result;
+    for (const std::int32_t corner : corners(feature))
+      result.extend(vertices[static_cast<std::size_t>(corner)]);
+    return result;
+  }
+
+  std::vector<FeatureId> features() const {
+    std::vector<FeatureId> result;
+    const auto add = [&result](FeatureKind kind, std::size_t count) {
+      for (std::size_t i = 0; i < count; ++i) result.push_back({kind, static_cast<std::int32_t>(i)});
+    };
+    add(FeatureKind::VERTEX, vertices.size());
+    add(FeatureKind::EDGE, surface.adjacency.edges.size());
+    add(FeatureKind::FACE, surface.mesh.triangles.size());
+    return result;
+  }
+
+  /// No corner around the feature is nearer to first order: d . (x - p) <= 0.
+  bool is_first_order_minimum(const FeatureId& feature, const Point& p, const Point& d) const {
+    for (const std::int32_t triangle : surface.incident_triangles(feature)) {
+      for (const std::int32_t corner : surface.mesh.triangles[static_cast<std::size_t>(triangle)]) {
+        if (dot(d, exact_vertices[static_cast<std::size_t>(corner)] - p) > 0) return false;
+      }
+    }
+    return true;
+  }
+
+  /// Cosine between d and the feature's pseudo-normal.
+  double outwardness(const FeatureId& feature, const Vec3& d) const {
+    return d.normalized().dot(transform.direction(surface.pseudo_normal(feature)));
+  }
+};
+
+struct Feet {
   Point p, q;
 };
 
-std::optional<Critical> vertex_edge(const Point& v, const Point& a, const Point& b) {
-  const Vector u = b - a;
-  const Number along = (v - a) * u, whole = u.squared_length();
-  if (!(along > 0 && along < whole)) return std::nullopt;
-  return Critical{v, a + u * (along / whole)};
+/// Foot of x strictly inside the segment ab.
+std::optional<Point> foot_on_edge(const Point& x, const std::vector<Point>& edge) {
+  const Point e = edge[1] - edge[0];
+  const Number squared_length = dot(e, e);
+  if (squared_length == 0) return std::nullopt;
+  const Number t = dot(x - edge[0], e) / squared_length;
+  if (!is_inside(t)) return std::nullopt;
+  return edge[0] + t * e;
 }
 
-std::optional<Critical> vertex_face(const Point& v, const std::array<Point, 3>& t) {
-  const Vector n = CGAL::cross_product(t[1] - t[0], t[2] - t[0]);
-  for (std::size_t i = 0; i < 3; ++i)
-    if (!(n * CGAL::cross_product(t[(i + 1) % 3] - t[i], v - t[i]) > 0)) return std::nullopt;
-  return Critical{v, v - n * ((v - t[0]) * n / n.squared_length())};
-}
-
-std::optional<Critical> edge_edge(const Point& a, const Point& b, const Point& c, const Point& e) {
-  const Vector u = b - a, v = e - c, w = c - a;
-  const Vector n = CGAL::cross_product(u, v);
-  const Number whole = n.squared_length();
-  const Number s = CGAL::cross_product(w, v) * n, t = CGAL::cross_product(w, u) * n;
-  if (!(s > 0 && s < whole && t > 0 && t < whole)) return std::nullopt;
-  return Critical{a + u * (s / whole), c + v * (t / whole)};
-}
-
-/// Collects the exact LMDs of the moving and one fixed body.
-class Search {
- public:
-  Search(const ExactBody& moving, const ExactBody& fixed, std::int32_t body, double cutoff,
-         std::vector<ExactLmd>& result)
-      : moving_(moving), fixed_(fixed), body_(body), cutoff_(cutoff), result_(result) {}
-
-  void run() {
-    using enum FeatureKind;
-    for (const auto& [a, b] : {std::pair(VERTEX, VERTEX), std::pair(VERTEX, EDGE), std::pair(EDGE, VERTEX),
-                               std::pair(VERTEX, FACE), std::pair(FACE, VERTEX), std::pair(EDGE, EDGE)}) {
-      for_each_near(feature_boxes(moving_.surface(), moving_.vertices_W(), a),
-                    feature_boxes(fixed_.surface(), fixed_.vertices_W(), b), cutoff_,
-                    [&, kind_a = a, kind_b = b](std::int32_t i, std::int32_t j) {
-                      judge({kind_a, i}, {kind_b, j});
-                    });
-    }
+std::optional<Point> foot_on_face(const Point& x, const std::vector<Point>& face) {
+  const Point n = cross(face[1] - face[0], face[2] - face[0]);
+  const Number squared_n = dot(n, n);
+  if (squared_n == 0) return std::nullopt;
+  for (std::size_t k = 0; k < 3; ++k) {
+    if (dot(cross(face[(k + 1) % 3] - face[k], x - face[k]), n) <= 0) return std::nullopt;
   }
-
- private:
-  std::optional<Critical> critical(const FeatureId& on_moving, const FeatureId& on_fixed) const {
-    const auto ends = [](const ExactBody& body, std::int32_t edge) {
-      return std::pair(body.point(body.edge(edge)[0]), body.point(body.edge(edge)[1]));
-    };
-    const auto face = [](const ExactBody& body, std::int32_t triangle) {
-      const auto& [a, b, c] = body.corners(triangle);
-      return std::array{body.point(a), body.point(b), body.point(c)};
-    };
-    const auto swapped = [](std::optional<Critical> pair) {
-      if (pair) std::swap(pair->p, pair->q);
-      return pair;
-    };
-    const std::int32_t i = on_moving.index, j = on_fixed.index;
-    if (on_moving.kind == FeatureKind::VERTEX) {
-      if (on_fixed.kind == FeatureKind::VERTEX) return Critical{moving_.point(i), fixed_.point(j)};
-      if (on_fixed.kind == FeatureKind::FACE) return vertex_face(moving_.point(i), face(fixed_, j));
-      const auto [a, b] = ends(fixed_, j);
-      return vertex_edge(moving_.point(i), a, b);
-    }
-    if (on_moving.kind == FeatureKind::FACE) return swapped(vertex_face(fixed_.point(j), face(moving_, i)));
-    const auto [a, b] = ends(moving_, i);
-    if (on_fixed.kind == FeatureKind::VERTEX) return swapped(vertex_edge(fixed_.point(j), a, b));
-    const auto [c, e] = ends(fixed_, j);
-    return edge_edge(a, b, c, e);
-  }
-
-  void judge(const FeatureId& on_moving, const FeatureId& on_fixed) {
-    const std::optional<Critical> pair = critical(on_moving, on_fixed);
-    if (!pair) return;
-    const Vector d = pair->q - pair->p;
-    const Number squared = d.squared_length();
-    if (squared == 0 || squared > Number(cutoff_) * Number(cutoff_)) return;
-    bool certain = true;
-    if (!moving_.admits(on_moving, pair->p, d, certain)) return;
-    if (!fixed_.admits(on_fixed, pair->q, -d, certain)) return;
-    ExactLmd lmd{on_moving, on_fixed, body_, 0.0, rounded(pair->p), rounded(pair->q), certain};
-    lmd.distance = std::sqrt(CGAL::to_double(squared));
-    const double rounding =
-        ROUNDINGS * EPSILON *
-        std::max(lmd.point_moving.cwiseAbs().maxCoeff(), lmd.point_fixed.cwiseAbs().maxCoeff());
-    if (lmd.distance <= rounding || cutoff_ - lmd.distance <= rounding) lmd.certain = false;
-    result_.push_back(lmd);
-  }
-
-  const ExactBody& moving_;
-  const ExactBody& fixed_;
-  std::int32_t body_;
-  double cutoff_;
-  std::vector<ExactLmd>& result_;
-};
-
-bool same_features(const Lmd& found, const ExactLmd& exact) {
-  return found.fixed_body == exact.fixed_body && found.feature_moving == exact.feature_moving &&
-         found.feature_fixed == exact.feature_fixed;
+  return x - dot(x - face[0], n) / squared_n * n;
 }
 
-/// The plateau's own tolerance (lmd/plateau.h): equal distance vectors, here also in one plane of contact.
-bool same_contact(const Lmd& found, const ExactLmd& exact) {
-  constexpr double PLATEAU = 1e-9;
-  if (found.fixed_body != exact.fixed_body) return false;
-  const Vec3 apart = found.point_moving - exact.point_moving;
-  const double coordinates =
-      std::max(exact.point_moving.cwiseAbs().maxCoeff(), exact.point_fixed.cwiseAbs().maxCoeff());
-  const double rounding = ROUNDINGS * EPSILON * coordinates;
-  const Vec3 d = exact.point_fixed - exact.point_moving;
-  const Vec3 difference = found.point_fixed - found.point_moving - d;
-  const double allowed = PLATEAU * exact.distance + rounding;
-  const double tilt = allowed / exact.distance;  // of the two planes of contact
-  return difference.norm() <= allowed &&
-         std::abs(apart.dot(d)) <= exact.distance * (rounding + tilt * apart.norm());
+/// Feet of the common perpendicular of two lines; empty where they are parallel, which counts as undecided.
+std::optional<Feet> feet_of_lines(const std::vector<Point>& a, const std::vector<Point>& b, bool& parallel) {
+  const Point u = a[1] - a[0], v = b[1] - b[0], w = b[0] - a[0];
+  const Number uu = dot(u, u), vv = dot(v, v), uv = dot(u, v);
+  const Number determinant = uu * vv - uv * uv;
+  parallel = determinant == 0;
+  if (parallel) return std::nullopt;
+  const Number s = (dot(w, u) * vv - dot(w, v) * uv) / determinant;
+  const Number t = (dot(w, u) * uv - dot(w, v) * uu) / determinant;
+  if (!is_inside(s) || !is_inside(t)) return std::nullopt;
+  return Feet{a[0] + s * u, b[0] + t * v};
+}
+
+std::optional<Feet> feet(const std::vector<Point>& a, const std::vector<Point>& b, bool& parallel) {
+  parallel = false;
+  if (a.size() == 1 && b.size() == 1) return Feet{a[0], b[0]};
+  if (a.size() == 2 && b.size() == 2) return feet_of_lines(a, b, parallel);
+  const bool a_is_point = a.size() == 1;
+  const Point& x = a_is_point ? a[0] : b[0];
+  const std::vector<Point>& other = a_is_point ? b : a;
+  const auto foot = other.size() == 2 ? foot_on_edge(x, other) : foot_on_face(x, other);
+  if (!foot) return std::nullopt;
+  return a_is_point ? Feet{x, *foot} : Feet{*foot, x};
 }
 
 }  // namespace
 
-std::vector<ExactLmd> exact_lmds(const Scene& scene, const Pose& X_WM) {
-  const ExactBody moving(scene.moving->surface(), RigidTransform(X_WM));
-  std::vector<ExactLmd> result;
-  for (std::size_t i = 0; i < scene.fixed.size(); ++i) {
-    const ExactBody fixed(scene.fixed[i]->surface(), RigidTransform());
-    Search(moving, fixed, static_cast<std::int32_t>(i), scene.cutoff, result).run();
-  }
-  return result;
-}
-
-ExactAgreement compare_with_exact(const LmdSet& found, const std::vector<ExactLmd>& exact) {
-  ExactAgreement agreement;
-  for (const ExactLmd& truth : exact) {
-    ++agreement.exact;
-    if (std::any_of(found.begin(), found.end(), [&](const Lmd& lmd) { return same_features(lmd, truth); })) {
-      ++agreement.same_features;
-    } else if (std::any_of(found.begin(), found.end(),
-                           [&](const Lmd& lmd) { return same_contact(lmd, truth); })) {
-      ++agreement.same_contact;
-    } else if (!truth.certain) {
-      ++agreement.uncertain;
-    } else {
-      agreement.missed.push_back(truth);
+ExactLmdSet exact_lmds(const Surface& moving, const Pose& X_WM, const Surface& fixed, double cutoff) {
+  const Side a(moving, X_WM);
+  const Side b(fixed, Pose());
+  const Number squared_cutoff = Number(cutoff) * Number(cutoff);
+  // Boxes only spare work; the slack keeps their rounding from deciding anything.
+  const double reach = cutoff * (1.0 + 1e-9);
+  ExactLmdSet result;
+  const std::vector<FeatureId> features_b = b.features();
+  for (const FeatureId& feature_a : a.features()) {
+    const auto corners_a = a.exact_corners(feature_a);
+    const Eigen::AlignedBox3d box_a = a.box(feature_a);
+    for (const FeatureId& feature_b : features_b) {
+      const auto corner_count = a.corners(feature_a).size() + b.corners(feature_b).size();
+      const bool one_is_vertex =
+          feature_a.kind == FeatureKind::VERTEX || feature_b.kind == FeatureKind::VERTEX;
+      if (corner_count > 4 || (corner_count == 4 && !one_is_vertex && feature_a.kind != feature_b.kind))
+        continue;
+      if (box_a.exteriorDistance(b.box(feature_b)) > reach) continue;
+      bool parallel = false;
+      const auto pair = feet(corners_a, b.exact_corners(feature_b), parallel);
+      result.undecided += parallel;
+      if (!pair) continue;
+      const Point d = pair->q - pair->p;
+      const Number squared_distance = dot(d, d);
+      if (squared_distance == 0 || squared_distance > squared_cutoff) continue;
+      if (!a.is_first_order_minimum(feature_a, pair->p, d)) continue;
+      if (!b.is_first_order_minimum(feature_b, pair->q, Number(-1) * d)) continue;
+      const Vec3 direction(CGAL::to_double(d.x), CGAL::to_double(d.y), CGAL::to_double(d.z));
+      const double out_a = a.outwardness(feature_a, direction);
+      const double out_b = b.outwardness(feature_b, -direction);
+      if (std::min(std::abs(out_a), std::abs(out_b)) < CLEAR_COSINE) {
+        ++result.undecided;
+      } else if (out_a > 0.0 && out_b > 0.0) {
+        result.lmds.push_back({feature_a, feature_b, std::sqrt(CGAL::to_double(squared_distance))});
+      }
     }
   }
-  for (const Lmd& lmd : found) {
-    if (lmd.intersecting || lmd.distance == 0.0) continue;
-    ++agreement.found;
-    if (std::none_of(exact.begin(), exact.end(), [&](const ExactLmd& truth) {
-          return same_features(lmd, truth) || same_contact(lmd, truth);
-        }))
-      agreement.untrue.push_back(lmd);
-  }
-  return agreement;
-}
-
-bool exactly_touching(const Scene& scene, const Pose& X_WM) {
-  const RigidTransform transform(X_WM);
-  const Surface& moving = scene.moving->surface();
-  std::vector<Vec3> vertices_W;
-  for (const Vec3& vertex : moving.mesh.vertices) vertices_W.push_back(transform.point(vertex));
-  const auto boxes = feature_boxes(moving, vertices_W, FeatureKind::FACE);
-  bool touching = false;
-  for (const auto& body : scene.fixed) {
-    const Surface& fixed = body->surface();
-    for_each_near(boxes, feature_boxes(fixed, fixed.mesh.vertices, FeatureKind::FACE), 0.0,
-                  [&](std::int32_t i, std::int32_t j) {
-                    touching = touching || exact_distance(transform.triangle(moving.mesh.triangle(i)),
-                                                          fixed.mesh.triangle(j)) == 0.0;
-                  });
-  }
-  return touching;
-}
-
-std::string describe(const ExactLmd& lmd) {
-  std::ostringstream text;
-  text.precision(17);
-  text << to_string(lmd.feature_moving.kind) << " " << lmd.feature_moving.index << " of the moving mesh, "
-       << to_string(lmd.feature_fixed.kind) << " " << lmd.feature_fixed.index << " of fixed mesh "
-       << lmd.fixed_body << ", distance " << lmd.distance << ", at " << lmd.point_moving.transpose()
-       << " and " << lmd.point_fixed.transpose();
-  return text.str();
+  std::sort(result.lmds.begin(), result.lmds.end());
+  return result;
 }
 
 }  // namespace lmdbench::testing

@@ -3,55 +3,33 @@
 #pragma once
 
 #include <lmdbench/geometry/pose.h>
-#include <lmdbench/lmd/lmd.h>
-#include <lmdbench/lmd/scene.h>
+#include <lmdbench/mesh/surface.h>
 
-#include <cstdint>
-#include <string>
+#include <compare>
 #include <vector>
 
-/// The definition of an LMD judged in exact arithmetic. Input are the world vertices as RigidTransform rounds
-/// them, so that truth and what it judges see the same problem; from there on everything is rational but for
-/// the angle weights of vertex pseudo-normals (long double) and the reported numbers.
 namespace lmdbench::testing {
 
-/// A pair of features with a critical point of the distance in both interiors that meets the first-order
-/// condition on both sides.
 struct ExactLmd {
-  FeatureId feature_moving;
-  FeatureId feature_fixed;
-  std::int32_t fixed_body = 0;
-  double distance = 0.0;  ///< Rounded once, as the points [m].
-  Vec3 point_moving = Vec3::Zero();
-  Vec3 point_fixed = Vec3::Zero();
-  /// Whether rounding of double precision could not have decided otherwise: the distance is not within
-  /// rounding of the cutoff or of zero, and no outer side hangs on a sign near zero or a triangle that is all
-  /// but flat.
-  bool certain = true;
+  FeatureId moving, fixed;
+  double distance = 0.0;  ///< rounded once
+
+  bool operator<(const ExactLmd& other) const {
+    return moving != other.moving ? moving < other.moving : fixed < other.fixed;
+  }
 };
 
-/// All such pairs of features, vertex-vertex, vertex-edge, vertex-face, edge-edge by
-/// brute force. Of parallel features, whose minimisers are a segment or polygon, the ends or corners appear:
-/// they are such pairs. Pairs at distance 0 are left out.
-std::vector<ExactLmd> exact_lmds(const Scene& scene, const Pose& X_WM);
-
-/// How a set compares with the exact one.
-struct ExactAgreement {
-  int exact = 0;          ///< Exact LMDs.
-  int uncertain = 0;      ///< Of these, left to rounding; not asked for.
-  int same_features = 0;  ///< Found with the same feature pair.
-  int same_contact = 0;   ///< Found as a part of a plateau: the same distance vector in the same plane.
-  std::vector<ExactLmd> missed;
-  int found = 0;  ///< LMDs of the judged set at a distance above 0.
-  LmdSet untrue;  ///< Of these, such that match no exact LMD.
+struct ExactLmdSet {
+  std::vector<ExactLmd> lmds;  ///< sorted by features
+  int undecided = 0;           ///< pairs left out: parallel features, or no clear outer side
 };
 
-ExactAgreement compare_with_exact(const LmdSet& found, const std::vector<ExactLmd>& exact);
-
-/// Whether some triangle of the moving mesh and one of a fixed mesh share a point.
-bool exactly_touching(const Scene& scene, const Pose& X_WM);
-
-/// Both features and the distance, for messages.
-std::string describe(const ExactLmd& lmd);
+/// The LMD set by its definition (design, section 2), feature pair by feature pair in rational arithmetic:
+/// feet of the common perpendicular strictly inside both features, d . (x - p) <= 0 for every corner x around
+/// p and the like for q, distance within the cutoff. The moving corners are what RigidTransform makes of them
+/// in double; from there on nothing is rounded but the outer side, which only needs a sign far from 0. Shares
+/// no code with the methods.
+/// @pre closed manifold surfaces that do not touch; every pair of features is looked at, so keep them small
+ExactLmdSet exact_lmds(const Surface& moving, const Pose& X_WM, const Surface& fixed, double cutoff);
 
 }  // namespace lmdbench::testing
