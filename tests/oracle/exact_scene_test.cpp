@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "oracle/exact_lmd.h"
+#include "oracle/exact_scene.h"
 
 #include <lmdbench/experiment/experiment.h>
 #include <lmdbench/experiment/prepare.h>
@@ -22,9 +22,9 @@
 namespace lmdbench {
 namespace {
 
-using testing::compare_with_exact;
-using testing::ExactAgreement;
-using testing::ExactLmd;
+using exact::compare_with_exact;
+using exact::ExactAgreement;
+using exact::ExactLmd;
 using testing::make_scene;
 
 Pose moved(double x, double y, double z) {
@@ -38,7 +38,7 @@ TEST(ExactLmds, ACornerOverAFaceIsOneVertexFacePair) {
   Pose pose;
   pose.rotation = Eigen::AngleAxisd(0.2, Vec3::UnitX()) * Eigen::AngleAxisd(std::numbers::pi, Vec3::UnitY());
   pose.translation = {0.21, 0.07, 0.58};
-  const std::vector<ExactLmd> lmds = testing::exact_lmds(scene, pose);
+  const std::vector<ExactLmd> lmds = exact::exact_lmds(scene, pose);
   ASSERT_EQ(lmds.size(), 1u);
   EXPECT_EQ(lmds[0].feature_moving.kind, FeatureKind::VERTEX);
   EXPECT_EQ(lmds[0].feature_fixed.kind, FeatureKind::FACE);
@@ -49,7 +49,7 @@ TEST(ExactLmds, ParallelFacesGiveTheCornersOfTheirOverlap) {
   // All numbers are exact in binary; the overlap is a rectangle with four corners: two vertices on a face
   // from each box or crossings of edges, and the crossings with the diagonals of the two sides.
   const Scene scene = make_scene(make_box({1, 1, 1}), make_box({1, 1, 1}), 0.5);
-  const std::vector<ExactLmd> lmds = testing::exact_lmds(scene, moved(0.25, 0.5, 1.125));
+  const std::vector<ExactLmd> lmds = exact::exact_lmds(scene, moved(0.25, 0.5, 1.125));
   ASSERT_GE(lmds.size(), 4u);
   for (const ExactLmd& lmd : lmds) EXPECT_EQ(lmd.distance, 0.125) << describe(lmd);
 }
@@ -57,23 +57,23 @@ TEST(ExactLmds, ParallelFacesGiveTheCornersOfTheirOverlap) {
 TEST(ExactLmds, InsideAndOutsideAreToldApart) {
   // A small box inside a large one: nearest points exist, but never on the outer side.
   const Scene scene = make_scene(make_box({0.5, 0.5, 0.5}), make_box({1, 1, 1}), 1.0);
-  EXPECT_TRUE(testing::exact_lmds(scene, moved(0.1, 0.05, 0.02)).empty());
+  EXPECT_TRUE(exact::exact_lmds(scene, moved(0.1, 0.05, 0.02)).empty());
 }
 
 TEST(ExactLmds, TheComparisonSeesWhatIsMissingAndWhatIsUntrue) {
   const Scene scene = make_scene(make_box({1, 1, 1}), make_box({1, 1, 1}), 0.5);
   const Pose pose = moved(1.1, 1.2, 1.3);
-  const std::vector<ExactLmd> exact = testing::exact_lmds(scene, pose);
+  const std::vector<ExactLmd> truth = exact::exact_lmds(scene, pose);
   LmdSet found;
   WorkCounters counters;
   make_method("exhaustive", scene)->search(pose, found, counters);
-  ASSERT_EQ(exact.size(), 1u);
-  EXPECT_EQ(compare_with_exact(found, exact).same_features, 1);
-  EXPECT_EQ(compare_with_exact({}, exact).missed.size(), 1u);
+  ASSERT_EQ(truth.size(), 1u);
+  EXPECT_EQ(compare_with_exact(found, truth).same_features, 1);
+  EXPECT_EQ(compare_with_exact({}, truth).missed.size(), 1u);
   found[0].feature_fixed.index += 1;
   found[0].point_fixed += Vec3(0.01, 0, 0);
-  EXPECT_EQ(compare_with_exact(found, exact).untrue.size(), 1u);
-  EXPECT_EQ(compare_with_exact(found, exact).missed.size(), 1u);
+  EXPECT_EQ(compare_with_exact(found, truth).untrue.size(), 1u);
+  EXPECT_EQ(compare_with_exact(found, truth).missed.size(), 1u);
 }
 
 /// Frames of an experiment that are judged: each scene takes its share of a given number.
@@ -92,7 +92,7 @@ TEST_P(ExactTruth, HasEveryExactLmd) {
   const PreparedRun run = prepare(experiment);
   const auto frames = static_cast<std::int64_t>(run.input.poses.size());
   const std::int64_t samples = std::min(GetParam().frames, frames);
-  int exact = 0, uncertain = 0, same_contact = 0, found = 0, untrue = 0, touching = 0;
+  int judged = 0, uncertain = 0, same_contact = 0, found = 0, untrue = 0, touching = 0;
   for (const char* name : {"exhaustive", "certified"}) {
     const auto method = make_method(name, run.scene);
     for (std::int64_t i = 0; i < samples; ++i) {
@@ -102,28 +102,28 @@ TEST_P(ExactTruth, HasEveryExactLmd) {
       LmdSet lmds;
       WorkCounters counters;
       method->search(pose, lmds, counters);
-      const ExactAgreement agreement = compare_with_exact(lmds, testing::exact_lmds(run.scene, pose));
+      const ExactAgreement agreement = compare_with_exact(lmds, exact::exact_lmds(run.scene, pose));
       for (const ExactLmd& lmd : agreement.missed)
         ADD_FAILURE() << name << " misses in frame " << frame << ": " << describe(lmd);
       const bool contact =
           std::any_of(lmds.begin(), lmds.end(), [](const Lmd& lmd) { return lmd.intersecting; });
-      EXPECT_EQ(contact, testing::exactly_touching(run.scene, pose)) << name << ", frame " << frame;
+      EXPECT_EQ(contact, exact::exactly_touching(run.scene, pose)) << name << ", frame " << frame;
       touching += contact;
-      exact += agreement.exact;
+      judged += agreement.exact;
       uncertain += agreement.uncertain;
       same_contact += agreement.same_contact;
       found += agreement.found;
       untrue += static_cast<int>(agreement.untrue.size());
       for (const Lmd& lmd : agreement.untrue)
-        EXPECT_TRUE(testing::within_tolerance(run.scene, pose, lmd))
+        EXPECT_TRUE(exact::within_tolerance(run.scene, pose, lmd))
             << name << ", frame " << frame << ": untrue at distance " << lmd.distance;
     }
   }
-  std::cout << GetParam().file << ": " << 2 * samples << " sets, " << exact << " exact LMDs, " << same_contact
-            << " of them within a plateau, " << uncertain << " uncertain, " << found << " reported, "
-            << untrue << " of them within the tolerance of the first-order test only, " << touching
-            << " touching\n";
-  EXPECT_GT(exact + touching, 0) << "nothing was judged";
+  std::cout << GetParam().file << ": " << 2 * samples << " sets, " << judged << " exact LMDs, "
+            << same_contact << " of them within a plateau, " << uncertain << " uncertain, " << found
+            << " reported, " << untrue << " of them within the tolerance of the first-order test only, "
+            << touching << " touching\n";
+  EXPECT_GT(judged + touching, 0) << "nothing was judged";
 }
 
 std::vector<SampledScene> extreme_scenes() {
