@@ -4,7 +4,8 @@
 # Style and static analysis.
 #   --quick  clang-format, shellcheck, ASCII and licence headers (seconds)
 #   --tidy   clang-tidy over the library and the program (minutes; needs the release build's compile commands)
-#   (none)   both
+#   --tidy-changed   the same for what changed since LMDBENCH_LINT_BASE (a commit; the parent commit unless set)
+#   (none)   --quick and --tidy
 set -uo pipefail
 # shellcheck source=scripts/lib.sh
 source "$(dirname "${BASH_SOURCE[0]}")/lib.sh"
@@ -40,18 +41,44 @@ headers() {
   return 1
 }
 
+# Sources of src/ that changed since the base, and those beside a changed header; all where there is no base.
+changed_sources() {
+  local base="${LMDBENCH_LINT_BASE:-HEAD~1}" file
+  if ! git rev-parse --quiet --verify "$base^{commit}" >/dev/null; then
+    git ls-files 'src/*.cpp'
+    return
+  fi
+  git diff --name-only "$base" -- 'src/*.cpp' 'src/*.h' | while read -r file; do
+    [[ -e ${file%.*}.cpp ]] && echo "${file%.*}.cpp"
+  done | sort -u
+}
+
+# tidy FILE...: the compile commands also hold tests and benchmarks; the rules are for what ships.
 tidy() {
   local database="$ROOT/build/release/compile_commands.json" log="$ROOT/build/release/clang-tidy.log"
   [[ -e $database ]] || die "$EXIT_ENVIRONMENT" "$database is missing (remedy: cmake --preset release)"
-  # The database also holds tests and benchmarks; the rules are for what ships.
-  if run-clang-tidy -quiet -j "$JOBS" -p "$(dirname "$database")" "$ROOT/src/lmdbench/.*\.cpp" >"$log" 2>/dev/null; then
-    say "clang-tidy: no findings"
+  if (($# == 0)); then
+    say "clang-tidy: nothing to check"
+    return 0
+  fi
+  if run-clang-tidy -quiet -j "$JOBS" -p "$(dirname "$database")" "${@/%/\$}" >"$log" 2>/dev/null; then
+    say "clang-tidy: $# files"
     return 0
   fi
   sed -i 's/\x1b\[[0-9;]*m//g' "$log"
   grep -E "(warning|error): " "$log" | sort -u >&2
   say "clang-tidy: see $log"
   return 1
+}
+tidy_all() {
+  local files
+  mapfile -t files < <(git ls-files 'src/*.cpp')
+  tidy "${files[@]}"
+}
+tidy_changed() {
+  local files
+  mapfile -t files < <(changed_sources)
+  tidy "${files[@]}"
 }
 
 status=0
@@ -61,8 +88,9 @@ case "${1:-}" in
     shell_scripts || status=1
     headers || status=1
     ;;&
-  --tidy | "") tidy || status=1 ;;
+  --tidy | "") tidy_all || status=1 ;;
+  --tidy-changed) tidy_changed || status=1 ;;
   --quick) ;;
-  *) die 2 "unknown argument '$1' (remedy: ./scripts/lint.sh [--quick|--tidy])" ;;
+  *) die 2 "unknown argument '$1' (remedy: ./scripts/lint.sh [--quick|--tidy|--tidy-changed])" ;;
 esac
 exit "$status"
