@@ -17,14 +17,21 @@ double thread_seconds() {
 
 std::vector<std::vector<double>> time_interleaved(const std::vector<TimedTask>& tasks, std::size_t pose_count,
                                                   std::size_t repetitions) {
+  const auto prepare = [](const TimedTask& task, std::size_t pose) {
+    if (task.prepare) task.prepare(pose);
+  };
   for (std::size_t pose = 0; pose < pose_count; ++pose)
-    for (const TimedTask& task : tasks) task.run(pose);
+    for (const TimedTask& task : tasks) {
+      prepare(task, pose);
+      task.run(pose);
+    }
 
   std::vector samples(tasks.size(), std::vector(pose_count, std::vector<double>(repetitions)));
   for (std::size_t repetition = 0; repetition < repetitions; ++repetition)
     for (std::size_t pose = 0; pose < pose_count; ++pose)
       for (std::size_t k = 0; k < tasks.size(); ++k) {
         const std::size_t t = (k + pose + repetition) % tasks.size();
+        prepare(tasks[t], pose);
         const double start = thread_seconds();
         tasks[t].run(pose);
         samples[t][pose][repetition] = thread_seconds() - start;

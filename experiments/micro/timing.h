@@ -13,6 +13,7 @@ namespace lmdbench::micro {
 struct TimedTask {
   std::string name;
   std::function<void(std::size_t pose)> run;
+  std::function<void(std::size_t pose)> prepare = {};  ///< Goes before each run, not timed; may be empty.
 };
 
 /// Processor time [s] of the calling thread, so that other programs on the machine count as little as they

@@ -32,5 +32,19 @@ TEST(TimeInterleaved, RunsEveryTaskAtEveryPoseInRotatingOrder) {
   EXPECT_GE(seconds[0][0], 0.0);
 }
 
+TEST(TimeInterleaved, PreparesBeforeEachRunAndDoesNotTimeThat) {
+  std::string order;
+  const TimedTask task{"a", [&](std::size_t) { order += "r"; },
+                       [&](std::size_t) {
+                         order += "p";
+                         const double until = thread_seconds() + 0.005;
+                         while (thread_seconds() < until) {
+                         }
+                       }};
+  const auto seconds = time_interleaved({task}, 1, 3);
+  EXPECT_EQ(order, "prprprpr");
+  EXPECT_LT(seconds[0][0], 0.005);
+}
+
 }  // namespace
 }  // namespace lmdbench::micro

@@ -1,0 +1,187 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/lmd/registry.h>
+
+#include <fmt/format.h>
+#include <micro/global_search/implementation.h>
+#include <micro/poses.h>
+#include <micro/timing.h>
+#include <scaling/measure.h>
+#include <scaling/slide.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <ctime>
+#include <limits>
+
+namespace lmdbench::scaling {
+namespace {
+
+/// Relative; the poses reach the gap to within GAP_TOLERANCE, and FCL is judged with 1e-6 in this project.
+constexpr double MINIMUM_TOLERANCE = 2.0 * micro::GAP_TOLERANCE;
+
+bool same_set(const LmdSet& a, const LmdSet& b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(), same_feature_pair);
+}
+
+/// `certified` with the slide that leads to each pose.
+class CertifiedRunner {
+ public:
+  CertifiedRunner(const Scene& scene, bool coherent, const std::vector<Pose>& poses,
+                  const std::vector<std::vector<Pose>>& slides)
+      : poses_(poses), slides_(slides) {
+    MethodOptions options;
+    options.frame_coherence = coherent;
+    method_ = make_method("certified", scene, options);
+  }
+  void slide(std::size_t pose) {
+    WorkCounters ignored;
+    for (const Pose& frame : slides_[pose]) method_->search(frame, lmds_, ignored);
+  }
+  void search(std::size_t pose) {
+    counters_ = WorkCounters{};
+    method_->search(poses_[pose], lmds_, counters_);
+  }
+  const LmdSet& lmds() const { return lmds_; }
+  const WorkCounters& counters() const { return counters_; }
+
+ private:
+  const std::vector<Pose>& poses_;
+  const std::vector<std::vector<Pose>>& slides_;
+  std::unique_ptr<Method> method_;
+  LmdSet lmds_;
+  WorkCounters counters_;
+};
+
+std::string minimum_objection(double minimum, const MeasureChoice& choice, double cutoff) {
+  if (choice.gap > cutoff) return std::isnan(minimum) ? "" : "found something beyond the cutoff";
+  const double relative = std::abs(minimum - choice.gap) / choice.gap;
+  // Written so that NaN objects.
+  return relative <= MINIMUM_TOLERANCE ? ""
+                                       : fmt::format("minimum distance off by {:.2g} of itself", relative);
+}
+
+template <class T>
+std::size_t bytes_of(const std::vector<T>& items) {
+  return items.size() * sizeof(T);
+}
+
+std::size_t bytes_of(const IndexRows& rows) {
+  std::size_t items = 0;
+  for (std::int32_t row = 0; row < rows.row_count(); ++row) items += rows[row].size();
+  return (items + static_cast<std::size_t>(rows.row_count()) + 1) * sizeof(std::int32_t);
+}
+
+std::size_t bytes_of(const Surface& surface) {
+  return bytes_of(surface.mesh.vertices) + bytes_of(surface.mesh.triangles) +
+         bytes_of(surface.adjacency.edges) + bytes_of(surface.adjacency.triangle_edges) +
+         bytes_of(surface.adjacency.edge_triangles) + bytes_of(surface.adjacency.vertex_triangles) +
+         bytes_of(surface.adjacency.vertex_edges) + bytes_of(surface.face_normals) +
+         bytes_of(surface.edge_pseudo_normals) + bytes_of(surface.vertex_pseudo_normals) +
+         // Flags, eight in a byte, and the face rows behind Surface::incident_triangles.
+         (surface.edge_is_boundary.size() + surface.vertex_is_boundary.size() +
+          surface.edge_is_non_manifold.size()) /
+             8 +
+         surface.mesh.triangles.size() * sizeof(std::int32_t);
+}
+
+double process_seconds() {
+  timespec now{};
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
+
+double wall_seconds() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+}  // namespace
+
+Measurement measure(const Scene& scene, const std::vector<Pose>& poses, const MeasureChoice& choice) {
+  const Body& moving = *scene.moving;
+  const Body& fixed = *scene.fixed.at(0);
+  micro::Random random(choice.seed);
+  std::vector<std::vector<Pose>> slides;
+  for (const Pose& pose : poses)
+    slides.push_back(lead_in(moving, fixed, pose, bounding_box_diagonal(moving.surface().mesh),
+                             choice.lead_in_frames, random));
+
+  Measurement result;
+  std::vector<micro::TimedTask> tasks;
+  std::vector<LmdSet> truth(poses.size());
+
+  CertifiedRunner scratch(scene, false, poses, slides), sliding(scene, false, poses, slides),
+      coherent(scene, true, poses, slides);
+  const auto add_certified = [&](const std::string& name, CertifiedRunner& runner, bool slides_first) {
+    Series series;
+    series.name = name;
+    for (std::size_t i = 0; i < poses.size(); ++i) {
+      if (slides_first) runner.slide(i);
+      runner.search(i);
+      series.counters.push_back(runner.counters());
+      if (result.series.empty()) truth[i] = runner.lmds();
+      const std::string wrong = minimum_objection(minimum_distance(runner.lmds()), choice, scene.cutoff);
+      if (!wrong.empty()) series.objection = fmt::format("pose {}: {}", i, wrong);
+      if (!same_set(truth[i], runner.lmds()))
+        series.objection = fmt::format("pose {}: not the set that is found from scratch", i);
+      series.error += micro::count_matches(truth[i], runner.lmds(), micro::Match::FEATURE_PAIR, scene);
+    }
+    result.series.push_back(series);
+    micro::TimedTask task{name, [&runner](std::size_t pose) { runner.search(pose); }};
+    if (slides_first) task.prepare = [&runner](std::size_t pose) { runner.slide(pose); };
+    tasks.push_back(std::move(task));
+  };
+  add_certified("certified", scratch, false);
+  add_certified("certified sliding", sliding, true);
+  add_certified("certified coherent", coherent, true);
+  for (const LmdSet& set : truth) result.lmd_counts.push_back(set.size());
+
+  std::vector<std::unique_ptr<micro::GlobalSearch>> peers;
+  for (const micro::SearchImplementation& implementation :
+       {micro::improved_search(), micro::improved_search_with_reduction(), micro::original_search(),
+        micro::fcl_cold_search()}) {
+    peers.push_back(implementation.make(scene));
+    micro::GlobalSearch* peer = peers.back().get();
+    Series series;
+    series.name = implementation.name;
+    for (std::size_t i = 0; i < poses.size(); ++i) {
+      peer->run(poses[i]);
+      if (const LmdSet* lmds = peer->lmds()) {
+        series.error += micro::count_matches(truth[i], *lmds, micro::Match::FEATURE_PAIR, scene);
+      } else {
+        const std::string wrong =
+            minimum_objection(peer->minimum_distance(), choice, std::numeric_limits<double>::infinity());
+        if (!wrong.empty()) series.objection = fmt::format("pose {}: {}", i, wrong);
+      }
+    }
+    result.series.push_back(series);
+    tasks.push_back({implementation.name, [peer, &poses](std::size_t pose) { peer->run(poses[pose]); }});
+  }
+
+  const auto seconds = micro::time_interleaved(tasks, poses.size(), choice.repetitions);
+  for (std::size_t i = 0; i < tasks.size(); ++i) result.series[i].seconds = seconds[i];
+  return result;
+}
+
+BuildCost measure_build(const TriangleMesh& mesh) {
+  constexpr int RUNS = 3;
+  constexpr double INFINITE = std::numeric_limits<double>::infinity();
+  BuildCost cost{INFINITE, INFINITE, INFINITE};
+  for (int run = 0; run < RUNS; ++run) {
+    const double start = wall_seconds();
+    const Surface surface = build_surface(mesh);
+    const double middle = wall_seconds(), middle_cpu = process_seconds();
+    const WideHierarchy hierarchy = build_wide_hierarchy(surface);
+    const double end_cpu = process_seconds();
+    cost.surface_seconds = std::min(cost.surface_seconds, middle - start);
+    cost.wide_hierarchy_seconds = std::min(cost.wide_hierarchy_seconds, wall_seconds() - middle);
+    cost.wide_hierarchy_cpu_seconds = std::min(cost.wide_hierarchy_cpu_seconds, end_cpu - middle_cpu);
+    cost.surface_bytes = bytes_of(surface);
+    cost.wide_hierarchy_bytes = hierarchy.bytes();
+    cost.features = hierarchy.feature_count;
+  }
+  return cost;
+}
+
+}  // namespace lmdbench::scaling

@@ -1,0 +1,91 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/mesh/shapes.h>
+#include <lmdbench/mesh/validity.h>
+#include <lmdbench/snch/minimum_distance.h>
+
+#include <gtest/gtest.h>
+#include <micro/poses.h>
+#include <scaling/measure.h>
+#include <scaling/slide.h>
+#include <scaling/subdivide.h>
+
+#include <memory>
+
+namespace lmdbench::scaling {
+namespace {
+
+TEST(Subdivided, KeepsTheSurfaceClosedAndInPlace) {
+  const TriangleMesh coarse = make_box(Vec3(1.0, 2.0, 4.0));
+  const TriangleMesh fine = subdivided(coarse, 2);
+  EXPECT_EQ(fine.triangles.size(), 16 * coarse.triangles.size());
+  EXPECT_EQ(bounding_box_diagonal(fine), bounding_box_diagonal(coarse));
+  const ValidityReport report = check_mesh(build_surface(fine));
+  EXPECT_TRUE(report.closed);
+  EXPECT_TRUE(report.consistently_oriented);
+  const auto area = [](const TriangleMesh& mesh) {
+    double sum = 0.0;
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+      const Triangle corners = mesh.triangle(static_cast<std::int32_t>(t));
+      sum += 0.5 * (corners[1] - corners[0]).cross(corners[2] - corners[0]).norm();
+    }
+    return sum;
+  };
+  EXPECT_DOUBLE_EQ(area(fine), 28.0);
+  EXPECT_EQ(subdivided(coarse, 0).triangles, coarse.triangles);
+}
+
+TEST(LeadIn, SlidesTowardsThePoseInEqualSteps) {
+  const Body blob("blob", build_surface(make_blob(1.0, 0.2, 2)));
+  const Body box("box", build_surface(make_box(Vec3(1.0, 2.0, 0.5))));
+  constexpr double GAP = 0.05;
+  constexpr double DIAGONAL = 2.0;
+  const Pose end = micro::grazing_poses(blob, box, GAP, 1, 5).front();
+  micro::Random random(3);
+  std::vector<Pose> frames = lead_in(blob, box, end, DIAGONAL, 10, random);
+  ASSERT_EQ(frames.size(), 10u);
+  frames.push_back(end);
+  for (std::size_t i = 0; i + 1 < frames.size(); ++i)
+    EXPECT_NEAR(frames[i].rotation.angularDistance(frames[i + 1].rotation), TURN_RAD_PER_FRAME, 1e-9);
+  const double before =
+      nearest_pair(blob.surface(), blob.hierarchy(), box.surface(), box.hierarchy(), frames[9]).distance;
+  EXPECT_NEAR(before, GAP, 0.2 * SLIDE_DIAGONALS_PER_FRAME * DIAGONAL) << "tangential";
+}
+
+TEST(Measure, FindsCertifiedRightAndCountsItsWork) {
+  Scene scene;
+  scene.moving = std::make_shared<const Body>("blob", build_surface(make_blob(1.0, 0.2, 2)));
+  scene.fixed = {std::make_shared<const Body>("box", build_surface(make_box(Vec3(1.0, 2.0, 0.5), 4)))};
+  scene.cutoff = 0.05;
+  MeasureChoice choice;
+  choice.repetitions = 1;
+  choice.lead_in_frames = 3;
+  choice.gap = 0.01;
+  const auto poses = micro::grazing_poses(*scene.moving, *scene.fixed[0], choice.gap, 4, 5);
+  const Measurement measurement = measure(scene, poses, choice);
+  ASSERT_EQ(measurement.series.size(), 7u);
+  for (const Series& series : measurement.series) {
+    EXPECT_EQ(series.objection, "") << series.name;
+    EXPECT_EQ(series.seconds.size(), poses.size());
+  }
+  EXPECT_GT(measurement.series[0].counters[0][Counter::NODE_PAIRS], 0u);
+  EXPECT_EQ(measurement.series[0].counters, measurement.series[1].counters)
+      << "a slide changes no work from scratch";
+  for (const std::size_t count : measurement.lmd_counts) EXPECT_GE(count, 1u);
+
+  choice.gap = 0.02;
+  EXPECT_NE(measure(scene, poses, choice).series[0].objection, "") << "a wrong minimum distance is noticed";
+}
+
+TEST(MeasureBuild, CountsBytesPerTriangle) {
+  const TriangleMesh mesh = make_sphere(1.0, 4);
+  const BuildCost cost = measure_build(mesh);
+  EXPECT_GT(cost.wide_hierarchy_bytes, 0u);
+  EXPECT_GT(cost.surface_bytes, 150 * mesh.triangles.size());
+  EXPECT_LT(cost.surface_bytes, 200 * mesh.triangles.size());
+  EXPECT_GT(cost.features, mesh.triangles.size()) << "a convex shape: all of them";
+  EXPECT_GT(cost.wide_hierarchy_seconds, 0.0);
+}
+
+}  // namespace
+}  // namespace lmdbench::scaling

@@ -1,0 +1,224 @@
+#!/usr/bin/env python3
+# SPDX-FileCopyrightText: The lmdbench authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""The scaling figure from the file of experiments/scaling: run time over triangles at a fixed contact with log-log
+slopes, certified's work counters over triangles, and run time over cutoff and over the number of LMDs. A point stands
+at the median over the poses, whiskers and bands end at the 10th and 90th percentile. Slopes are least squares through
+the medians; their 95 % intervals come from a bootstrap over poses: pose i has the same orientation and line of approach
+at every size, so all sizes are drawn together."""
+
+import argparse
+import json
+
+import numpy as np
+
+import figure_style as style
+from lmdbench_results import ResultError, run_script
+
+import matplotlib.pyplot as plt
+from matplotlib.lines import Line2D
+from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
+
+FORMAT = "lmdbench-scaling"
+FORMAT_VERSION = 1
+BOOTSTRAP_SAMPLES = 2000
+SEED = 1  # of the bootstrap: the same file gives the same figure
+LOW, HIGH = 0.10, 0.90
+
+CERTIFIED, SLIDING, COHERENT = "certified", "certified sliding", "certified coherent"
+# Name in the file: label, colour, line.
+METHODS = {
+    "original": ("original", style.VERMILLION, style.METHOD_LINES["original"]),
+    "improved+reduction": ("improved with reduction", style.BLUE, "-"),
+    "fcl-cold": ("FCL, nearest pair only", style.PURPLE, ":"),
+    CERTIFIED: ("certified, unrelated poses", style.GREEN, (0, (5, 1, 1, 1))),
+    SLIDING: ("certified, sliding", style.ORANGE, (0, (4, 1.5))),
+    COHERENT: ("certified, sliding, coherent", style.BLACK, "-"),
+}
+STUDIES = {"dragon": "D", "bunny": "o", "armadillo": "s", "bunny-subdivided": "^"}
+STUDY_LABELS = {
+    "dragon": "dragon on bunny of 75k",
+    "bunny": "bunny, decimated",
+    "armadillo": "armadillo, decimated",
+    "bunny-subdivided": "bunny, subdivided",
+}
+COUNTERS = {
+    "node_pairs": ("node pairs tested", style.BLUE, "-"),
+    "leaf_pairs": ("feature pairs tested", style.VERMILLION, (0, (2.6, 0.8))),
+    "first_order_tests": ("first-order tests", style.GREEN, (0, (5, 1, 1, 1))),
+    "triangle_distances": ("exact triangle distances", style.PURPLE, ":"),
+}
+
+
+def load(files):
+    """{study: points} of all files; a study in a later file replaces that of an earlier one."""
+    studies = {}
+    for file in files:
+        try:
+            with open(file, encoding="utf-8") as stream:
+                report = json.load(stream)
+        except FileNotFoundError as error:
+            raise ResultError(f"{file}: there is no such file (remedy: make it with build/release/scaling --json "
+                              f"{file})") from error
+        except json.JSONDecodeError as error:
+            raise ResultError(f"{file}: {error} (remedy: run build/release/scaling again)") from error
+        if report.get("format") != FORMAT or report.get("format_version") != FORMAT_VERSION:
+            raise ResultError(f"{file}: is no {FORMAT} of version {FORMAT_VERSION} (remedy: run build/release/scaling "
+                              "again)")
+        for study in report["studies"]:
+            studies[study["name"]] = study["points"]
+    return studies
+
+
+def samples(points, method):
+    """(points, poses) [us]."""
+    return 1e6 * np.array([point["methods"][method]["seconds"] for point in points])
+
+
+def triangles(points):
+    return np.array([point["moving_triangles"] for point in points], dtype=float)
+
+
+def slope_of(x, y):
+    return np.polyfit(np.log(x), np.log(y), 1)[0]
+
+
+def slope_with_interval(x, values):
+    """Slope of the medians over poses, and the ends of its 95 % interval."""
+    random = np.random.default_rng(SEED)
+    poses = values.shape[1]
+    draws = [slope_of(x, np.median(values[:, random.integers(0, poses, poses)], axis=1))
+             for _ in range(BOOTSTRAP_SAMPLES)]
+    low, high = np.quantile(draws, [0.025, 0.975])
+    return slope_of(x, np.median(values, axis=1)), low, high
+
+
+def draw_times(axes, studies):
+    for study, marker in STUDIES.items():
+        if study not in studies:
+            continue
+        points = studies[study]
+        x = triangles(points)
+        for method, (_, colour, line) in METHODS.items():
+            values = samples(points, method)
+            axes.plot(x, np.median(values, axis=1), color=colour, ls=line, lw=0.8, marker=marker, ms=3.4, mec="white",
+                      mew=0.4)
+    axes.set_xlabel("triangles of the moving mesh")
+    axes.set_ylabel("time per query [µs], median")
+    axes.set_title("a  Time at gap 0.2 %, cutoff 0.5 %", loc="left", fontweight="bold")
+
+
+def draw_counters(axes, studies):
+    for study, marker in STUDIES.items():
+        if study not in studies:
+            continue
+        points = studies[study]
+        for counter, (_, colour, line) in COUNTERS.items():
+            values = np.array([point["methods"][CERTIFIED]["counters"][counter] for point in points], dtype=float)
+            middle = np.mean(values, axis=1)  # medians of small counts would jump
+            axes.plot(triangles(points), np.where(middle > 0, middle, np.nan), color=colour, ls=line, lw=0.8,
+                      marker=marker, ms=3.4, mec="white", mew=0.4)
+    axes.set_xlabel("triangles of the moving mesh")
+    axes.set_ylabel("work of certified per query, mean")
+    axes.set_title("b  Work counters of certified", loc="left", fontweight="bold")
+    keys = [Line2D([], [], color=colour, ls=line, label=label) for label, colour, line in COUNTERS.values()]
+    low, high = axes.get_ylim()
+    axes.set_ylim(low, high * 25)  # room for the key
+    axes.legend(handles=keys, loc="upper left", ncol=2, handlelength=2.4, columnspacing=1.2)
+
+
+def draw_cutoffs(axes, studies):
+    points = studies["cutoff"]
+    x = np.array([100 * point["cutoff"] for point in points])
+    for method, (_, colour, line) in METHODS.items():
+        values = samples(points, method)
+        axes.plot(x, np.median(values, axis=1), color=colour, ls=line, lw=0.9, marker="o", ms=3.2, mec="white", mew=0.4)
+        axes.fill_between(x, np.quantile(values, LOW, axis=1), np.quantile(values, HIGH, axis=1), color=colour,
+                          alpha=0.10, lw=0)
+    axes.set_xlabel("cutoff [% of the diagonal]")
+    axes.set_ylabel("time per query [µs], median, 10 to 90 %")
+    axes.set_title("c  Time over cutoff, bunnies of 16k", loc="left", fontweight="bold")
+    axes.xaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
+
+
+def draw_contacts(axes, studies):
+    """Times over the number of LMDs, over the poses of all cutoffs, grouped so that each group has enough poses."""
+    points = studies["cutoff"]
+    counts = np.concatenate([point["lmd_counts"] for point in points])
+    edges = [1, 2, 3, 4, 6, 9, 13, 19, 28, 1000]
+    for method, (_, colour, line) in METHODS.items():
+        values = np.concatenate(list(samples(points, method)))
+        groups = [(counts >= begin) & (counts < end) for begin, end in zip(edges, edges[1:])]
+        groups = [group for group in groups if np.count_nonzero(group) >= 5]
+        axes.plot([np.mean(counts[group]) for group in groups], [np.median(values[group]) for group in groups],
+                  color=colour, ls=line, lw=0.9, marker="o", ms=3.2, mec="white", mew=0.4)
+    axes.set_xlabel("number of LMDs of the pose")
+    axes.set_ylabel("time per query [µs], median")
+    axes.set_title("d  Time over contacts, all cutoffs of c", loc="left", fontweight="bold")
+    axes.xaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
+
+
+def print_slopes(studies):
+    print("| study | triangles | method | slope of log time over log triangles | 95 % interval |")
+    print("|---|---|---|---|---|")
+    for study in STUDIES:
+        if study not in studies:
+            continue
+        points = studies[study]
+        x = triangles(points)
+        for method, (label, _, _) in METHODS.items():
+            slope, low, high = slope_with_interval(x, samples(points, method))
+            print(f"| {STUDY_LABELS[study]} | {x[0]:.0f} to {x[-1]:.0f} | {label} | {slope:.3f} | {low:.3f} to {high:.3f} |")
+
+
+def draw(studies):
+    style.use_style()
+    figure, axes = plt.subplots(2, 2, figsize=(style.TWO_COLUMNS_IN, 6.0), gridspec_kw={
+        "left": 0.08, "right": 0.99, "bottom": 0.07, "top": 0.86, "wspace": 0.2, "hspace": 0.32})
+    draw_times(axes[0, 0], studies)
+    draw_counters(axes[0, 1], studies)
+    draw_cutoffs(axes[1, 0], studies)
+    draw_contacts(axes[1, 1], studies)
+    for panel in axes.flat:
+        panel.set_xscale("log")
+        panel.set_yscale("log")
+        panel.yaxis.set_major_locator(LogLocator(numticks=12))
+        panel.yaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
+        panel.xaxis.set_minor_formatter(NullFormatter())
+    for panel in axes[0]:
+        panel.xaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:,.0f}"))
+    for panel, ticks in ((axes[1, 0], (0.25, 0.5, 1, 2, 5, 10)), (axes[1, 1], (1, 2, 5, 10, 20))):
+        panel.set_xticks(ticks)
+        panel.set_xticks([], minor=True)
+        panel.xaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
+    keys = [Line2D([], [], color=colour, ls=line, lw=1.4, label=label) for label, colour, line in METHODS.values()]
+    first = figure.legend(handles=keys, loc="upper left", bbox_to_anchor=(0.07, 0.965), ncol=3, handlelength=2.6,
+                          columnspacing=1.4, borderpad=0.1)
+    figure.add_artist(first)
+    marks = [Line2D([], [], color="#444444", ls="none", marker=marker, ms=4.5, mew=0, label=STUDY_LABELS[study])
+             for study, marker in STUDIES.items() if study in studies]
+    figure.legend(handles=marks, loc="upper left", bbox_to_anchor=(0.66, 0.965), ncol=2, handlelength=1.2,
+                  columnspacing=1.2, borderpad=0.1)
+    figure.text(0.075, 0.973, "How run time grows with the meshes and with the contact", fontsize=8.5,
+                fontweight="bold")
+    return figure
+
+
+def main(argv):
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("files", nargs="+", metavar="SCALING.json", help="what build/release/scaling --json wrote")
+    parser.add_argument("--out", required=True, metavar="DIR", help="directory of scaling.svg and scaling.png")
+    arguments = parser.parse_args(argv)
+    studies = load(arguments.files)
+    missing = [name for name in ("bunny", "cutoff") if name not in studies]
+    if missing:
+        raise ResultError(f"{', '.join(arguments.files)}: the study '{missing[0]}' is missing (remedy: run "
+                          "build/release/scaling without --only)")
+    print_slopes(studies)
+    for file in style.save(draw(studies), arguments.out, "scaling"):
+        print(file)
+    return 0
+
+
+if __name__ == "__main__":
+    raise SystemExit(run_script(main))
