@@ -219,7 +219,7 @@ TrianglePairDistance answer_intersection(const Query& query, const TrianglePairD
   if (nearest.minimiser_dimension < 2 || !(std::sqrt(nearest.squared_distance) <= query.tolerance)) {
     const auto shared = shared_segment(query.a.corners, query.face_a, query.b.corners, query.face_b);
     const bool touching = nearest.squared_distance <= 4.0 * query.tolerance * query.tolerance;
-    use_segment = shared.has_chord && (!touching || (shared.is_clear && shared.length > query.tolerance));
+    use_segment = shared.is_clear && (!touching || shared.length > query.tolerance);
     if (use_segment) {
       middle = shared.middle();
       length = shared.length;

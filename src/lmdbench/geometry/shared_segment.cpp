@@ -40,7 +40,6 @@ SharedSegment shared_segment(const FaceFrame& face, const Triangle& corners) {
   }
   if (count == 0) return result;
   if (count == 1) ends[1] = ends[0];
-  result.has_chord = true;
   const FaceFrame::Weights w0 = face.weights(ends[0]);
   const FaceFrame::Weights w1 = face.weights(ends[1]);
   double begin = 0.0, end = 1.0;

@@ -9,8 +9,7 @@ namespace lmdbench::kernel {
 
 /// What two intersecting triangles of different planes share.
 struct SharedSegment {
-  bool has_chord = false;  ///< false where no corner or edge of one meets the plane of the other in a point
-  bool is_clear = false;   ///< false where only rounding decides whether the chord and the face overlap
+  bool is_clear = false;  ///< false where there is no chord, or only rounding lets it and the face overlap
   bool is_certain =
       false;  ///< the triangles intersect by a margin (CERTAIN_PART) that needs no exact predicate
   Vec3 begin, end;
@@ -25,7 +24,7 @@ struct SharedSegment {
 /// @pre corners in lexicographic order, face.has_face
 SharedSegment shared_segment(const FaceFrame& face, const Triangle& corners);
 
-/// The better-shaped triangle as the face; no chord where neither has a face.
+/// The better-shaped triangle as the face; not clear where neither has a face.
 SharedSegment shared_segment(const Triangle& a, const FaceFrame& face_a, const Triangle& b,
                              const FaceFrame& face_b);
 

@@ -5,6 +5,7 @@
 #include <lmdbench/geometry/shared_segment.h>
 #include <lmdbench/geometry/sorted_triangle.h>
 #include <lmdbench/geometry/tolerance.h>
+#include <lmdbench/geometry/triangle_distance.h>
 #include <lmdbench/geometry/triangle_intersection.h>
 
 #include <Eigen/Geometry>
@@ -201,7 +202,12 @@ std::optional<Segment> intersection_segment(const Triangle& a, const Triangle& b
   const kernel::FaceFrame face_second(second, tolerance);
   if (!face_first.has_face || !face_second.has_face) return std::nullopt;
   const auto shared = kernel::shared_segment(first, face_first, second, face_second);
-  if (!shared.has_chord) return std::nullopt;
+  if (!shared.is_clear) {
+    // They touch in a point, or are coplanar.
+    const TrianglePairDistance touching = triangle_distance(first, second);
+    if (touching.minimiser_dimension == 2) return std::nullopt;
+    return Segment{touching.point_a, touching.point_a};
+  }
   if (lexicographic_less(shared.end, shared.begin)) return Segment{shared.end, shared.begin};
   return Segment{shared.begin, shared.end};
 }
