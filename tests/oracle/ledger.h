@@ -1,0 +1,64 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <lmdbench/geometry/pose.h>
+#include <lmdbench/geometry/types.h>
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+/// The disagreement ledger: where those who answered a cross-checked frame's minimum distance differ, exact
+/// arithmetic says who was wrong and by how much.
+namespace lmdbench::exact {
+
+/// One opinion on a frame.
+struct Opinion {
+  std::string who;        ///< A method's label, "lmdbench" (exact-form nearest pair), "fcl", "fcl-unscaled".
+  double distance = 0.0;  ///< metres; infinite where a method found no pair
+  double relative_error =
+      0.0;  ///< |distance - truth| / truth; infinite for a contact that is none or a missed pair
+  bool wrong = false;
+};
+
+/// A frame whose opinions differ.
+struct LedgerRow {
+  std::int64_t frame = 0;
+  Pose pose;           ///< X_WM
+  double truth = 0.0;  ///< Exact minimum distance, rounded once [m]; 0 in contact.
+  std::int32_t fixed_body = 0;
+  std::int32_t triangle_moving = -1, triangle_fixed = -1;  ///< The exact nearest pair.
+  Triangle moving_W, fixed_W;                              ///< Its corners in the world.
+  double fcl_on_pair = 0.0;  ///< FCL's kernel on just these two triangles, scaled as the probe does [m].
+  double fcl_unscaled_on_pair = 0.0;  ///< The same in metres.
+  std::vector<Opinion> opinions;
+};
+
+/// What one party answered over all arbitrated frames.
+struct Ledger {
+  std::string experiment;
+  std::int64_t frames = 0;  ///< Cross-checked.
+  std::int64_t disagreements =
+      0;                        ///< Rows of which fcl, lmdbench and the methods make up; all are arbitrated.
+  double tolerance = 0.0;       ///< Relative.
+  std::vector<LedgerRow> rows;  ///< Frames in which any two differ, fcl-unscaled among them.
+};
+
+/// Reads a result with an FCL cross-check, loads its scene again and arbitrates every frame in which opinions
+/// differ.
+/// @param experiment_file  the experiment's file: relative names in the result are relative to its folder
+/// @throws InputError when the result has no cross-check or does not fit the meshes and path found
+Ledger arbitrate(const std::filesystem::path& result, const std::filesystem::path& experiment_file);
+
+/// The experiment file that a result's command line names, or an empty path.
+std::filesystem::path experiment_file_of(const std::filesystem::path& result);
+
+/// Counts by party, then the worst rows of each party with triangles to paste into a test.
+std::string ledger_markdown(const Ledger& ledger);
+
+/// All rows; numbers have 17 digits and read back to the same bits.
+std::string ledger_json(const Ledger& ledger);
+
+}  // namespace lmdbench::exact
