@@ -12,9 +12,11 @@ namespace lmdbench {
 /// Closest points of two triangles.
 ///
 /// Invariant: `squared_distance == (point_a - point_b).squaredNorm()`, and both points are feasible (each
-/// lies on its triangle up to rounding). Where a whole segment or polygon of pairs attains the minimum
-/// (parallel edges or faces) the points are the centroid of that set, `minimiser_dimension` is 1 or 2 and
-/// `minimiser_measure` its length or area; else the dimension is 0 and the measure 0.
+/// lies on its triangle up to rounding). A point at a corner is a bit-copy of it. Where a whole segment or
+/// polygon of pairs attains the minimum (parallel edges or faces, to COINCIDENCE_TOLERANCE) the points are
+/// the centroid of that set, `minimiser_dimension` is 1 or 2 and `minimiser_measure` its length or area; else
+/// the dimension is 0 and the measure 0. Of intersecting triangles that set is what they share, and both
+/// points are its one centroid.
 struct TrianglePairDistance {
   double squared_distance = std::numeric_limits<double>::quiet_NaN();
   Vec3 point_a = Vec3::Constant(std::numeric_limits<double>::quiet_NaN());
@@ -26,10 +28,16 @@ struct TrianglePairDistance {
   double minimiser_measure = 0.0;
 };
 
-/// Exact-form distance of two triangles given in one frame: every candidate is a feasible point pair (6
-/// vertex-face and 9 edge-edge), the least one wins; an intersection gate answers 0 where the triangles share
-/// a point. All tolerances are relative to the triangles' size; degenerate triangles are segments or points;
-/// never NaN for finite input. Swapping the arguments or permuting corners gives the same point pair.
+/// Distance of two triangles given in one frame; degenerate triangles are segments or points. The error stays
+/// below 1e-14 of the largest coordinate (published bound 1e-12; see tests/oracle/triangle_accuracy.md), and
+/// `intersecting` is decided by exact predicates. All tolerances are relative to the coordinates. Swapping
+/// the arguments or permuting corners gives the same points, bit for bit, and an edge or corner gives the
+/// same bits from each of its triangles. Never NaN for finite input; all NaN where a coordinate is not
+/// finite.
+///
+/// Most pairs are proved by a short descent over features (certified_descent.h), about 50 ns a few sizes
+/// apart and 150 ns face to face; contact, parallel features and exact ties take all candidates
+/// (all_candidates.h), 0.3 to 1.5 us. For many pairs see triangle_distance_batch.h.
 TrianglePairDistance triangle_distance(const Triangle& a, const Triangle& b);
 
 }  // namespace lmdbench
