@@ -43,6 +43,7 @@ SearchImplementation original_search();
 SearchImplementation improved_search();
 SearchImplementation improved_search_with_reduction();
 SearchImplementation certified_search();
+SearchImplementation certified_search_from_scratch();
 SearchImplementation exhaustive_search();
 SearchImplementation fcl_cold_search();
 SearchImplementation fcl_warm_search();
@@ -51,7 +52,7 @@ SearchImplementation fcl_warm_search();
 std::vector<SearchImplementation> search_implementations();
 
 /// A method's `search` as an implementation, followed by its trackings in the global thread where wanted.
-std::unique_ptr<GlobalSearch> make_method_search(const std::string& method, const Scene& scene,
-                                                 int trackings);
+std::unique_ptr<GlobalSearch> make_method_search(const std::string& method, const Scene& scene, int trackings,
+                                                 const MethodOptions& options = {});
 
 }  // namespace lmdbench::micro

@@ -7,8 +7,8 @@ namespace {
 
 class MethodSearch : public GlobalSearch {
  public:
-  MethodSearch(const std::string& method, const Scene& scene, int trackings)
-      : method_(make_method(method, scene)), cutoff_(scene.cutoff), trackings_(trackings) {}
+  MethodSearch(const std::string& method, const Scene& scene, int trackings, const MethodOptions& options)
+      : method_(make_method(method, scene, options)), cutoff_(scene.cutoff), trackings_(trackings) {}
 
   void run(const Pose& X_WM) override {
     method_->search(X_WM, lmds_, counters_);
@@ -32,9 +32,9 @@ class MethodSearch : public GlobalSearch {
 
 }  // namespace
 
-std::unique_ptr<GlobalSearch> make_method_search(const std::string& method, const Scene& scene,
-                                                 int trackings) {
-  return std::make_unique<MethodSearch>(method, scene, trackings);
+std::unique_ptr<GlobalSearch> make_method_search(const std::string& method, const Scene& scene, int trackings,
+                                                 const MethodOptions& options) {
+  return std::make_unique<MethodSearch>(method, scene, trackings, options);
 }
 
 }  // namespace lmdbench::micro

@@ -28,6 +28,47 @@ constexpr double LARGEST_PACE = 1.0;
 /// is 1e-9).
 constexpr double APART = 1e-6;
 
+/// Pairs between the one that is decided and the one whose data is fetched; twice that for the indices,
+/// without which the rest is not known.
+constexpr std::size_t FETCH_DISTANCE = 4;
+
+/// Brings a feature's indices near; a mesh that does not fit into a processor's cache is slow to follow
+/// otherwise.
+void fetch_indices(const Surface& surface, const FeatureId& feature) {
+  const auto index = static_cast<std::size_t>(feature.index);
+  switch (feature.kind) {
+    case FeatureKind::VERTEX:
+      __builtin_prefetch(&surface.mesh.vertices[index]);
+      break;
+    case FeatureKind::EDGE:
+      __builtin_prefetch(&surface.adjacency.edges[index]);
+      break;
+    case FeatureKind::FACE:
+      __builtin_prefetch(&surface.mesh.triangles[index]);
+      __builtin_prefetch(&surface.face_normals[index]);
+      break;
+  }
+}
+
+/// Brings its vertices near, or those round it.
+void fetch_vertices(const Surface& surface, const FeatureId& feature) {
+  const auto index = static_cast<std::size_t>(feature.index);
+  const auto fetch = [&](std::int32_t vertex) {
+    __builtin_prefetch(&surface.mesh.vertices[static_cast<std::size_t>(vertex)]);
+  };
+  switch (feature.kind) {
+    case FeatureKind::VERTEX:
+      __builtin_prefetch(surface.adjacency.vertex_edges[feature.index].data());
+      break;
+    case FeatureKind::EDGE:
+      for (const std::int32_t vertex : surface.adjacency.edges[index]) fetch(vertex);
+      break;
+    case FeatureKind::FACE:
+      for (const std::int32_t vertex : surface.mesh.triangles[index]) fetch(vertex);
+      break;
+  }
+}
+
 /// Points of a strict minimum: what the exact kernel finds on any triangle pair that holds both features,
 /// without looking at the other features. False when a foot is not inside its feature after all.
 bool strict_points(const PairFilter& filter, const FeatureId& on_moving, const FeatureId& on_fixed, Vec3& p,
@@ -240,7 +281,16 @@ void Certified::search(const Pose& X_WM, LmdSet& lmds, WorkCounters& counters) {
     } else {
       frontier.clear();
       find_wide_pairs(moving, fixed, query, kernel_, scratch_, work);
-      for (const WidePair& pair : scratch_.lmd_pairs) decide_pair(pair, false, 1.0);
+      const auto fetch = [&](std::size_t k, const auto& fetch_part) {
+        if (k >= scratch_.lmd_pairs.size()) return;
+        fetch_part(filter.moving, scratch_.lmd_pairs[k].a.feature_id());
+        fetch_part(filter.fixed, scratch_.lmd_pairs[k].b.feature_id());
+      };
+      for (std::size_t k = 0; k < scratch_.lmd_pairs.size(); ++k) {
+        fetch(k + 2 * FETCH_DISTANCE, fetch_indices);
+        fetch(k + FETCH_DISTANCE, fetch_vertices);
+        decide_pair(scratch_.lmd_pairs[k], false, 1.0);
+      }
       for (const WidePair& pair : scratch_.touch_pairs) decide_pair(pair, true, 1.0);
     }
     decide_pending(filter, body, counters);
