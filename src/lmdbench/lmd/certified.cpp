@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <tuple>
 
 namespace lmdbench {
 
@@ -218,6 +219,20 @@ void Certified::decide_pending(const PairFilter& filter, std::int32_t body, Work
 }
 
 void Certified::report(double coordinates, LmdSet& lmds) {
+  // One entry a feature pair, as merge_plateaus keeps it: a pair may come from its own candidate and from
+  // that of a neighbour that was close to a tie.
+  std::sort(minima_.begin(), minima_.end(), [](const LocalMinimum& a, const LocalMinimum& b) {
+    return std::tie(a.lmd.fixed_body, a.lmd.feature_moving, a.lmd.feature_fixed, a.lmd.distance, b.measure,
+                    a.lmd.triangle_moving, a.lmd.triangle_fixed) <
+           std::tie(b.lmd.fixed_body, b.lmd.feature_moving, b.lmd.feature_fixed, b.lmd.distance, a.measure,
+                    b.lmd.triangle_moving, b.lmd.triangle_fixed);
+  });
+  minima_.erase(std::unique(minima_.begin(), minima_.end(),
+                            [](const LocalMinimum& a, const LocalMinimum& b) {
+                              return same_feature_pair(a.lmd, b.lmd);
+                            }),
+                minima_.end());
+  // Plateaus are rare, and have equal distances.
   for (std::size_t i = 0; i < minima_.size(); ++i) {
     for (std::size_t j = i + 1; j < minima_.size(); ++j) {
       const double a = minima_[i].lmd.distance, b = minima_[j].lmd.distance;
