@@ -104,7 +104,7 @@ def draw_times(axes, studies):
             axes.plot(x, np.median(values, axis=1), color=colour, ls=line, lw=0.8, marker=marker, ms=3.4, mec="white",
                       mew=0.4)
     axes.set_xlabel("triangles of the moving mesh")
-    axes.set_ylabel("time per query [µs], median")
+    axes.set_ylabel("time per query [\u00b5s], median")
     axes.set_title("a  Time at gap 0.2 %, cutoff 0.5 %", loc="left", fontweight="bold")
 
 
@@ -136,7 +136,7 @@ def draw_cutoffs(axes, studies):
         axes.fill_between(x, np.quantile(values, LOW, axis=1), np.quantile(values, HIGH, axis=1), color=colour,
                           alpha=0.10, lw=0)
     axes.set_xlabel("cutoff [% of the diagonal]")
-    axes.set_ylabel("time per query [µs], median, 10 to 90 %")
+    axes.set_ylabel("time per query [\u00b5s], median, 10 to 90 %")
     axes.set_title("c  Time over cutoff, bunnies of 16k", loc="left", fontweight="bold")
     axes.xaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
 
@@ -153,7 +153,7 @@ def draw_contacts(axes, studies):
         axes.plot([np.mean(counts[group]) for group in groups], [np.median(values[group]) for group in groups],
                   color=colour, ls=line, lw=0.9, marker="o", ms=3.2, mec="white", mew=0.4)
     axes.set_xlabel("number of LMDs of the pose")
-    axes.set_ylabel("time per query [µs], median")
+    axes.set_ylabel("time per query [\u00b5s], median")
     axes.set_title("d  Time over contacts, all cutoffs of c", loc="left", fontweight="bold")
     axes.xaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
 
