@@ -81,6 +81,7 @@ EdgePairs examine_edge_pairs(const Query& query) {
       PointsOnSegments pair;
       const bool a_first = segment_pair(a0, a1, query.b.corners[EDGE_ENDS[j][0]],
                                         query.b.corners[EDGE_ENDS[j][1]], query.tolerance, pair);
+      if (pair.squared_distance > result.nearest.squared_distance && pair.overlap_length == 0.0) continue;
       TrianglePairDistance candidate;
       candidate.squared_distance = pair.squared_distance;
       candidate.point_a = a_first ? pair.p : pair.q;
