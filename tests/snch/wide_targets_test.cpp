@@ -1,0 +1,76 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/snch/wide_slack.h>
+#include <lmdbench/snch/wide_traversal.h>
+
+#include <gtest/gtest.h>
+#include <hwy/targets.h>
+#include <support/scenes.h>
+
+#include <random>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace lmdbench {
+namespace {
+
+/// Makes Highway believe that the processor has one instruction set only.
+class OneTarget {
+ public:
+  explicit OneTarget(std::int64_t target) {
+    hwy::SetSupportedTargetsForTest(target);
+    hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+  }
+  ~OneTarget() {
+    hwy::SetSupportedTargetsForTest(0);
+    hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+  }
+};
+
+TEST(WideTargets, EveryInstructionSetFindsTheSamePairsWithTheSameCounters) {
+  const WideHierarchy a = build_wide_hierarchy(build_surface(make_blob(1.0, 0.3, 3)));
+  const WideHierarchy b = build_wide_hierarchy(build_surface(make_torus(1.0, 0.4, 30, 16)));
+  std::mt19937_64 random(1);
+  std::set<std::string> names;
+  for (int i = 0; i < 20; ++i) {
+    const Pose pose{(1.0 + testing::uniform(random)) * testing::random_direction(random),
+                    testing::random_rotation(random)};
+    const WideQuery query(a, b, RigidTransform(pose), 0.1, 1e-9);
+    WideScratch reference;
+    WideCounters of_reference;
+    find_wide_pairs(a, b, query, WideKernel::SCALAR, reference, of_reference);
+    for (const std::int64_t target : hwy::SupportedAndGeneratedTargets()) {
+      const OneTarget only(target);
+      names.emplace(wide_kernel_target());
+      WideScratch scratch;
+      WideCounters counters;
+      find_wide_pairs(a, b, query, WideKernel::VECTOR, scratch, counters);
+      ASSERT_EQ(scratch.lmd_pairs.size(), reference.lmd_pairs.size()) << wide_kernel_target();
+      for (std::size_t k = 0; k < scratch.lmd_pairs.size(); ++k) {
+        ASSERT_EQ(scratch.lmd_pairs[k].a, reference.lmd_pairs[k].a);
+        ASSERT_EQ(scratch.lmd_pairs[k].b, reference.lmd_pairs[k].b);
+      }
+      ASSERT_EQ(scratch.touch_pairs.size(), reference.touch_pairs.size());
+      ASSERT_EQ(counters.node_pairs, of_reference.node_pairs);
+      ASSERT_EQ(counters.rejected_g1, of_reference.rejected_g1);
+      ASSERT_EQ(counters.rejected_g2, of_reference.rejected_g2);
+      ASSERT_EQ(counters.rejected_g3, of_reference.rejected_g3);
+
+      const WideProbe probe = make_probe(a.nodes[0], 0, query.a_in_b);
+      const WidePaces paces{100.0F, 100.0F, 0.1F};
+      for (const WideNode& node : b.nodes) {
+        const WideSlackMasks vector = test_lanes_slack(node, probe, query.limits, paces, 0xFFu);
+        const WideSlackMasks scalar = test_lanes_slack_scalar(node, probe, query.limits, paces, 0xFFu);
+        ASSERT_EQ(vector.lmd, scalar.lmd);
+        ASSERT_EQ(vector.touch, scalar.touch);
+        ASSERT_EQ(vector.length_slack, scalar.length_slack);
+        ASSERT_EQ(vector.angle_slack, scalar.angle_slack);
+      }
+    }
+  }
+  EXPECT_EQ(names.size(), hwy::SupportedAndGeneratedTargets().size());
+}
+
+}  // namespace
+}  // namespace lmdbench
