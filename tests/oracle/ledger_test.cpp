@@ -1,0 +1,69 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "oracle/ledger.h"
+
+#include <lmdbench/error.h>
+#include <lmdbench/experiment/experiment.h>
+#include <lmdbench/experiment/run.h>
+
+#include "record/result_reading.h"
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <string>
+
+namespace lmdbench::exact {
+namespace {
+
+using ::testing::HasSubstr;
+
+const std::string TINY = LMDBENCH_SOURCE_DIR "/experiments/extreme/tiny.json";
+
+/// A scene of one micrometre: FCL must be wrong on it unless it is scaled.
+std::filesystem::path run_tiny(const testing::ScratchDirectory& folder, const std::string& stride) {
+  const std::filesystem::path file = folder / "tiny.h5";
+  run_experiment_to_file(load_experiment(TINY, {"/driver/repetitions=1", "/probes/truth/stride_frames=0",
+                                                "/probes/fcl/stride_frames=" + stride}),
+                         file, {"lmdbench", "run", TINY}, {});
+  return file;
+}
+
+const Opinion& opinion_of(const LedgerRow& row, const std::string& who) {
+  return *std::find_if(row.opinions.begin(), row.opinions.end(),
+                       [&](const Opinion& opinion) { return opinion.who == who; });
+}
+
+TEST(Ledger, TellsWhoIsWrongOnAMicrometre) {
+  const testing::ScratchDirectory folder;
+  const std::filesystem::path file = run_tiny(folder, "10");
+  EXPECT_EQ(experiment_file_of(file), TINY);
+  const Ledger ledger = arbitrate(file, TINY);
+  EXPECT_EQ(ledger.frames, 20);
+  ASSERT_GT(ledger.rows.size(), 10u);
+  int unscaled_wrong = 0;
+  for (const LedgerRow& row : ledger.rows) {
+    EXPECT_GT(row.truth, 0.0);
+    for (const char* who : {"fcl", "lmdbench", "certified", "exhaustive"})
+      EXPECT_FALSE(opinion_of(row, who).wrong) << who << ", frame " << row.frame;
+    unscaled_wrong += opinion_of(row, "fcl-unscaled").wrong;
+    // The row's triangles carry the distance.
+    EXPECT_LT((row.moving_W[0] - row.fixed_W[0]).norm(), 2e-6);
+  }
+  EXPECT_GT(unscaled_wrong, 10);
+  EXPECT_THAT(ledger_markdown(ledger), HasSubstr("### fcl-unscaled: wrong in"));
+  const auto json = nlohmann::json::parse(ledger_json(ledger));
+  ASSERT_EQ(json["rows"].size(), ledger.rows.size());
+  for (int axis = 0; axis < 3; ++axis)
+    EXPECT_EQ(json["rows"][0]["moving_W"][1][axis].get<double>(), ledger.rows[0].moving_W[1][axis]);
+}
+
+TEST(Ledger, RefusesWhatItCannotJudge) {
+  const testing::ScratchDirectory folder;
+  const std::filesystem::path unchecked = run_tiny(folder, "0");
+  EXPECT_THROW(arbitrate(unchecked, TINY), InputError);
+}
+
+}  // namespace
+}  // namespace lmdbench::exact
