@@ -137,12 +137,12 @@ bool Certified::evaluate(const PairFilter& filter, std::int32_t body, const Tria
   const Triangle a = filter.X_WM.triangle(filter.moving.mesh.triangle(pair.moving));
   const TrianglePairDistance nearest = triangle_distance(a, filter.fixed.mesh.triangle(pair.fixed));
   ++counters[Counter::TRIANGLE_DISTANCES];
+  minimum = LocalMinimum{};
+  minimum.lmd.distance = std::sqrt(nearest.squared_distance);
   if (!(nearest.squared_distance <= scene_.cutoff * scene_.cutoff)) {
     ++counters[Counter::REJECTED_CUTOFF];
     return false;
   }
-  minimum = LocalMinimum{};
-  minimum.lmd.distance = std::sqrt(nearest.squared_distance);
   minimum.lmd.point_moving = nearest.point_a;
   minimum.lmd.point_fixed = nearest.point_b;
   minimum.lmd.feature_moving = filter.moving.feature_of(pair.moving, nearest.feature_a);
@@ -190,7 +190,7 @@ double Certified::decide(const PairFilter& filter, std::int32_t body, const Wide
   return -1.0;
 }
 
-double Certified::decide_touching(const PairFilter& filter, const WidePair& candidate,
+double Certified::decide_touching(const PairFilter& filter, std::int32_t body, const WidePair& candidate,
                                   WorkCounters& counters) {
   const TrianglePair pair{candidate.a.feature_id().index, candidate.b.feature_id().index};
   const Triangle a = filter.X_WM.triangle(filter.moving.mesh.triangle(pair.moving));
@@ -199,14 +199,11 @@ double Certified::decide_touching(const PairFilter& filter, const WidePair& cand
       filter.X_WM.direction(filter.moving.face_normals[static_cast<std::size_t>(pair.moving)]);
   const Vec3& normal_b = filter.fixed.face_normals[static_cast<std::size_t>(pair.fixed)];
   const double margin = 2.0 * filter.touch;
-  double gap = clear_gap(a, normal_a, b, normal_b, margin);
-  if (gap == 0.0) {
-    gap = std::sqrt(triangle_distance(a, b).squared_distance);
-    ++counters[Counter::TRIANGLE_DISTANCES];
-  }
-  if (gap > margin) return gap - margin;
-  pending_.push_back(pair);
-  return -1.0;
+  const double gap = clear_gap(a, normal_a, b, normal_b, margin);
+  if (gap > 0.0) return gap - margin;
+  LocalMinimum minimum;
+  if (evaluate(filter, body, pair, minimum, counters)) minima_.push_back(minimum);
+  return minimum.lmd.distance > margin ? minimum.lmd.distance - margin : -1.0;
 }
 
 void Certified::decide_pending(const PairFilter& filter, std::int32_t body, WorkCounters& counters) {
@@ -283,7 +280,8 @@ void Certified::search(const Pose& X_WM, LmdSet& lmds, WorkCounters& counters) {
     WideCounters work;
     const auto decide_pair = [&](const WidePair& pair, bool touches, double lever) {
       ++counters[Counter::LEAF_PAIRS];
-      return touches ? decide_touching(filter, pair, counters) : decide(filter, body, pair, lever, counters);
+      return touches ? decide_touching(filter, body, pair, counters)
+                     : decide(filter, body, pair, lever, counters);
     };
     WideFrontier& frontier = frontiers_[i];
     if (keep && query.possible) {

@@ -70,7 +70,8 @@ class Certified : public Method {
 
   double decide(const PairFilter& filter, std::int32_t body, const WidePair& candidate, double lever,
                 WorkCounters& counters);
-  double decide_touching(const PairFilter& filter, const WidePair& candidate, WorkCounters& counters);
+  double decide_touching(const PairFilter& filter, std::int32_t body, const WidePair& candidate,
+                         WorkCounters& counters);
   void decide_pending(const PairFilter& filter, std::int32_t body, WorkCounters& counters);
   bool evaluate(const PairFilter& filter, std::int32_t body, const TrianglePair& pair, LocalMinimum& minimum,
                 WorkCounters& counters) const;
