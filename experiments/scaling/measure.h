@@ -18,8 +18,10 @@ struct Series {
   std::string name;
   std::vector<double> seconds;         ///< One a pose: median of the repetitions, processor time.
   std::vector<WorkCounters> counters;  ///< One a pose; only of `certified`.
-  micro::MatchCount error;             ///< Against `certified` from scratch; empty for a nearest pair only.
-  std::string objection;               ///< Why its times do not count; empty when it does what it promises.
+  /// Against `certified` from scratch; empty for a nearest pair only. For the paper's algorithms neighbouring
+  /// features count as found, because their candidates are not tracked to the minimum yet.
+  micro::MatchCount error;
+  std::string objection;  ///< Why its times do not count; empty when it does what it promises.
 };
 
 struct Measurement {
@@ -39,8 +41,8 @@ struct MeasureChoice {
 /// - "certified sliding": from scratch, but after a slide to the pose (slide.h), as in a haptic loop;
 /// - "certified coherent": the same slide with frame coherence;
 /// - "improved", "improved+reduction", "original", "fcl-cold".
-/// Each is checked first: the minimum distance of `certified` and FCL must be the gap, and all three sets of
-/// `certified` the same.
+/// Each is checked first: the minimum distance of `certified` (where the nearest pair is an LMD) and FCL must
+/// be the gap, and all three sets of `certified` the same.
 Measurement measure(const Scene& scene, const std::vector<Pose>& poses, const MeasureChoice& choice);
 
 /// What certified needs of a mesh, and what its making takes.

@@ -3,7 +3,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The scaling figure from the file of experiments/scaling: run time over triangles at a fixed contact with log-log
 slopes, certified's work counters over triangles, and run time over cutoff and over the number of LMDs. A point stands
-at the median over the poses, whiskers and bands end at the 10th and 90th percentile. Slopes are least squares through
+at the median over the poses (work counters: at the mean). Slopes are least squares through
 the medians; their 95 % intervals come from a bootstrap over poses: pose i has the same orientation and line of approach
 at every size, so all sizes are drawn together."""
 
@@ -23,7 +23,6 @@ FORMAT = "lmdbench-scaling"
 FORMAT_VERSION = 1
 BOOTSTRAP_SAMPLES = 2000
 SEED = 1  # of the bootstrap: the same file gives the same figure
-LOW, HIGH = 0.10, 0.90
 
 CERTIFIED, SLIDING, COHERENT = "certified", "certified sliding", "certified coherent"
 # Name in the file: label, colour, line.
@@ -122,8 +121,7 @@ def draw_counters(axes, studies):
     axes.set_ylabel("work of certified per query, mean")
     axes.set_title("b  Work counters of certified", loc="left", fontweight="bold")
     keys = [Line2D([], [], color=colour, ls=line, label=label) for label, colour, line in COUNTERS.values()]
-    low, high = axes.get_ylim()
-    axes.set_ylim(low, high * 25)  # room for the key
+    axes.set_ylim(top=axes.get_ylim()[1] * 25)  # room for the key
     axes.legend(handles=keys, loc="upper left", ncol=2, handlelength=2.4, columnspacing=1.2)
 
 
@@ -133,10 +131,8 @@ def draw_cutoffs(axes, studies):
     for method, (_, colour, line) in METHODS.items():
         values = samples(points, method)
         axes.plot(x, np.median(values, axis=1), color=colour, ls=line, lw=0.9, marker="o", ms=3.2, mec="white", mew=0.4)
-        axes.fill_between(x, np.quantile(values, LOW, axis=1), np.quantile(values, HIGH, axis=1), color=colour,
-                          alpha=0.10, lw=0)
     axes.set_xlabel("cutoff [% of the diagonal]")
-    axes.set_ylabel("time per query [\u00b5s], median, 10 to 90 %")
+    axes.set_ylabel("time per query [\u00b5s], median")
     axes.set_title("c  Time over cutoff, bunnies of 16k", loc="left", fontweight="bold")
     axes.xaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
 
@@ -174,19 +170,20 @@ def print_slopes(studies):
 def draw(studies):
     style.use_style()
     figure, axes = plt.subplots(2, 2, figsize=(style.TWO_COLUMNS_IN, 6.0), gridspec_kw={
-        "left": 0.08, "right": 0.99, "bottom": 0.07, "top": 0.86, "wspace": 0.2, "hspace": 0.32})
+        "left": 0.08, "right": 0.985, "bottom": 0.07, "top": 0.845, "wspace": 0.2, "hspace": 0.32})
+    for panel in axes.flat:
+        panel.set_xscale("log")
+        panel.set_yscale("log")
     draw_times(axes[0, 0], studies)
     draw_counters(axes[0, 1], studies)
     draw_cutoffs(axes[1, 0], studies)
     draw_contacts(axes[1, 1], studies)
     for panel in axes.flat:
-        panel.set_xscale("log")
-        panel.set_yscale("log")
         panel.yaxis.set_major_locator(LogLocator(numticks=12))
         panel.yaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
         panel.xaxis.set_minor_formatter(NullFormatter())
     for panel in axes[0]:
-        panel.xaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:,.0f}"))
+        panel.xaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value / 1000:g}k"))
     for panel, ticks in ((axes[1, 0], (0.25, 0.5, 1, 2, 5, 10)), (axes[1, 1], (1, 2, 5, 10, 20))):
         panel.set_xticks(ticks)
         panel.set_xticks([], minor=True)
@@ -197,7 +194,7 @@ def draw(studies):
     figure.add_artist(first)
     marks = [Line2D([], [], color="#444444", ls="none", marker=marker, ms=4.5, mew=0, label=STUDY_LABELS[study])
              for study, marker in STUDIES.items() if study in studies]
-    figure.legend(handles=marks, loc="upper left", bbox_to_anchor=(0.66, 0.965), ncol=2, handlelength=1.2,
+    figure.legend(handles=marks, loc="upper left", bbox_to_anchor=(0.07, 0.915), ncol=4, handlelength=1.2,
                   columnspacing=1.2, borderpad=0.1)
     figure.text(0.075, 0.973, "How run time grows with the meshes and with the contact", fontsize=8.5,
                 fontweight="bold")
