@@ -29,8 +29,7 @@ struct FclResult {
 /// Unit of length in which FCL sees the meshes.
 enum class FclScaling : std::uint8_t {
   /// One common factor for all meshes and poses brings the mean edge length of the *finest* mesh (the one
-  /// with the
-  /// least mean edge length) to 1, so no mesh's mean is below 1.
+  /// with the least mean edge length) to 1, so no mesh's mean is below 1.
   UNIT_MEAN_EDGE,
   /// The meshes as they are: only for showing what happens without scaling.
   NONE

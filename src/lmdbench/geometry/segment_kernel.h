@@ -134,9 +134,8 @@ inline void parallel_segments(const Vec3& p0, const Vec3& p1, const Vec3& q0, co
 ///   point and one line: t = -(r' . d2') / (d2' . d2') is the nearest point of q's line to p's line. The
 ///   textbook denominator |d1|^2 |d2|^2 - (d1 . d2)^2 is the same number but loses the angle below 1e-8; this
 ///   form places the points with an error of a few roundings of the segments' length for every angle.
-/// - Clamp t, project on p, clamp, project back (C. Ericson, "Real-Time Collision Detection", 2005,
-/// section 5.1.9):
-///   each step is a feasible pair and the last is the minimum of a convex function over the box.
+/// - Clamp t, project on p, clamp, project back (C. Ericson, "Real-Time Collision Detection", 2005, section
+///   5.1.9): each step is a feasible pair and the last is the minimum of a convex function over the box.
 inline void ordered_segment_distance(const Vec3& p0, const Vec3& p1, const Vec3& q0, const Vec3& q1,
                                      double squared_length_p, double squared_length_q, double tolerance,
                                      PointsOnSegments& result) {

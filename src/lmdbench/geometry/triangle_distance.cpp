@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/geometry/all_candidates.h>
-#include <lmdbench/geometry/certified_descent.h>
+#include <lmdbench/geometry/feature_descent.h>
 #include <lmdbench/geometry/tolerance.h>
 #include <lmdbench/geometry/triangle_distance.h>
 
@@ -74,7 +74,7 @@ TrianglePairDistance triangle_distance(const Triangle& a, const Triangle& b) {
   const double tolerance = coincidence_length(magnitude);
   TrianglePairDistance result;
   // The descent proves nothing where a coordinate is not a number.
-  if (in_range && kernel::certified_descent(a, b, tolerance, result)) return result;
+  if (in_range && kernel::feature_descent(a, b, tolerance, result)) return result;
   if (!all_finite(a) || !all_finite(b)) return result;
   return in_range || magnitude == 0.0 ? kernel::distance_by_all_candidates(a, b, tolerance)
                                       : distance_by_scaled_candidates(a, b, magnitude);

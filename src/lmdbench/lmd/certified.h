@@ -16,16 +16,15 @@
 
 namespace lmdbench {
 
-/// The third algorithm (design section 4): the exact and complete LMD set in every frame, without a second
-/// rate.
+/// The third algorithm (design section 4): the exact and complete LMD set in every frame, without a
+/// second rate.
 ///
 /// 1. Both meshes have a wide hierarchy over their features with non-empty outward polar cone
-/// (wide_hierarchy.h).
-///    Descending both finds every feature pair that bounds cannot reject (wide_traversal.h).
+///    (wide_hierarchy.h). Descending both finds every feature pair that bounds cannot reject
+///    (wide_traversal.h).
 /// 2. A closed-form test in double precision rejects nearly all of those (certified_filter.h).
 /// 3. What is left is decided by the predicates that define the ground truth: exact triangle distance,
-/// first-order
-///    test, plateau merging (first_order.h, plateau.h).
+///    first-order test, plateau merging (first_order.h, plateau.h).
 ///
 /// Why the set equals `exhaustive`'s. *Precision*: an LMD is reported only if it passes the truth's own
 /// first-order test (step 3), at the points of a triangle pair's exact distance or of a strict minimum.
@@ -40,8 +39,9 @@ namespace lmdbench {
 ///   each, and its points depend on the two features alone; else all incident triangle pairs are evaluated,
 ///   the accepted one among them.
 /// - d <= touch, or the triangles intersect. Directions mean nothing there, but the two faces touch within
-/// the touch
-///   distance: every triangle is a leaf, even one without area, and the touch test looks at no cone.
+///   the touch distance: every triangle is a leaf, even one without area, and the touch test looks at no
+///   cone.
+///
 /// The merging of plateaus is the truth's, and it sees the same minima.
 ///
 /// Frame coherence: where the pose moves by little, step 1 is not made anew; the tests of the last frames are

@@ -43,15 +43,13 @@ struct PairFilter {
   ///
   /// The slack follows from what rejected the pair:
   /// - too far, or on the inner side of a face: distances to points, lines and planes change by no more than
-  /// a motion;
+  ///   a motion;
   /// - a foot beyond an end or side by h: so do distances to the planes through an end or side, square to the
-  /// edge or
-  ///   face. Two edges at the angle alpha: the plane through one edge and the common perpendicular n also
-  ///   turns, by no more than n; n turns by phi <= (pi / 3) theta / sin(alpha) while theta <= sin(alpha) / 2;
+  ///   edge or face. Two edges at the angle alpha: the plane through one edge and the common perpendicular n
+  ///   also turns, by no more than n; n turns by phi <= (pi / 3) theta / sin(alpha) while
+  ///   theta <= sin(alpha) / 2;
   /// - d leaves a cone by d . e > 0 for a unit e: changes by no more than d does, or by |d| times the angle
-  /// where the
-  ///   direction is a face's normal or n.
-  /// @param lever of the size of motions that the slack is for [m]: a size bounds the angle by size / lever
+  ///   where the direction is a face's normal or n.
   PairAnswer operator()(const FeatureId& on_moving, const FeatureId& on_fixed, double lever) const;
 };
 

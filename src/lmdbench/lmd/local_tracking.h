@@ -16,6 +16,7 @@ namespace lmdbench {
 ///   L2  the distances of all combinations;
 ///   L3  quit when the shortest one is the pair that was there;
 ///   L4  else go on from the shortest.
+///
 /// What the distance of a triangle pair is (7x7 points or exact) and where it comes from (calculated or
 /// cached) is the algorithm's own; the walk is shared.
 

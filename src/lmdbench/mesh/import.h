@@ -13,16 +13,13 @@ namespace lmdbench {
 /// - All meshes of the file are merged, each moved by its node's transform; mirrored ones are turned right
 /// side out.
 /// - Vertices with bit-identical positions are welded (0 and -0 count as one), because formats such as STL
-/// give every
-///   triangle its own corners, and adjacency, normals and polar cones need to know who meets whom. Never by a
-///   distance: an epsilon would close real gaps, collapse small triangles and depend on the model's scale,
-///   and what it joins would depend on the order of visits.
+///   give every triangle its own corners, and adjacency, normals and polar cones need to know who meets whom.
+///   Never by a distance: an epsilon would close real gaps, collapse small triangles and depend on the
+///   model's scale, and what it joins would depend on the order of visits.
 /// - Triangles keep the file's order and their corners' order; those without area stay (`check_mesh` counts
-/// them).
-///   Polygons become triangles in place. Points and lines are no surface and are left out.
+///   them). Polygons become triangles in place. Points and lines are no surface and are left out.
 /// - Vertices keep the file's order too, but those that no triangle uses are left out: they are not on the
-/// surface and
-///   must not count for its size.
+///   surface and must not count for its size.
 /// - Coordinates are taken as they are; no unit is guessed. All formats but OFF are read in single precision
 /// (assimp).
 ///

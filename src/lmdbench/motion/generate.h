@@ -51,12 +51,11 @@ double wanted_gap(const std::vector<GapPoint>& gaps, double time);
 
 /// Makes a path:
 ///  1. The direction from the fixed mesh to the moving one wanders over the sphere, and the moving mesh turns
-///  about its
-///     own centre (`Wander`); both are smooth and depend on the seed alone.
+///     about its own centre (`Wander`); both are smooth and depend on the seed alone.
 ///  2. In every frame `first_reach` finds the centre distance with the wanted gap.
 ///  3. That distance jumps where the first contact jumps (silhouettes) and has kinks where contacts change
-///  over:
-///     `bounded_majorant` lays a motion above it that a hand could make. Above is outside, so gaps only grow.
+///     over: `bounded_majorant` lays a motion above it that a hand could make. Above is outside, so gaps only
+///     grow.
 ///  4. Every (frame rate / stored rate)-th pose is kept.
 ///
 /// Between stored poses the interpolated path may come nearer than wanted by micrometres: check it

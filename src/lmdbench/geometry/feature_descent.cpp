@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include <lmdbench/geometry/certified_descent.h>
 #include <lmdbench/geometry/face_frame.h>
+#include <lmdbench/geometry/feature_descent.h>
 #include <lmdbench/geometry/segment_kernel.h>
 #include <lmdbench/geometry/sorted_triangle.h>
 
@@ -9,7 +9,7 @@
 #include <cmath>
 #include <limits>
 
-// Steps of certified_descent:
+// Steps of feature_descent:
 // - start at the nearest pair of corners;
 // - solve for the nearest points p, q of the parts of the triangles that the carriers span (corner, edge or
 // face);
@@ -70,8 +70,7 @@ double squared(double x) {
 
 /// @param d from this triangle to the other
 /// @param squared_margin square of the length below which a corner is neither ahead nor behind: it covers the
-/// error
-///   of d (a few roundings of the coordinates) and the drift that counts as parallel
+///   error of d (a few roundings of the coordinates) and the drift that counts as parallel
 Outlook look_out(const Triangle& t, const Carriers& carriers, const Vec3& d, double squared_d,
                  double squared_margin) {
   Outlook outlook;
@@ -270,7 +269,7 @@ int farthest_along(const Triangle& t, const Vec3& direction) {
 
 }  // namespace
 
-bool certified_descent(const Triangle& a, const Triangle& b, double tolerance, TrianglePairDistance& result) {
+bool feature_descent(const Triangle& a, const Triangle& b, double tolerance, TrianglePairDistance& result) {
   const Vec3 toward_b = (b[0] + b[1] + b[2]) - (a[0] + a[1] + a[2]);
   const int start_a = farthest_along(a, toward_b);
   const int start_b = farthest_along(b, -toward_b);
