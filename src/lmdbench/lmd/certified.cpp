@@ -6,6 +6,7 @@
 #include <lmdbench/lmd/certified.h>
 #include <lmdbench/lmd/certified_touch.h>
 #include <lmdbench/lmd/first_order.h>
+#include <lmdbench/lmd/triangle_pair.h>
 
 #include <algorithm>
 #include <cmath>
@@ -138,19 +139,11 @@ bool Certified::evaluate(const PairFilter& filter, std::int32_t body, const Tria
   const TrianglePairDistance nearest = triangle_distance(a, filter.fixed.mesh.triangle(pair.fixed));
   ++counters[Counter::TRIANGLE_DISTANCES];
   minimum = LocalMinimum{};
-  minimum.lmd.distance = std::sqrt(nearest.squared_distance);
+  minimum.lmd = lmd_of_triangle_pair(filter.moving, filter.fixed, body, pair.moving, pair.fixed, nearest);
   if (!(nearest.squared_distance <= scene_.cutoff * scene_.cutoff)) {
     ++counters[Counter::REJECTED_CUTOFF];
     return false;
   }
-  minimum.lmd.point_moving = nearest.point_a;
-  minimum.lmd.point_fixed = nearest.point_b;
-  minimum.lmd.feature_moving = filter.moving.feature_of(pair.moving, nearest.feature_a);
-  minimum.lmd.feature_fixed = filter.fixed.feature_of(pair.fixed, nearest.feature_b);
-  minimum.lmd.triangle_moving = pair.moving;
-  minimum.lmd.triangle_fixed = pair.fixed;
-  minimum.lmd.fixed_body = body;
-  minimum.lmd.intersecting = nearest.intersecting;
   if (minimum.lmd.distance > 0.0)
     minimum.lmd.direction = (nearest.point_b - nearest.point_a) / minimum.lmd.distance;
   minimum.dimension = nearest.minimiser_dimension;

@@ -3,8 +3,8 @@
 #include <lmdbench/geometry/triangle_distance.h>
 #include <lmdbench/lmd/exhaustive.h>
 #include <lmdbench/lmd/first_order.h>
+#include <lmdbench/lmd/triangle_pair.h>
 
-#include <cmath>
 #include <utility>
 
 namespace lmdbench {
@@ -35,15 +35,8 @@ void Exhaustive::search(const Pose& X_WM, LmdSet& lmds, WorkCounters& counters) 
           return;
         }
         LocalMinimum minimum;
-        minimum.lmd.distance = std::sqrt(pair.squared_distance);
-        minimum.lmd.point_moving = pair.point_a;
-        minimum.lmd.point_fixed = pair.point_b;
-        minimum.lmd.feature_moving = moving.feature_of(t_moving, pair.feature_a);
-        minimum.lmd.feature_fixed = fixed.feature_of(t_fixed, pair.feature_b);
-        minimum.lmd.triangle_moving = t_moving;
-        minimum.lmd.triangle_fixed = t_fixed;
-        minimum.lmd.fixed_body = static_cast<std::int32_t>(body);
-        minimum.lmd.intersecting = pair.intersecting;
+        minimum.lmd =
+            lmd_of_triangle_pair(moving, fixed, static_cast<std::int32_t>(body), t_moving, t_fixed, pair);
         if (minimum.lmd.distance > 0.0)
           minimum.lmd.direction = (pair.point_b - pair.point_a) / minimum.lmd.distance;
         minimum.dimension = pair.minimiser_dimension;

@@ -4,10 +4,10 @@
 #include <lmdbench/lmd/improved.h>
 #include <lmdbench/lmd/local_tracking.h>
 #include <lmdbench/lmd/search_counters.h>
+#include <lmdbench/lmd/triangle_pair.h>
 #include <lmdbench/lmd/visibility.h>
 
 #include <algorithm>
-#include <cmath>
 #include <tuple>
 
 namespace lmdbench {
@@ -36,18 +36,7 @@ ShadedTriangle to_world(const ShadedTriangle& t, const RigidTransform& X_WS) {
 
 Lmd exact_pair(const Surface& moving, const Surface& fixed, std::int32_t fixed_body, std::int32_t t_moving,
                std::int32_t t_fixed, const Triangle& a, const Triangle& b) {
-  const TrianglePairDistance pair = triangle_distance(a, b);
-  Lmd lmd;
-  lmd.distance = std::sqrt(pair.squared_distance);
-  lmd.point_moving = pair.point_a;
-  lmd.point_fixed = pair.point_b;
-  lmd.feature_moving = moving.feature_of(t_moving, pair.feature_a);
-  lmd.feature_fixed = fixed.feature_of(t_fixed, pair.feature_b);
-  lmd.triangle_moving = t_moving;
-  lmd.triangle_fixed = t_fixed;
-  lmd.fixed_body = fixed_body;
-  lmd.intersecting = pair.intersecting;
-  return lmd;
+  return lmd_of_triangle_pair(moving, fixed, fixed_body, t_moving, t_fixed, triangle_distance(a, b));
 }
 
 bool triangles_less(const Lmd& a, const Lmd& b) {
