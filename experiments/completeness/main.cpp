@@ -1,19 +1,17 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/error.h>
-#include <lmdbench/mesh/atomic_file.h>
 #include <lmdbench/motion/tum_file.h>
 
 #include <CLI/CLI.hpp>
 #include <completeness/study.h>
 #include <fmt/core.h>
-#include <micro/bodies.h>
 #include <micro/context.h>
 #include <micro/poses.h>
+#include <micro/program.h>
 #include <nlohmann/json.hpp>
 
 #include <cstdio>
-#include <exception>
 #include <limits>
 
 /// Is `certified` complete and exact? Recall and precision, distances and points against `exhaustive` on
@@ -48,16 +46,12 @@ const std::vector<std::string> DEFAULT_PAIRS = {"bunny-5k:bunny-5k",
                                                 "wedge:l-block",
                                                 "two-boxes:patch"};
 
-struct Choice {
+struct Choice : micro::StudyChoice {
+  Choice() { seed = 3; }
   std::vector<std::string> pairs = DEFAULT_PAIRS;
   std::vector<std::string> experiments;
-  micro::SceneChoice scene;
-  std::vector<double> cutoffs = {0.005, 0.02, 0.05};
-  std::size_t poses = 1000;
-  std::uint64_t seed = 3;
   std::string poses_file;
   std::size_t truth_stride = 50;
-  std::string json;
 };
 
 constexpr std::size_t MAXIMUM_COMPLAINTS = 20;
@@ -178,7 +172,7 @@ int run(const Choice& choice) {
       {"pairs", nlohmann::json::array()},  {"paths", nlohmann::json::array()}};
   const auto save = [&] {
     report["wrong_poses"] = complaints.count();
-    if (!choice.json.empty()) write_file_atomically(choice.json, report.dump(2) + '\n');
+    micro::write_report(choice.json, report);
   };
   if (!choice.pairs.empty()) {
     fmt::print("## certified against exhaustive\n\n");
@@ -223,26 +217,13 @@ int main(int argc, char** argv) {
   app.add_flag("--no-pairs", no_pairs, "Only the experiments");
   app.add_option("--experiment", choice.experiments,
                  "Experiment file whose path is followed, may be repeated");
-  app.add_option("--meshes", choice.scene.meshes, "Folder of built meshes")->capture_default_str();
-  app.add_option("--diagonal", choice.scene.diagonal, "Diagonal of both meshes [m]")->capture_default_str();
-  app.add_option("--gap", choice.scene.gap, "Gap, share of the diagonal")->capture_default_str();
-  app.add_option("--cutoff", choice.cutoffs, "Cutoffs, shares of the diagonal")->capture_default_str();
-  app.add_option("--poses", choice.poses, "Random poses a pair")->capture_default_str();
-  app.add_option("--seed", choice.seed, "Seed of the poses")->capture_default_str();
+  micro::add_study_options(app, choice);
   app.add_option("--poses-file", choice.poses_file, "Poses of this TUM file instead of random ones");
   app.add_option("--truth-stride", choice.truth_stride,
                  "Compare every so many frames of a path with exhaustive; 0: none")
       ->capture_default_str();
-  app.add_option("--json", choice.json, "Also write the tables to this file");
-  CLI11_PARSE(app, argc, argv);
-  if (no_pairs) choice.pairs.clear();
-  try {
+  return micro::run_program(app, argc, argv, [&] {
+    if (no_pairs) choice.pairs.clear();
     return completeness::run(choice);
-  } catch (const Error& error) {
-    fmt::print(stderr, "error: {}\n", error.what());
-    return static_cast<int>(error.code());
-  } catch (const std::exception& error) {
-    fmt::print(stderr, "error: {}\n", error.what());
-    return static_cast<int>(ExitCode::INPUT_DATA);
-  }
+  });
 }

@@ -4,28 +4,18 @@
 
 #include <CLI/CLI.hpp>
 #include <fmt/core.h>
-#include <micro/bodies.h>
 #include <micro/poses.h>
+#include <micro/program.h>
 #include <nlohmann/json.hpp>
 #include <recall_study/variant.h>
 
 #include <algorithm>
-#include <exception>
-#include <fstream>
 
 /// Recall and precision of the paper's algorithms against ground truth on random grazing poses, step by step.
 /// Markdown on standard output, JSON in a file. Exit code 1 when the cones alone lose an LMD: they must be
 /// conservative.
 namespace lmdbench::recall_study {
 namespace {
-
-struct Choice {
-  micro::SceneChoice scene;
-  std::vector<double> cutoffs = {0.005, 0.02, 0.05};
-  std::size_t poses = 1000;
-  std::uint64_t seed = 2;
-  std::string json;
-};
 
 std::vector<LmdSet> true_sets(Scene scene, double cutoff, const std::vector<Pose>& poses) {
   scene.cutoff = cutoff;
@@ -72,7 +62,7 @@ std::vector<VariantResult> judge_all(const std::vector<Variant>& variants, const
   return results;
 }
 
-int run(const Choice& choice) {
+int run(const micro::StudyChoice& choice) {
   Scene scene = load_scene(choice.scene);
   const double diagonal = choice.scene.diagonal;
   const std::vector<Pose> poses = micro::grazing_poses(
@@ -103,7 +93,7 @@ int run(const Choice& choice) {
     for (const VariantResult& result : original) entry["original"].push_back(to_json(result));
     report["cutoffs"].push_back(entry);
   }
-  if (!choice.json.empty()) std::ofstream(choice.json) << report.dump(2) << '\n';
+  micro::write_report(choice.json, report);
   if (!cones_conservative) fmt::print(stderr, "error: the cone tests alone lost true LMDs\n");
   return cones_conservative ? 0 : 1;
 }
@@ -112,22 +102,11 @@ int run(const Choice& choice) {
 }  // namespace lmdbench::recall_study
 
 int main(int argc, char** argv) {
-  lmdbench::recall_study::Choice choice;
+  using namespace lmdbench;
+  micro::StudyChoice choice;
+  choice.seed = 2;
   CLI::App app("Where the paper's algorithms lose LMDs");
-  app.add_option("--moving", choice.scene.moving, "Moving mesh")->capture_default_str();
-  app.add_option("--fixed", choice.scene.fixed, "Fixed mesh")->capture_default_str();
-  app.add_option("--meshes", choice.scene.meshes, "Folder of built meshes")->capture_default_str();
-  app.add_option("--diagonal", choice.scene.diagonal, "Diagonal of both meshes [m]")->capture_default_str();
-  app.add_option("--gap", choice.scene.gap, "Gap, share of the diagonal")->capture_default_str();
-  app.add_option("--cutoff", choice.cutoffs, "Cutoffs, shares of the diagonal")->capture_default_str();
-  app.add_option("--poses", choice.poses, "Random poses")->capture_default_str();
-  app.add_option("--seed", choice.seed, "Seed of the poses")->capture_default_str();
-  app.add_option("--json", choice.json, "Also write the tables to this file");
-  CLI11_PARSE(app, argc, argv);
-  try {
-    return lmdbench::recall_study::run(choice);
-  } catch (const std::exception& error) {
-    fmt::print(stderr, "error: {}\n", error.what());
-    return 3;
-  }
+  micro::add_mesh_options(app, choice.scene);
+  micro::add_study_options(app, choice);
+  return micro::run_program(app, argc, argv, [&] { return recall_study::run(choice); });
 }

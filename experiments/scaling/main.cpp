@@ -2,15 +2,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/error.h>
 #include <lmdbench/lmd/body.h>
-#include <lmdbench/mesh/atomic_file.h>
 #include <lmdbench/mesh/manifest.h>
 #include <lmdbench/mesh/placement.h>
 
 #include <CLI/CLI.hpp>
 #include <fmt/core.h>
-#include <micro/bodies.h>
 #include <micro/context.h>
 #include <micro/poses.h>
+#include <micro/program.h>
 #include <micro/timing.h>
 #include <nlohmann/json.hpp>
 #include <scaling/measure.h>
@@ -19,7 +18,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <exception>
 
 /// How run time and work grow with the number of triangles at a fixed contact, and with cutoff and gap at a
 /// fixed mesh. Markdown on standard output, every pose's numbers as JSON in a file
@@ -284,7 +282,7 @@ int run(const Choice& choice) {
     if (choice.only.empty() ? study.large && !choice.large : !named) continue;
     report["studies"].push_back(run_study(study, choice, bodies, kept_promises));
     report["builds"] = bodies.costs();
-    if (!choice.json.empty()) write_file_atomically(choice.json, report.dump(1) + '\n');
+    micro::write_report(choice.json, report);
   }
   if (!unknown.empty())
     throw UsageError("", "--only", "there is no study '" + unknown.front() + "'",
@@ -317,14 +315,5 @@ int main(int argc, char** argv) {
                "The dragon too, whose meshes are optional: lmdbench mesh build dragon-11k dragon-47k "
                "dragon-202k dragon-871k");
   app.add_option("--json", choice.json, "Also write every pose's numbers to this file");
-  CLI11_PARSE(app, argc, argv);
-  try {
-    return scaling::run(choice);
-  } catch (const Error& error) {
-    fmt::print(stderr, "error: {}\n", error.what());
-    return static_cast<int>(error.code());
-  } catch (const std::exception& error) {
-    fmt::print(stderr, "error: {}\n", error.what());
-    return static_cast<int>(ExitCode::INPUT_DATA);
-  }
+  return micro::run_program(app, argc, argv, [&] { return scaling::run(choice); });
 }

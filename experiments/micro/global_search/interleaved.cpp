@@ -2,14 +2,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <CLI/CLI.hpp>
 #include <fmt/core.h>
-#include <micro/bodies.h>
 #include <micro/global_search/check.h>
 #include <micro/poses.h>
+#include <micro/program.h>
 #include <micro/timing.h>
 #include <nlohmann/json.hpp>
-
-#include <exception>
-#include <fstream>
 
 /// Times every implementation of the task "global search" on the same poses, interleaved pose by pose, and
 /// reports the error of each beside its time. Exit code 1 when an implementation does not do what it
@@ -17,16 +14,12 @@
 namespace lmdbench::micro {
 namespace {
 
-struct Choice {
-  SceneChoice scene;
-  std::vector<double> cutoffs = {0.005, 0.02, 0.05};
-  std::size_t poses = 40;
+struct Choice : StudyChoice {
+  Choice() { poses = 40; }
   std::size_t repetitions = 9;
-  std::uint64_t seed = 1;
   std::string path;
   std::size_t first_frame = 0;
   bool slow = false;
-  std::string json;
 };
 
 struct Row {
@@ -122,7 +115,7 @@ int run(const Choice& choice) {
     }
     report["cutoffs"].push_back(entry);
   }
-  if (!choice.json.empty()) std::ofstream(choice.json) << report.dump(2) << '\n';
+  write_report(choice.json, report);
   return kept_promises ? 0 : 1;
 }
 
@@ -130,27 +123,15 @@ int run(const Choice& choice) {
 }  // namespace lmdbench::micro
 
 int main(int argc, char** argv) {
-  lmdbench::micro::Choice choice;
+  using namespace lmdbench;
+  micro::Choice choice;
   CLI::App app("Interleaved comparison of global searches, error beside time");
-  app.add_option("--moving", choice.scene.moving, "Moving mesh")->capture_default_str();
-  app.add_option("--fixed", choice.scene.fixed, "Fixed mesh")->capture_default_str();
-  app.add_option("--meshes", choice.scene.meshes, "Folder of built meshes")->capture_default_str();
-  app.add_option("--diagonal", choice.scene.diagonal, "Diagonal of both meshes [m]")->capture_default_str();
-  app.add_option("--gap", choice.scene.gap, "Gap, share of the diagonal")->capture_default_str();
-  app.add_option("--cutoff", choice.cutoffs, "Cutoffs, shares of the diagonal")->capture_default_str();
-  app.add_option("--poses", choice.poses, "How many poses")->capture_default_str();
+  micro::add_mesh_options(app, choice.scene);
+  micro::add_study_options(app, choice);
   app.add_option("--repetitions", choice.repetitions, "Timed runs a pose")->capture_default_str();
-  app.add_option("--seed", choice.seed, "Seed of the poses")->capture_default_str();
   app.add_option("--path", choice.path,
                  "Recorded path (TUM) instead of random poses: consecutive frames at 1 kHz");
   app.add_option("--first-frame", choice.first_frame, "First frame of the path")->capture_default_str();
   app.add_flag("--slow", choice.slow, "Time slow implementations too");
-  app.add_option("--json", choice.json, "Also write the table to this file");
-  CLI11_PARSE(app, argc, argv);
-  try {
-    return lmdbench::micro::run(choice);
-  } catch (const std::exception& error) {
-    fmt::print(stderr, "error: {}\n", error.what());
-    return 3;
-  }
+  return micro::run_program(app, argc, argv, [&] { return micro::run(choice); });
 }

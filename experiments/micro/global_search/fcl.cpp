@@ -7,25 +7,33 @@
 namespace lmdbench::micro {
 namespace {
 
-class FclWarm : public GlobalSearch {
+class FclSearch : public GlobalSearch {
  public:
-  explicit FclWarm(const Scene& scene) : fcl_(scene.moving->surface(), {&scene.fixed.at(0)->surface()}) {}
-  void run(const Pose& X_WM) override { result_ = fcl_.distance_warm(X_WM); }
+  FclSearch(const Scene& scene, bool warm)
+      : fcl_(scene.moving->surface(), {&scene.fixed.at(0)->surface()}), warm_(warm) {}
+  void run(const Pose& X_WM) override { result_ = warm_ ? fcl_.distance_warm(X_WM) : fcl_.distance(X_WM); }
   double minimum_distance() const override { return result_.distance; }
   const LmdSet* lmds() const override { return nullptr; }
 
  private:
   FclCrosscheck fcl_;
+  bool warm_;
   FclResult result_;
 };
 
 }  // namespace
 
+/// FCL's nearest pair, every query from scratch: how FCL itself works.
+SearchImplementation fcl_cold_search() {
+  return {"fcl-cold", Exactness::MINIMUM_DISTANCE, false,
+          [](const Scene& scene) { return std::make_unique<FclSearch>(scene, false); }};
+}
+
 /// FCL's nearest pair, each query seeded with the last pair's distance. On unrelated poses the seed is a poor
 /// bound; on a path it halves the time.
 SearchImplementation fcl_warm_search() {
   return {"fcl-warm", Exactness::MINIMUM_DISTANCE, false,
-          [](const Scene& scene) { return std::make_unique<FclWarm>(scene); }};
+          [](const Scene& scene) { return std::make_unique<FclSearch>(scene, true); }};
 }
 
 }  // namespace lmdbench::micro

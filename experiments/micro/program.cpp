@@ -1,0 +1,47 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/error.h>
+#include <lmdbench/mesh/atomic_file.h>
+
+#include <CLI/CLI.hpp>
+#include <micro/program.h>
+#include <nlohmann/json.hpp>
+
+#include <exception>
+#include <iostream>
+
+namespace lmdbench::micro {
+
+void add_mesh_options(CLI::App& app, SceneChoice& scene) {
+  app.add_option("--moving", scene.moving, "Moving mesh")->capture_default_str();
+  app.add_option("--fixed", scene.fixed, "Fixed mesh")->capture_default_str();
+}
+
+void add_study_options(CLI::App& app, StudyChoice& choice) {
+  app.add_option("--meshes", choice.scene.meshes, "Folder of built meshes")->capture_default_str();
+  app.add_option("--diagonal", choice.scene.diagonal, "Diagonal of both meshes [m]")->capture_default_str();
+  app.add_option("--gap", choice.scene.gap, "Gap, share of the diagonal")->capture_default_str();
+  app.add_option("--cutoff", choice.cutoffs, "Cutoffs, shares of the diagonal")->capture_default_str();
+  app.add_option("--poses", choice.poses, "How many poses")->capture_default_str();
+  app.add_option("--seed", choice.seed, "Seed of the poses")->capture_default_str();
+  app.add_option("--json", choice.json, "Also write the tables to this file");
+}
+
+int run_program(CLI::App& app, int argc, const char* const* argv, const std::function<int()>& run) {
+  CLI11_PARSE(app, argc, argv);
+  try {
+    return run();
+  } catch (const Error& error) {
+    std::cerr << "error: " << error.what() << '\n';
+    return static_cast<int>(error.code());
+  } catch (const std::exception& error) {
+    std::cerr << "error: " << error.what() << '\n';
+    return static_cast<int>(ExitCode::INPUT_DATA);
+  }
+}
+
+void write_report(const std::string& file, const nlohmann::json& report) {
+  if (!file.empty()) write_file_atomically(file, report.dump(2) + '\n');
+}
+
+}  // namespace lmdbench::micro
