@@ -1,7 +1,9 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/geometry/carriers.h>
 #include <lmdbench/geometry/face_frame.h>
 #include <lmdbench/geometry/feature_descent.h>
+#include <lmdbench/geometry/feature_guess.h>
 #include <lmdbench/geometry/segment_kernel.h>
 #include <lmdbench/geometry/sorted_triangle.h>
 
@@ -10,20 +12,20 @@
 #include <limits>
 
 // Steps of feature_descent:
-// - start at the nearest pair of corners;
-// - solve for the nearest points p, q of the parts of the triangles that the carriers span (corner, edge or
-// face);
+// - triangles that are far apart for their size: start at the corners that are farthest towards the other
+//   triangle and take the edges from there that lead ahead;
+// - else, or where that proves nothing: the features that a quick look at all candidates finds nearest
+//   (feature_guess.h);
+// - solve for the nearest points p, q of these features (corner, edge or face);
 // - with d = q - p look for a corner of a beyond p along d, or of b beyond q along -d. If every corner that
-// does not
-//   carry the pair is behind by a clear margin, the plane through p across d and the one through q keep the
-//   triangles apart by |d|: the pair is the minimum, it is unique, and the triangles are disjoint. This is a
-//   proof, not the slab test along a cross product of edges whose rounding makes the usual early exit of such
-//   kernels go wrong.
-// - the pair must also be nearer than every other pair of the same features by more than rounding;
-// - otherwise the corner that is farthest ahead joins the carriers; every step brings the points nearer.
+//   does not carry the pair is behind by a clear margin, the plane through p across d and the one through q
+//   keep the triangles apart by |d|: the pair is the minimum, it is unique, and the triangles are disjoint.
+//   This is a proof, not the slab test along a cross product of edges whose rounding makes the usual early
+//   exit of such kernels go wrong.
+// - the pair must also be nearer than every other pair of the same features by more than rounding.
 //
-// The path may depend on the order of corners and arguments; its outcome does not, because a proved minimum
-// is unique and its two points come from functions of its features alone.
+// The features tried may depend on the order of corners and arguments; the outcome does not, because a proved
+// minimum is unique and its two points come from functions of its features alone.
 
 namespace lmdbench::kernel {
 namespace {
@@ -33,75 +35,65 @@ namespace {
 /// far beyond that.
 constexpr double CLEARANCE = 16.0;
 
-/// Generic pairs need three steps or fewer; the bound only stops a cycle that rounding could keep alive.
-constexpr int MAX_STEPS = 6;
-
-/// The corners whose hull carries the current point of one triangle.
-struct Carriers {
-  std::array<int, 3> corner{};
-  int count = 0;
-
-  static Carriers one(int k) {
-    Carriers result;
-    result.add(k);
-    return result;
-  }
-  static Carriers two(int k, int l) {
-    Carriers result = one(k);
-    result.add(l);
-    return result;
-  }
-  void add(int k) { corner[count++] = k; }
-  void keep_only(int k) {
-    corner[0] = k;
-    count = 1;
-  }
-};
-
-/// What the corners outside the carriers say about the direction.
-struct Outlook {
-  bool all_behind = true;  ///< every corner is behind by the margin
-  int ahead = -1;          ///< the corner ahead by the margin with the steepest way to it; -1 for none
-};
-
 double squared(double x) {
   return x * x;
 }
 
+/// The corner that `way` leads to is behind the plane across d by a clear margin.
 /// @param d from this triangle to the other
 /// @param squared_margin square of the length below which a corner is neither ahead nor behind: it covers the
 ///   error of d (a few roundings of the coordinates) and the drift that counts as parallel
-Outlook look_out(const Triangle& t, const Carriers& carriers, const Vec3& d, double squared_d,
-                 double squared_margin) {
-  Outlook outlook;
-  double steepest = 0.0, squared_way_of_steepest = 1.0;
-  const auto judge = [&](int corner, const Vec3& way, double squared_scale) {
-    const double ahead = way.dot(d);
-    const double squared_way = way.squaredNorm();
-    const bool clear = squared(ahead) > squared_margin * (squared_way + squared_scale * squared_d);
-    outlook.all_behind &= clear && ahead < 0.0;
-    if (clear && ahead > 0.0 && squared(ahead) * squared_way_of_steepest > steepest * squared_way) {
-      steepest = squared(ahead);
-      squared_way_of_steepest = squared_way;
-      outlook.ahead = corner;
+bool is_behind(const Vec3& way, const Vec3& d, double squared_d, double squared_margin) {
+  const double ahead = way.dot(d);
+  return (ahead < 0.0) & (squared(ahead) > squared_margin * (way.squaredNorm() + squared_d));
+}
+
+/// Every corner that does not carry the pair is behind.
+bool are_others_behind(const Triangle& t, const Carriers& carriers, const Vec3& d, double squared_d,
+                       double squared_margin) {
+  const Vec3& first = t[carriers.corner[0]];
+  switch (carriers.count) {
+    case 1: {
+      const Vec3& second = t[carriers.corner[0] == 2 ? 0 : carriers.corner[0] + 1];
+      const Vec3& third = t[carriers.corner[0] == 0 ? 2 : carriers.corner[0] - 1];
+      return is_behind(second - first, d, squared_d, squared_margin) &
+             is_behind(third - first, d, squared_d, squared_margin);
     }
-  };
-  const int first = carriers.corner[0];
-  if (carriers.count == 1) {
-    const int second = first == 2 ? 0 : first + 1;
-    const int third = 3 - first - second;
-    judge(second, t[second] - t[first], 1.0);
-    judge(third, t[third] - t[first], 1.0);
-  } else if (carriers.count == 2) {
-    // The way to the third corner across the edge: along the edge d says nothing but rounding. Times |e|^2,
-    // which saves the division.
-    const int corner = 3 - first - carriers.corner[1];
-    const Vec3 e = t[carriers.corner[1]] - t[first];
-    const Vec3 way = t[corner] - t[first];
-    const double squared_e = e.squaredNorm();
-    judge(corner, squared_e * way - way.dot(e) * e, squared(squared_e));
+    case 2: {
+      // The way to the third corner across the edge: along the edge d says nothing but rounding. Times |e|^2,
+      // which saves the division.
+      const Vec3 e = t[carriers.corner[1]] - first;
+      const Vec3 way = t[3 - carriers.corner[0] - carriers.corner[1]] - first;
+      const double squared_e = e.squaredNorm();
+      return is_behind(squared_e * way - way.dot(e) * e, d, squared(squared_e) * squared_d, squared_margin);
+    }
+    default:
+      return true;
   }
-  return outlook;
+}
+
+/// Which of two neighbours that are both ahead.
+enum class Neighbour { STEEPER, FLATTER };
+
+/// Makes an edge of a corner that has a neighbour ahead along d.
+/// @returns false where there is none, or no corner to start from
+bool extend(const Triangle& t, Carriers& carriers, const Vec3& d, Neighbour choice) {
+  if (carriers.count != 1) return false;
+  const int corner = carriers.corner[0];
+  const int second = corner == 2 ? 0 : corner + 1;
+  const int third = corner == 0 ? 2 : corner - 1;
+  const Vec3 to_second = t[second] - t[corner];
+  const Vec3 to_third = t[third] - t[corner];
+  const double ahead_second = to_second.dot(d);
+  const double ahead_third = to_third.dot(d);
+  const bool third_is_steeper =
+      squared(ahead_third) * to_second.squaredNorm() > squared(ahead_second) * to_third.squaredNorm();
+  const bool take_third =
+      (ahead_third > 0.0) & ((ahead_second <= 0.0) | (third_is_steeper == (choice == Neighbour::STEEPER)));
+  const bool has_edge = (ahead_second > 0.0) | (ahead_third > 0.0);
+  carriers.corner[1] = take_third ? third : second;
+  carriers.count = has_edge ? 2 : 1;
+  return has_edge;
 }
 
 /// Ends of the edge between two carriers, lower first.
@@ -135,9 +127,19 @@ struct Pair {
   double squared_rise = 0.0;
   double widening = 1.0;
 
-  void set(const Vec3& on_a, const Vec3& on_b, const PointOnPart& part) {
-    point_a = on_a;
-    point_b = on_b;
+  void set_a(const PointOnPart& part, const Vec3& corner_of_b) {
+    set(part);
+    point_a = part.point;
+    point_b = corner_of_b;
+  }
+  void set_b(const Vec3& corner_of_a, const PointOnPart& part) {
+    set(part);
+    point_a = corner_of_a;
+    point_b = part.point;
+  }
+
+ private:
+  void set(const PointOnPart& part) {
     squared_distance = part.squared_distance;
     squared_rise = part.squared_rise;
     widening = part.widening;
@@ -192,65 +194,16 @@ PointOnPart solve_face_to_corner(const Triangle& t, Carriers& carriers, const Ve
   return best;
 }
 
-/// Nearest points of the face of t and an edge of the other triangle; false where the edge seems to pierce
-/// the face. Which pair of parts to try is a guess in plain arithmetic: a wrong guess costs time, never an
-/// answer.
-bool solve_face_to_edge(const Triangle& t, Carriers& carriers_t, const Triangle& other,
-                        Carriers& carriers_other, double tolerance, Pair& pair) {
-  const OrderedEdge edge(other, carriers_other);
-  const Vec3 normal = (t[1] - t[0]).cross(t[2] - t[0]);
-  const double height_low = normal.dot(other[edge.low] - t[0]);
-  const double height_high = normal.dot(other[edge.high] - t[0]);
-  // Nearest to the plane is an end of the edge, or the point where it crosses the plane.
-  const bool crosses = !(height_low * height_high > 0.0);
-  const int nearer = std::abs(height_low) < std::abs(height_high) ? edge.low : edge.high;
-  Vec3 nearest_to_plane = other[nearer];
-  if (crosses) {
-    const double part = height_low / (height_low - height_high);
-    nearest_to_plane = other[edge.low] + part * (other[edge.high] - other[edge.low]);
-  }
-  std::array<bool, 3> is_beyond;  // edge k, which joins corners k and k + 1
-  for (int k = 0; k < 3; ++k) {
-    const Vec3& from = t[k];
-    is_beyond[k] = !(normal.dot((t[(k + 1) % 3] - from).cross(nearest_to_plane - from)) > 0.0);
-  }
-  if (!is_beyond[0] && !is_beyond[1] && !is_beyond[2]) {
-    if (crosses) return false;
-    carriers_other.keep_only(nearer);
-    const PointOnPart part = solve_face_to_corner(t, carriers_t, other[nearer], tolerance);
-    pair.set(part.point, other[nearer], part);
-    return true;
-  }
-  Pair best;
-  Carriers best_t = carriers_t;
-  Carriers best_other = carriers_other;
-  for (int k = 0; k < 3; ++k) {
-    if (!is_beyond[k]) continue;
-    Carriers side = Carriers::two(k, (k + 1) % 3);
-    Carriers end = carriers_other;
-    Pair candidate;
-    solve_edge_to_edge(t, side, other, end, tolerance, candidate);
-    if (candidate.squared_distance < best.squared_distance) {
-      best = candidate;
-      best_t = side;
-      best_other = end;
-    }
-  }
-  if (!std::isfinite(best.squared_distance)) return false;
-  pair = best;
-  carriers_t = best_t;
-  carriers_other = best_other;
-  return true;
-}
-
-TriangleFeature feature_of(const Carriers& carriers) {
+PointOnPart solve_part_to_corner(const Triangle& t, Carriers& carriers, const Vec3& x, double tolerance) {
   switch (carriers.count) {
-    case 1:
-      return vertex_feature(carriers.corner[0]);
+    case 1: {
+      const Vec3& corner = t[carriers.corner[0]];
+      return {corner, (x - corner).squaredNorm()};
+    }
     case 2:
-      return edge_feature((4 - carriers.corner[0] - carriers.corner[1]) % 3);
+      return solve_edge_to_corner(t, carriers, x, tolerance);
     default:
-      return TriangleFeature::FACE;
+      return solve_face_to_corner(t, carriers, x, tolerance);
   }
 }
 
@@ -267,64 +220,86 @@ int farthest_along(const Triangle& t, const Vec3& direction) {
   return h2 > (h1 > h0 ? h1 : h0) ? 2 : first;
 }
 
-}  // namespace
-
-bool feature_descent(const Triangle& a, const Triangle& b, double tolerance, TrianglePairDistance& result) {
-  const Vec3 toward_b = (b[0] + b[1] + b[2]) - (a[0] + a[1] + a[2]);
-  const int start_a = farthest_along(a, toward_b);
-  const int start_b = farthest_along(b, -toward_b);
-  Carriers carriers_a = Carriers::one(start_a);
-  Carriers carriers_b = Carriers::one(start_b);
+/// One attempt: the carriers and their nearest points.
+struct Attempt {
+  Carriers carriers_a, carriers_b;
   Pair pair;
-  pair.point_a = a[start_a];
-  pair.point_b = b[start_b];
-  pair.squared_distance = (pair.point_b - pair.point_a).squaredNorm();
-  const double squared_margin = squared(CLEARANCE * tolerance);
-  for (int step = 0; step < MAX_STEPS; ++step) {
-    const Vec3 d = pair.point_b - pair.point_a;
-    const double margin = squared_margin * pair.widening;
-    const Outlook from_a = look_out(a, carriers_a, d, pair.squared_distance, margin);
-    const Outlook from_b = look_out(b, carriers_b, -d, pair.squared_distance, margin);
-    if (from_a.all_behind && from_b.all_behind) {
-      const bool two_corners = carriers_a.count + carriers_b.count == 2;
-      if (!two_corners && !is_clear_minimum(pair, squared_margin)) return false;
-      result.squared_distance = pair.squared_distance;
-      result.point_a = pair.point_a;
-      result.point_b = pair.point_b;
-      result.feature_a = feature_of(carriers_a);
-      result.feature_b = feature_of(carriers_b);
-      result.intersecting = false;
-      result.minimiser_dimension = 0;
-      result.minimiser_measure = 0.0;
-      return true;
-    }
-    if (from_a.ahead >= 0) carriers_a.add(from_a.ahead);
-    // Two faces at once have no closed form; the face of a and the edge of b do, and b's corner can still
-    // come.
-    if (from_b.ahead >= 0 && carriers_a.count + carriers_b.count < 5) carriers_b.add(from_b.ahead);
-    if (from_a.ahead < 0 && from_b.ahead < 0) return false;
+
+  /// @pre not two faces, nor a face and an edge
+  void solve(const Triangle& a, const Triangle& b, double tolerance) {
     if (carriers_a.count == 2 && carriers_b.count == 2) {
       solve_edge_to_edge(a, carriers_a, b, carriers_b, tolerance, pair);
     } else if (carriers_b.count == 1) {
       const Vec3& corner = b[carriers_b.corner[0]];
-      const PointOnPart part = carriers_a.count == 2 ? solve_edge_to_corner(a, carriers_a, corner, tolerance)
-                                                     : solve_face_to_corner(a, carriers_a, corner, tolerance);
-      pair.set(part.point, corner, part);
-    } else if (carriers_a.count == 1) {
-      const Vec3& corner = a[carriers_a.corner[0]];
-      const PointOnPart part = carriers_b.count == 2 ? solve_edge_to_corner(b, carriers_b, corner, tolerance)
-                                                     : solve_face_to_corner(b, carriers_b, corner, tolerance);
-      pair.set(corner, part.point, part);
-    } else if (carriers_b.count == 2) {
-      if (!solve_face_to_edge(a, carriers_a, b, carriers_b, tolerance, pair)) return false;
-    } else if (carriers_a.count == 2) {
-      if (!solve_face_to_edge(b, carriers_b, a, carriers_a, tolerance, pair)) return false;
-      std::swap(pair.point_a, pair.point_b);
+      pair.set_a(solve_part_to_corner(a, carriers_a, corner, tolerance), corner);
     } else {
-      return false;  // two faces that face each other: contact, parallel, or nearly so
+      const Vec3& corner = a[carriers_a.corner[0]];
+      pair.set_b(corner, solve_part_to_corner(b, carriers_b, corner, tolerance));
     }
   }
-  return false;
+
+  /// @param d from a to b
+  bool extend(const Triangle& a, const Triangle& b, const Vec3& d, Neighbour choice) {
+    const bool extended_a = carriers_b.count < 3 && kernel::extend(a, carriers_a, d, choice);
+    const bool extended_b = carriers_a.count < 3 && kernel::extend(b, carriers_b, -d, choice);
+    return extended_a || extended_b;
+  }
+
+  bool is_proved(const Triangle& a, const Triangle& b, double squared_margin) const {
+    const Vec3 d = pair.point_b - pair.point_a;
+    const double margin = squared_margin * pair.widening;
+    return are_others_behind(a, carriers_a, d, pair.squared_distance, margin) &&
+           are_others_behind(b, carriers_b, -d, pair.squared_distance, margin) &&
+           (carriers_a.count + carriers_b.count == 2 || is_clear_minimum(pair, squared_margin));
+  }
+
+  /// Solves, and stores the result if it is proved.
+  bool succeeds(const Triangle& a, const Triangle& b, double tolerance, TrianglePairDistance& result) {
+    solve(a, b, tolerance);
+    if (!is_proved(a, b, squared(CLEARANCE * tolerance))) return false;
+    result.squared_distance = pair.squared_distance;
+    result.point_a = pair.point_a;
+    result.point_b = pair.point_b;
+    result.feature_a = carriers_a.feature();
+    result.feature_b = carriers_b.feature();
+    result.intersecting = false;
+    result.minimiser_dimension = 0;
+    result.minimiser_measure = 0.0;
+    return true;
+  }
+};
+
+/// Squared distance of the centres over the summed squares of two edges each, from which on the first step
+/// proves most pairs. Decides about time only.
+constexpr double FAR_APART = 0.5;
+
+bool are_far_apart(const Triangle& a, const Triangle& b, const Vec3& toward_b) {
+  const double squared_sizes = (a[1] - a[0]).squaredNorm() + (a[2] - a[0]).squaredNorm() +
+                               (b[1] - b[0]).squaredNorm() + (b[2] - b[0]).squaredNorm();
+  return toward_b.squaredNorm() > 9.0 * FAR_APART * squared_sizes;  // toward_b joins sums of three corners
+}
+
+}  // namespace
+
+bool feature_descent(const Triangle& a, const Triangle& b, double tolerance, TrianglePairDistance& result) {
+  Attempt attempt;
+  const Vec3 toward_b = (b[0] + b[1] + b[2]) - (a[0] + a[1] + a[2]);
+  if (are_far_apart(a, b, toward_b)) {
+    attempt.carriers_a = Carriers::one(farthest_along(a, toward_b));
+    attempt.carriers_b = Carriers::one(farthest_along(b, -toward_b));
+    attempt.extend(a, b, b[attempt.carriers_b.corner[0]] - a[attempt.carriers_a.corner[0]],
+                   Neighbour::STEEPER);
+    if (attempt.succeeds(a, b, tolerance, result)) return true;
+  }
+  const FeatureGuess guess = guess_features(a, b, COINCIDENCE_TOLERANCE / tolerance);
+  if (!guess.exists) return false;
+  attempt.carriers_a = guess.on_a;
+  attempt.carriers_b = guess.on_b;
+  if (attempt.succeeds(a, b, tolerance, result)) return true;
+  // Edges at a small angle: single precision may take their crossing for an end. The flatter neighbour is the
+  // one that runs along the other edge.
+  return attempt.extend(a, b, attempt.pair.point_b - attempt.pair.point_a, Neighbour::FLATTER) &&
+         attempt.succeeds(a, b, tolerance, result);
 }
 
 }  // namespace lmdbench::kernel
