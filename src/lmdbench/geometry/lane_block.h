@@ -16,12 +16,13 @@ struct LaneBlock {
   alignas(64) double b[3][3][MAX_LANES];
 };
 
-/// Nearest points, and the weights of the corners that carry them.
+/// Nearest points, and the corners that carry them as the sum of 2^k over the corners k.
 struct LaneResult {
+  alignas(64) double squared_distance[MAX_LANES];
   alignas(64) double point_a[3][MAX_LANES];
   alignas(64) double point_b[3][MAX_LANES];
-  alignas(64) double weights_a[3][MAX_LANES];
-  alignas(64) double weights_b[3][MAX_LANES];
+  alignas(64) double carriers_a[MAX_LANES];
+  alignas(64) double carriers_b[MAX_LANES];
   alignas(64) double shared_length[MAX_LANES];  ///< of the segment that crossing triangles share; set by
                                                 ///< `crossing`
 };

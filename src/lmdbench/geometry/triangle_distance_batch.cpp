@@ -27,9 +27,21 @@
 #define HWY_TARGET_INCLUDE "lmdbench/geometry/triangle_distance_batch.cpp"
 #include <hwy/foreach_target.h>
 // After foreach_target.h:
-#include <lmdbench/geometry/triangle_distance_lanes-inl.h>
+#include <lmdbench/geometry/lane_all_candidates-inl.h>
+#include <lmdbench/geometry/lane_crossing-inl.h>
+#include <lmdbench/geometry/lane_first_step-inl.h>
 
 #include <hwy/highway.h>
+
+HWY_BEFORE_NAMESPACE();
+namespace lmdbench::HWY_NAMESPACE {
+
+const char* target_name() {
+  return hwy::TargetName(HWY_TARGET);
+}
+
+}  // namespace lmdbench::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
 
@@ -56,22 +68,20 @@ void load(LaneBlock& block, std::size_t lane, const Triangle& a, const Triangle&
   }
 }
 
-/// Carriers are the corners with a weight.
-TriangleFeature feature_of(const double (&weights)[3][MAX_LANES], std::size_t lane) {
-  const bool w0 = weights[0][lane] > 0.0, w1 = weights[1][lane] > 0.0, w2 = weights[2][lane] > 0.0;
-  // Bits w2 w1 w0; the empty set cannot be.
+TriangleFeature feature_of(double carriers) {
+  // By the bits of corners 2, 1 and 0; the empty set cannot be.
   constexpr std::array<TriangleFeature, 8> FEATURES{
       TriangleFeature::FACE, TriangleFeature::V0, TriangleFeature::V1, TriangleFeature::E0,
       TriangleFeature::V2,   TriangleFeature::E2, TriangleFeature::E1, TriangleFeature::FACE};
-  return FEATURES[w0 + 2 * w1 + 4 * w2];
+  return FEATURES[static_cast<std::size_t>(static_cast<int>(carriers))];
 }
 
 void store(const LaneResult& lanes, std::size_t lane, TrianglePairDistance& result) {
   result.point_a = {lanes.point_a[0][lane], lanes.point_a[1][lane], lanes.point_a[2][lane]};
   result.point_b = {lanes.point_b[0][lane], lanes.point_b[1][lane], lanes.point_b[2][lane]};
-  result.squared_distance = (result.point_a - result.point_b).squaredNorm();
-  result.feature_a = feature_of(lanes.weights_a, lane);
-  result.feature_b = feature_of(lanes.weights_b, lane);
+  result.squared_distance = lanes.squared_distance[lane];
+  result.feature_a = feature_of(lanes.carriers_a[lane]);
+  result.feature_b = feature_of(lanes.carriers_b[lane]);
   result.intersecting = false;
   result.minimiser_dimension = 0;
   result.minimiser_measure = 0.0;

@@ -1,0 +1,119 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// Stage of triangle_distance_batch: pairs that cross clearly. Included once for every instruction set.
+#if defined(LMDBENCH_LANE_CROSSING_INL) == defined(HWY_TARGET_TOGGLE)
+#ifdef LMDBENCH_LANE_CROSSING_INL
+#undef LMDBENCH_LANE_CROSSING_INL
+#else
+#define LMDBENCH_LANE_CROSSING_INL
+#endif
+
+#include <lmdbench/geometry/lane_face-inl.h>
+#include <lmdbench/geometry/lane_triangle-inl.h>
+#include <lmdbench/geometry/lane_turned-inl.h>
+
+#include <cstdint>
+
+HWY_BEFORE_NAMESPACE();
+namespace lmdbench::HWY_NAMESPACE {
+
+/// Crossing triangles share at least this part of a chord, and its middle is at least this part away from all
+/// borders; the rest is left to the scalar kernel's exact predicates.
+constexpr double LEAST_CROSSING_PART = 1e-4;
+/// Squared sine of the angle between the chord and an edge that cuts it, in the worst-shaped face: see `cut`.
+constexpr double LEAST_SQUARED_FALL = 1e-6;
+
+/// The part of a chord from `from` to `to` where a weight that is linear along it is not negative. Leaves
+/// only lanes in `clear` whose weight falls by `least_squared_fall` at least where it is cut: a chord along
+/// the edge has no clear cut.
+HWY_INLINE void cut(Real from, Real to, Real least_squared_fall, Real& begin, Real& end, Mask& clear) {
+  const Mask starts_out = hn::Lt(from, zero());
+  const Mask ends_out = hn::Lt(to, zero());
+  const Real fall = hn::Sub(from, to);
+  const Real part = hn::Div(from, select(hn::Eq(fall, zero()), constant(1.0), fall));
+  begin = hn::Max(begin, select(starts_out, part, zero()));
+  end = hn::Min(end, select(ends_out, part, constant(1.0)));
+  clear = hn::AndNot(hn::And(starts_out, ends_out), clear);
+  clear = hn::AndNot(hn::And(hn::Or(starts_out, ends_out), hn::Lt(squared(fall), least_squared_fall)), clear);
+}
+
+/// Lanes where the triangles cross clearly, with the middle of the segment that they share inside both: the
+/// chord that the plane of a cuts out of b, cut by the edges of a.
+std::uint32_t crossing(const LaneBlock& block, LaneResult& result) {
+  const Real one = constant(1.0);
+  std::uint32_t done = 0;
+  for (std::size_t lane = 0; lane < MAX_LANES; lane += hn::Lanes(Lanes())) {
+    const Three<Vector> a = load(block.a, lane);
+    const Three<Vector> b = load(block.b, lane);
+    const Real magnitude = largest_coordinate(a, b);
+    const Real squared_margin = squared(hn::Mul(constant(MARGIN), magnitude));
+    const Face face = face_of(a);
+    Three<Real> height;
+    Mask clear = hn::And(hn::And(hn::Ge(magnitude, constant(SMALLEST_COORDINATE)),
+                                 hn::Le(magnitude, constant(LARGEST_COORDINATE))),
+                         face.well_shaped);
+    const Real squared_height_margin = hn::Mul(squared_margin, face.squared_n);
+    for (int k = 0; k < 3; ++k) {
+      height.v[k] = dot(b.v[k] - face.origin, face.n);
+      clear = hn::And(clear, hn::Gt(squared(height.v[k]), squared_height_margin));
+    }
+    // The corner that is alone on its side of the plane comes first.
+    const Mask lone_is_0 = hn::Gt(hn::Mul(height.v[1], height.v[2]), zero());
+    const Mask lone_is_1 = hn::AndNot(lone_is_0, hn::Gt(hn::Mul(height.v[0], height.v[2]), zero()));
+    const Mask lone_is_2 = hn::Not(hn::Or(lone_is_0, lone_is_1));
+    clear = hn::And(clear, hn::Or(hn::Lt(hn::Mul(height.v[0], height.v[1]), zero()),
+                                  hn::Lt(hn::Mul(height.v[0], height.v[2]), zero())));
+    const Turned turned_b = turned(b, lone_is_1, lone_is_2);
+    Three<Real> h;
+    for (int k = 0; k < 3; ++k) {
+      h.v[k] =
+          select(lone_is_2, height.v[(k + 2) % 3], select(lone_is_1, height.v[(k + 1) % 3], height.v[k]));
+    }
+    Real part[2];
+    Vector chord_end[2];
+    Three<Real> on_a[2];
+    for (int i = 0; i < 2; ++i) {
+      const Vector edge = turned_b.corner.v[i + 1] - turned_b.corner.v[0];
+      const Real drop = hn::Sub(h.v[0], h.v[i + 1]);
+      // The edge must not be nearly parallel to the plane, or the chord's end is not where the scalar kernel
+      // has it.
+      clear = hn::And(clear, hn::Gt(squared(drop), hn::Mul(constant(MIN_SQUARED_SINE),
+                                                           hn::Mul(face.squared_n, dot(edge, edge)))));
+      part[i] = hn::Div(h.v[0], select(hn::Eq(drop, zero()), one, drop));
+      chord_end[i] = turned_b.corner.v[0] + times(part[i], edge);
+      on_a[i] = weights_on(face, chord_end[i] - face.origin);
+    }
+    const Vector chord = chord_end[1] - chord_end[0];
+    // A weight falls along the chord by its length over the altitude, times the sine of its angle to the
+    // edge.
+    const Real least_squared_fall = hn::Div(hn::Mul(constant(LEAST_SQUARED_FALL), dot(chord, chord)),
+                                            select(face.well_shaped, face.least_squared_altitude, one));
+    Real begin = zero(), end = one;
+    for (int k = 0; k < 3; ++k) cut(on_a[0].v[k], on_a[1].v[k], least_squared_fall, begin, end, clear);
+    const Real middle = hn::Mul(constant(0.5), hn::Add(begin, end));
+    const Real rest = hn::Sub(one, middle);
+    Found found;
+    found.point_a = found.point_b = chord_end[0] + times(middle, chord);
+    found.weights_a = weights_on(face, found.point_a - face.origin);
+    const Real towards_1 = hn::Mul(rest, part[0]);
+    const Real towards_2 = hn::Mul(middle, part[1]);
+    found.weights_b =
+        turned_back(turned_b, {{hn::Sub(hn::Sub(one, towards_1), towards_2), towards_1, towards_2}});
+    const Real least = constant(LEAST_CROSSING_PART);
+    clear = hn::And(clear, hn::Gt(hn::Sub(end, begin), least));
+    clear = hn::And(
+        clear, hn::And(hn::Gt(least_of(found.weights_a), least), hn::Gt(least_of(found.weights_b), least)));
+    const Real length = hn::Mul(hn::Sub(end, begin), hn::Sqrt(dot(chord, chord)));
+    clear = hn::And(clear, hn::Gt(squared(length), squared_margin));
+    hn::Store(length, Lanes(), result.shared_length + lane);
+    done |= bits(clear, lane);
+    store(found, lane, result);
+  }
+  return done;
+}
+
+}  // namespace lmdbench::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif  // include guard
