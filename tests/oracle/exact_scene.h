@@ -15,6 +15,10 @@
 /// the angle weights of vertex pseudo-normals (long double) and the reported numbers.
 namespace lmdbench::exact {
 
+/// Roundings that a distance or a difference of points may carry in double precision, in epsilons of the
+/// largest coordinate.
+inline constexpr double ROUNDINGS = 64.0;
+
 /// A pair of features with a critical point of the distance in both interiors that meets the first-order
 /// condition on both sides.
 struct ExactLmd {
@@ -31,7 +35,8 @@ struct ExactLmd {
 };
 
 /// All such pairs of features, vertex-vertex, vertex-edge, vertex-face, edge-edge by
-/// brute force. Of parallel features, whose minimisers are a segment or polygon, the ends or corners appear:
+/// brute force. "Around a point" are all triangles of its mesh that hold it, whether or not they share its
+/// vertices. Of parallel features, whose minimisers are a segment or polygon, the ends or corners appear:
 /// they are such pairs. Pairs at distance 0 are left out.
 std::vector<ExactLmd> exact_lmds(const Scene& scene, const Pose& X_WM);
 
@@ -44,6 +49,9 @@ struct ExactAgreement {
   std::vector<ExactLmd> missed;
   int found = 0;  ///< LMDs of the judged set at a distance above 0.
   LmdSet untrue;  ///< Of these, such that match no exact LMD.
+  /// Of these, such that match the same exact LMD as one before them: pieces of a plateau that tolerances
+  /// tore apart, or several feet on one plane.
+  int sharing = 0;
 };
 
 ExactAgreement compare_with_exact(const LmdSet& found, const std::vector<ExactLmd>& exact);
