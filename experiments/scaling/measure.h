@@ -47,10 +47,11 @@ Measurement measure(const Scene& scene, const std::vector<Pose>& poses, const Me
 
 /// What certified needs of a mesh, and what its making takes.
 struct BuildCost {
-  double surface_seconds = 0.0;         ///< Adjacency and normals; wall time, least of three.
-  double wide_hierarchy_seconds = 0.0;  ///< Wall time, least of three.
-  double wide_hierarchy_cpu_seconds = 0.0;
-  std::size_t surface_bytes = 0;  ///< Mesh, adjacency and normals.
+  double surface_seconds = 0.0;             ///< Adjacency and normals; wall time, least of three.
+  double surface_cpu_seconds = 0.0;         ///< Processor time of all threads, least of three.
+  double wide_hierarchy_seconds = 0.0;      ///< Polar caps and tree; wall time, least of three.
+  double wide_hierarchy_cpu_seconds = 0.0;  ///< Processor time of all threads, least of three.
+  std::size_t surface_bytes = 0;            ///< Mesh, adjacency and normals.
   std::size_t wide_hierarchy_bytes = 0;
   std::size_t features = 0;  ///< That can carry an LMD.
 };

@@ -3,12 +3,17 @@
 #include <lmdbench/mesh/shapes.h>
 #include <lmdbench/mesh/surface.h>
 #include <lmdbench/mesh/triangle_normal.h>
+#include <lmdbench/mesh/vertex_neighbours.h>
 
 #include <Eigen/Geometry>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
+#include <set>
+#include <utility>
+#include <vector>
 
 namespace lmdbench {
 namespace {
@@ -17,7 +22,7 @@ using ::testing::ElementsAre;
 
 TEST(TriangleNormalTest, IsTheSameAtEveryScale) {
   const Triangle triangle{Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0)};
-  for (const double scale : {1e-300, 1e-150, 1e-9, 1.0, 1e9, 1e150, 1e300}) {
+  for (const double scale : {0x1p-1070, 1e-300, 1e-150, 1e-9, 1.0, 1e9, 1e150, 1e300}) {
     const Triangle resized{scale * triangle[0], scale * triangle[1], scale * triangle[2]};
     EXPECT_EQ(triangle_normal(resized), Vec3(0, 0, 1)) << scale;
   }
@@ -36,6 +41,14 @@ TEST(TriangleNormalTest, IsZeroWithoutArea) {
   EXPECT_EQ(triangle_normal({Vec3(1, 2, 3), Vec3(1, 2, 3), Vec3(1, 2, 3)}), Vec3::Zero());
 }
 
+TEST(TriangleNormalTest, CornerAngles) {
+  const auto angles = corner_angles({Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, std::sqrt(3.0), 0)});
+  EXPECT_NEAR(angles[0], std::numbers::pi / 2.0, 1e-15);
+  EXPECT_NEAR(angles[1], std::numbers::pi / 3.0, 1e-15);
+  EXPECT_NEAR(angles[2], std::numbers::pi / 6.0, 1e-15);
+  EXPECT_THAT(corner_angles({Vec3(0, 0, 0), Vec3(0, 0, 0), Vec3(1, 0, 0)}), ElementsAre(0.0, 0.0, 0.0));
+}
+
 TEST(SurfaceTest, BoxHasTheNormalsOfABox) {
   const Surface surface = build_surface(make_box({2, 2, 2}));
   for (std::size_t v = 0; v < surface.mesh.vertices.size(); ++v)
@@ -45,7 +58,8 @@ TEST(SurfaceTest, BoxHasTheNormalsOfABox) {
     const auto [a, b] = surface.adjacency.edges[e];
     const Vec3 middle = surface.mesh.vertices[static_cast<std::size_t>(a)] +
                         surface.mesh.vertices[static_cast<std::size_t>(b)];
-    EXPECT_LT((surface.edge_pseudo_normals[e] - middle.normalized()).norm(), 1e-12);
+    const Vec3 normal = surface.pseudo_normal({FeatureKind::EDGE, static_cast<std::int32_t>(e)});
+    EXPECT_LT((normal - middle.normalized()).norm(), 1e-12);
   }
 }
 
@@ -58,7 +72,8 @@ TEST(SurfaceTest, FeaturesOfATriangle) {
   EXPECT_EQ(edge.kind, FeatureKind::EDGE);
   EXPECT_THAT(surface.adjacency.edges[static_cast<std::size_t>(edge.index)],
               ElementsAre(std::min(corners[2], corners[0]), std::max(corners[2], corners[0])));
-  EXPECT_THAT(surface.incident_triangles({FeatureKind::FACE, 5}), ElementsAre(5));
+  const TriangleList of_face = surface.incident_triangles({FeatureKind::FACE, 5});
+  EXPECT_EQ(std::vector<std::int32_t>(of_face.begin(), of_face.end()), std::vector<std::int32_t>{5});
   EXPECT_EQ(surface.incident_triangles(edge).size(), 2u);
   EXPECT_GE(surface.incident_triangles({FeatureKind::VERTEX, corners[0]}).size(), 3u);
 }
@@ -78,6 +93,50 @@ TEST(SurfaceTest, FlagsBoundaryAndNonManifoldEdges) {
   EXPECT_TRUE(build_surface(mesh).edge_is_non_manifold[0]) << "both run the same way";
   mesh.triangles = {{0, 1, 2}, {1, 0, 3}, {1, 0, 4}};
   EXPECT_TRUE(build_surface(mesh).edge_is_non_manifold[0]) << "three triangles";
+}
+
+TEST(SurfaceTest, MarksTheEndsOfNonManifoldEdges) {
+  TriangleMesh mesh;
+  mesh.vertices = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}};
+  mesh.triangles = {{0, 1, 2}, {1, 0, 3}, {1, 0, 4}};
+  const Surface surface = build_surface(mesh);
+  EXPECT_THAT(surface.vertex_has_non_manifold_edge, ElementsAre(true, true, false, false, false));
+  EXPECT_THAT(surface.vertex_is_boundary, ElementsAre(true, true, true, true, true));
+}
+
+TEST(SurfaceTest, IsCompact) {
+  const Surface surface = build_surface(make_sphere(1.0, 5));
+  EXPECT_LE(surface.bytes(), 114 * surface.mesh.triangles.size());
+}
+
+TEST(SurfaceTest, NeighboursAreTheOtherEndsOfEdges) {
+  TriangleMesh holed = make_blob(1.0, 0.3, 2);
+  holed.triangles.erase(holed.triangles.begin() + 5);
+  std::swap(holed.triangles[40][0], holed.triangles[40][1]);  // disagrees with its neighbours
+  holed.triangles.push_back({7, 7, 9});
+  holed.triangles.push_back({7, 7, 9});
+  const Surface surface = build_surface(holed);
+  std::vector<std::set<std::int32_t>> expected(holed.vertices.size()), found(holed.vertices.size());
+  for (const auto& [a, b] : surface.adjacency.edges) {
+    if (a == b) continue;
+    expected[static_cast<std::size_t>(a)].insert(b);
+    expected[static_cast<std::size_t>(b)].insert(a);
+  }
+  for (std::size_t v = 0; v < found.size(); ++v) {
+    const auto vertex = static_cast<std::int32_t>(v);
+    std::size_t visits = 0;
+    EXPECT_TRUE(for_each_neighbour(surface, vertex, [&](std::int32_t neighbour) {
+      found[v].insert(neighbour);
+      ++visits;
+      return true;
+    }));
+    const bool named_twice = v == 7 || v == 9;
+    if (!surface.vertex_is_boundary[v] && !surface.vertex_has_non_manifold_edge[v] && !named_twice) {
+      EXPECT_EQ(visits, found[v].size()) << "vertex " << v;
+    }
+  }
+  EXPECT_EQ(found, expected);
+  EXPECT_FALSE(for_each_neighbour(surface, 0, [](std::int32_t) { return false; }));
 }
 
 TEST(SurfaceTest, TrianglesWithoutAreaAddNothing) {

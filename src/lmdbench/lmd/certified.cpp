@@ -60,7 +60,7 @@ void fetch_vertices(const Surface& surface, const FeatureId& feature) {
   };
   switch (feature.kind) {
     case FeatureKind::VERTEX:
-      __builtin_prefetch(surface.adjacency.vertex_edges[feature.index].data());
+      __builtin_prefetch(surface.adjacency.vertex_triangles[feature.index].data());
       break;
     case FeatureKind::EDGE:
       for (const std::int32_t vertex : surface.adjacency.edges[index]) fetch(vertex);

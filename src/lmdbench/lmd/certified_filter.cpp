@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/lmd/certified_filter.h>
+#include <lmdbench/mesh/vertex_neighbours.h>
 
 #include <algorithm>
 #include <array>
@@ -94,16 +95,13 @@ struct Test {
   }
 
   PairAnswer in_vertex_cone(const Side& side, std::int32_t vertex, const Vec3& d_W, double turns) const {
-    const Adjacency& adjacency = side.surface.adjacency;
     const Vec3 d_S = side.to_surface(d_W);
     const double squared_d = d_S.squaredNorm();
     const Vec3& p = side.vertex_S(vertex);
     PairAnswer answer = HOLDS;
-    for (const std::int32_t edge : adjacency.vertex_edges[vertex]) {
-      const auto& ends = adjacency.edges[static_cast<std::size_t>(edge)];
-      const Vec3 to_corner = side.vertex_S(ends[0] == vertex ? ends[1] : ends[0]) - p;
-      if (settle(answer, away_from(d_S, squared_d, to_corner, turns))) return answer;
-    }
+    for_each_neighbour(side.surface, vertex, [&](std::int32_t neighbour) {
+      return !settle(answer, away_from(d_S, squared_d, side.vertex_S(neighbour) - p, turns));
+    });
     return answer;
   }
 

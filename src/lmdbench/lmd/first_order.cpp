@@ -13,12 +13,8 @@ bool has_side(const Surface& surface, const FeatureId& feature) {
   if (surface.is_boundary(feature)) return false;
   if (feature.kind == FeatureKind::EDGE)
     return !surface.edge_is_non_manifold[static_cast<std::size_t>(feature.index)];
-  if (feature.kind == FeatureKind::VERTEX) {
-    const auto edges = surface.adjacency.vertex_edges[feature.index];
-    return std::none_of(edges.begin(), edges.end(), [&](std::int32_t edge) {
-      return surface.edge_is_non_manifold[static_cast<std::size_t>(edge)];
-    });
-  }
+  if (feature.kind == FeatureKind::VERTEX)
+    return !surface.vertex_has_non_manifold_edge[static_cast<std::size_t>(feature.index)];
   return true;
 }
 

@@ -2,76 +2,109 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/mesh/adjacency.h>
 
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
+#include <numeric>
 #include <utility>
 
 namespace lmdbench {
 
 namespace {
 
-struct Side {
-  std::array<std::int32_t, 2> vertices;  // the smaller one first
-  std::size_t position;                  // 3 * triangle + k
-};
+/// Sides are numbered 3 * triangle + k; side k joins corners k and (k + 1) % 3.
+using SideIndex = std::uint32_t;
 
-using Pairs = std::vector<std::pair<std::int32_t, std::int32_t>>;
+/// Vertices that one task takes at a time.
+constexpr std::size_t GRAIN = 4096;
 
-// A triangle that names a vertex twice touches it once: rows hold each item once.
-void add_once(Pairs& pairs, std::int32_t row, std::int32_t item, std::size_t items_of_triangle) {
-  const auto end = pairs.end();
-  if (std::find(end - static_cast<std::ptrdiff_t>(items_of_triangle), end, std::pair(row, item)) == end)
-    pairs.emplace_back(row, item);
+/// Calls visit(vertex) for each vertex of a triangle, once where the triangle names it twice.
+template <class Visit>
+void for_each_vertex(const std::array<std::int32_t, 3>& corners, Visit visit) {
+  visit(corners[0]);
+  if (corners[1] != corners[0]) visit(corners[1]);
+  if (corners[2] != corners[0] && corners[2] != corners[1]) visit(corners[2]);
+}
+
+IndexRows triangles_of_vertices(const TriangleMesh& mesh) {
+  std::vector<std::int32_t> offsets(mesh.vertices.size() + 1, 0);
+  for (const auto& corners : mesh.triangles)
+    for_each_vertex(corners, [&](std::int32_t vertex) { ++offsets[static_cast<std::size_t>(vertex) + 1]; });
+  std::partial_sum(offsets.begin(), offsets.end(), offsets.begin());
+  std::vector<std::int32_t> items(static_cast<std::size_t>(offsets.back()));
+  std::vector<std::int32_t> next(offsets.begin(), offsets.end() - 1);
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    for_each_vertex(mesh.triangles[t], [&](std::int32_t vertex) {
+      items[static_cast<std::size_t>(next[static_cast<std::size_t>(vertex)]++)] =
+          static_cast<std::int32_t>(t);
+    });
+  }
+  return {std::move(offsets), std::move(items)};
+}
+
+/// For every side the first side on the same edge. An edge is met at its smaller vertex, so every vertex has
+/// only the few sides to sort that it is the smaller end of, and vertices can be treated apart.
+std::vector<SideIndex> first_sides(const TriangleMesh& mesh, const IndexRows& vertex_triangles) {
+  std::vector<SideIndex> first(3 * mesh.triangles.size());
+  const auto vertex_count = static_cast<std::int32_t>(mesh.vertices.size());
+  const tbb::blocked_range<std::int32_t> all(0, vertex_count, GRAIN);
+  tbb::parallel_for(all, [&](const tbb::blocked_range<std::int32_t>& range) {
+    std::vector<std::uint64_t> sides;  // larger vertex, then the side
+    for (std::int32_t vertex = range.begin(); vertex < range.end(); ++vertex) {
+      sides.clear();
+      for (const std::int32_t triangle : vertex_triangles[vertex]) {
+        const auto& corners = mesh.triangles[static_cast<std::size_t>(triangle)];
+        for (std::size_t k = 0; k < 3; ++k) {
+          const auto [low, high] = std::minmax(corners[k], corners[(k + 1) % 3]);
+          if (low != vertex) continue;
+          const std::size_t side = 3 * static_cast<std::size_t>(triangle) + k;
+          sides.push_back(static_cast<std::uint64_t>(high) << 32 | side);
+        }
+      }
+      std::sort(sides.begin(), sides.end());
+      for (std::size_t i = 0; i < sides.size(); ++i) {
+        const auto side = static_cast<SideIndex>(sides[i]);
+        const bool continues = i > 0 && sides[i] >> 32 == sides[i - 1] >> 32;
+        first[side] = continues ? first[static_cast<SideIndex>(sides[i - 1])] : side;
+      }
+    }
+  });
+  return first;
 }
 
 }  // namespace
 
 Adjacency build_adjacency(const TriangleMesh& mesh) {
-  const std::size_t triangle_count = mesh.triangles.size();
-  std::vector<Side> sides;
-  sides.reserve(3 * triangle_count);
-  for (std::size_t t = 0; t < triangle_count; ++t) {
-    for (std::size_t k = 0; k < 3; ++k) {
-      const auto [low, high] = std::minmax({mesh.triangles[t][k], mesh.triangles[t][(k + 1) % 3]});
-      sides.push_back({{low, high}, 3 * t + k});
-    }
-  }
-  std::sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) {
-    return std::pair(a.vertices, a.position) < std::pair(b.vertices, b.position);
-  });
-
-  // Sorting groups the sides of an edge, its first side leading; numbers then follow the first sides.
-  std::vector<std::size_t> first_side(3 * triangle_count);
-  for (std::size_t i = 0; i < sides.size(); ++i) {
-    const bool continues = i > 0 && sides[i].vertices == sides[i - 1].vertices;
-    first_side[sides[i].position] = continues ? first_side[sides[i - 1].position] : sides[i].position;
-  }
-
   Adjacency adjacency;
-  adjacency.triangle_edges.resize(triangle_count);
-  std::vector<std::int32_t> number_of_first_side(3 * triangle_count, -1);
-  Pairs edge_triangles, vertex_triangles, vertex_edges;
-  for (std::size_t t = 0; t < triangle_count; ++t) {
-    const auto triangle = static_cast<std::int32_t>(t);
-    const std::size_t edges_before = edge_triangles.size(), vertices_before = vertex_triangles.size();
+  adjacency.vertex_triangles = triangles_of_vertices(mesh);
+  const std::vector<SideIndex> first = first_sides(mesh, adjacency.vertex_triangles);
+  std::size_t edge_count = 0;
+  for (std::size_t side = 0; side < first.size(); ++side) edge_count += first[side] == side ? 1 : 0;
+
+  adjacency.edges.reserve(edge_count);
+  adjacency.triangle_edges.resize(mesh.triangles.size());
+  adjacency.edge_triangles = EdgeTriangles(edge_count);
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
     for (std::size_t k = 0; k < 3; ++k) {
-      const std::int32_t tail = mesh.triangles[t][k], head = mesh.triangles[t][(k + 1) % 3];
-      std::int32_t& number = number_of_first_side[first_side[3 * t + k]];
-      if (number < 0) {
-        number = static_cast<std::int32_t>(adjacency.edges.size());
-        adjacency.edges.push_back({std::min(tail, head), std::max(tail, head)});
-        vertex_edges.emplace_back(tail, number);
-        if (head != tail) vertex_edges.emplace_back(head, number);
+      const SideIndex earliest = first[3 * t + k];
+      std::int32_t& edge = adjacency.triangle_edges[t][k];
+      if (earliest == 3 * t + k) {
+        edge = static_cast<std::int32_t>(adjacency.edges.size());
+        const auto [low, high] = std::minmax(mesh.triangles[t][k], mesh.triangles[t][(k + 1) % 3]);
+        adjacency.edges.push_back({low, high});
+      } else {
+        edge = adjacency.triangle_edges[earliest / 3][earliest % 3];
       }
-      adjacency.triangle_edges[t][k] = number;
-      add_once(edge_triangles, number, triangle, edge_triangles.size() - edges_before);
-      add_once(vertex_triangles, tail, triangle, vertex_triangles.size() - vertices_before);
+      adjacency.edge_triangles.add(edge, static_cast<std::int32_t>(t));
     }
   }
-  const auto vertex_count = static_cast<std::int32_t>(mesh.vertices.size());
-  adjacency.edge_triangles = IndexRows(adjacency.edge_count(), edge_triangles);
-  adjacency.vertex_triangles = IndexRows(vertex_count, vertex_triangles);
-  adjacency.vertex_edges = IndexRows(vertex_count, vertex_edges);
   return adjacency;
+}
+
+std::size_t Adjacency::bytes() const {
+  return edges.size() * sizeof(edges[0]) + triangle_edges.size() * sizeof(triangle_edges[0]) +
+         edge_triangles.bytes() + vertex_triangles.bytes();
 }
 
 }  // namespace lmdbench

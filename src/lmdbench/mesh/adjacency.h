@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <lmdbench/mesh/edge_triangles.h>
 #include <lmdbench/mesh/index_rows.h>
 #include <lmdbench/mesh/triangle_mesh.h>
 
@@ -15,12 +16,13 @@ namespace lmdbench {
 struct Adjacency {
   std::vector<std::array<std::int32_t, 2>> edges;  ///< #E by 2, vertex indices, the smaller one first.
   std::vector<std::array<std::int32_t, 3>>
-      triangle_edges;          ///< #T by 3; side k joins corners k and (k + 1) % 3.
-  IndexRows edge_triangles;    ///< #E rows of triangles, ascending.
-  IndexRows vertex_triangles;  ///< #V rows of triangles, ascending.
-  IndexRows vertex_edges;      ///< #V rows of edges, ascending.
+      triangle_edges;            ///< #T by 3; side k joins corners k and (k + 1) % 3.
+  EdgeTriangles edge_triangles;  ///< #E lists of triangles, ascending.
+  IndexRows vertex_triangles;    ///< #V rows of triangles, ascending.
 
   std::int32_t edge_count() const { return static_cast<std::int32_t>(edges.size()); }
+  /// Memory that all of this takes.
+  std::size_t bytes() const;
 };
 
 /// Edges are numbered in the order of their first triangle side, so the numbering depends on the mesh alone.

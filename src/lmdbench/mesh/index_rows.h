@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <numeric>
 #include <span>
@@ -14,6 +15,10 @@ namespace lmdbench {
 class IndexRows {
  public:
   IndexRows() = default;
+
+  /// @param offsets one more than rows, ascending, from 0 to the number of items
+  IndexRows(std::vector<std::int32_t> offsets, std::vector<std::int32_t> items)
+      : offsets_(std::move(offsets)), items_(std::move(items)) {}
 
   /// Groups `pairs` of (row, item) into `row_count` rows; within a row items keep the order of `pairs`.
   IndexRows(std::int32_t row_count, std::span<const std::pair<std::int32_t, std::int32_t>> pairs)
@@ -31,6 +36,8 @@ class IndexRows {
     return {items_.data() + begin, end - begin};
   }
   std::int32_t row_count() const { return static_cast<std::int32_t>(offsets_.size()) - 1; }
+  /// Memory that the rows take.
+  std::size_t bytes() const { return (offsets_.size() + items_.size()) * sizeof(std::int32_t); }
 
  private:
   std::vector<std::int32_t> offsets_{0};

@@ -3,6 +3,7 @@
 #include <lmdbench/mesh/polar_cone.h>
 #include <lmdbench/mesh/polar_rays.h>
 #include <lmdbench/mesh/vertex_fan.h>
+#include <lmdbench/mesh/vertex_neighbours.h>
 
 #include <algorithm>
 
@@ -21,10 +22,10 @@ void add_direction(std::vector<Vec3>& directions, const Vec3& from, const Vec3& 
 
 std::vector<Vec3> directions_from_vertex(const Surface& surface, std::int32_t vertex) {
   std::vector<Vec3> directions;
-  for (const std::int32_t edge : surface.adjacency.vertex_edges[vertex]) {
-    const auto [a, b] = surface.adjacency.edges[static_cast<std::size_t>(edge)];
-    add_direction(directions, vertex_of(surface, vertex), vertex_of(surface, a == vertex ? b : a));
-  }
+  for_each_neighbour(surface, vertex, [&](std::int32_t neighbour) {
+    add_direction(directions, vertex_of(surface, vertex), vertex_of(surface, neighbour));
+    return true;
+  });
   return directions;
 }
 
@@ -53,7 +54,7 @@ std::vector<Vec3> directions_from_edge(const Surface& surface, std::int32_t edge
 std::vector<Vec3> generators(const Surface& surface, const FeatureId& feature, bool first_only) {
   if (surface.incident_triangles(feature).empty()) return {};
   if (feature.kind == FeatureKind::FACE) {
-    const Vec3& normal = surface.pseudo_normal(feature);
+    const Vec3 normal = surface.pseudo_normal(feature);
     return normal.isZero(0.0) ? std::vector<Vec3>{} : std::vector<Vec3>{normal};
   }
   std::vector<Vec3> directions;

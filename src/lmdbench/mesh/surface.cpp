@@ -3,67 +3,94 @@
 #include <lmdbench/mesh/surface.h>
 #include <lmdbench/mesh/triangle_normal.h>
 
-#include <numeric>
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+#include <tbb/parallel_invoke.h>
+
+#include <array>
+#include <cstddef>
+#include <utility>
 
 namespace lmdbench {
 
 namespace {
 
-// Number of times that a triangle runs along the edge from its smaller to its larger vertex, minus the
-// reverse.
-int direction_on_edge(const TriangleMesh& mesh, std::int32_t triangle,
-                      const std::array<std::int32_t, 2>& edge) {
-  const auto& corners = mesh.triangles[static_cast<std::size_t>(triangle)];
-  int direction = 0;
-  for (std::size_t k = 0; k < 3; ++k) {
-    const std::int32_t tail = corners[k], head = corners[(k + 1) % 3];
-    if (tail == edge[0] && head == edge[1]) ++direction;
-    if (tail == edge[1] && head == edge[0]) --direction;
-  }
-  return direction;
+/// Items that one task takes at a time.
+constexpr std::int32_t GRAIN = 4096;
+
+template <class Body>
+void for_each_index(std::size_t count, Body body) {
+  const tbb::blocked_range<std::int32_t> all(0, static_cast<std::int32_t>(count), GRAIN);
+  tbb::parallel_for(all, [&](const tbb::blocked_range<std::int32_t>& range) {
+    for (std::int32_t i = range.begin(); i < range.end(); ++i) body(static_cast<std::size_t>(i));
+  });
 }
 
-void derive_face_normals(Surface& surface) {
-  const auto triangle_count = static_cast<std::int32_t>(surface.mesh.triangles.size());
-  surface.face_normals.reserve(static_cast<std::size_t>(triangle_count));
-  for (std::int32_t t = 0; t < triangle_count; ++t)
-    surface.face_normals.push_back(triangle_normal(surface.mesh.triangle(t)));
+void derive_normals(Surface& surface) {
+  const TriangleMesh& mesh = surface.mesh;
+  surface.face_normals.resize(mesh.triangles.size());
+  std::vector<std::array<double, 3>> angles(mesh.triangles.size());
+  for_each_index(mesh.triangles.size(), [&](std::size_t t) {
+    const Triangle corners = mesh.triangle(static_cast<std::int32_t>(t));
+    surface.face_normals[t] = triangle_normal(corners);
+    angles[t] = corner_angles(corners);
+  });
+  surface.vertex_pseudo_normals.resize(mesh.vertices.size());
+  for_each_index(mesh.vertices.size(), [&](std::size_t v) {
+    const auto vertex = static_cast<std::int32_t>(v);
+    Vec3 sum = Vec3::Zero();
+    for (const std::int32_t triangle : surface.adjacency.vertex_triangles[vertex]) {
+      const auto t = static_cast<std::size_t>(triangle);
+      if (surface.face_normals[t].isZero(0.0)) continue;
+      for (std::size_t k = 0; k < 3; ++k)
+        if (mesh.triangles[t][k] == vertex) sum += angles[t][k] * surface.face_normals[t];
+    }
+    surface.vertex_pseudo_normals[v] = sum.stableNormalized();
+  });
 }
 
-void derive_edges(Surface& surface) {
+void derive_flags(Surface& surface) {
   const Adjacency& adjacency = surface.adjacency;
-  const std::size_t edge_count = adjacency.edges.size();
-  surface.edge_pseudo_normals.assign(edge_count, Vec3::Zero());
+  const std::size_t edge_count = adjacency.edges.size(), vertex_count = surface.mesh.vertices.size();
+  // Sides that run from the smaller vertex to the larger one, minus the others. It may wrap round, but not
+  // where there are two triangles, and nobody asks where there are more.
+  std::vector<std::int8_t> balance(edge_count, 0);
+  for (std::size_t t = 0; t < surface.mesh.triangles.size(); ++t) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::int32_t tail = surface.mesh.triangles[t][k], head = surface.mesh.triangles[t][(k + 1) % 3];
+      std::int8_t& of_edge = balance[static_cast<std::size_t>(adjacency.triangle_edges[t][k])];
+      of_edge = static_cast<std::int8_t>(of_edge + (tail < head ? 1 : 0) - (head < tail ? 1 : 0));
+    }
+  }
   surface.edge_is_boundary.assign(edge_count, false);
   surface.edge_is_non_manifold.assign(edge_count, false);
-  surface.vertex_is_boundary.assign(surface.mesh.vertices.size(), false);
+  surface.vertex_is_boundary.assign(vertex_count, false);
+  surface.vertex_has_non_manifold_edge.assign(vertex_count, false);
   for (std::size_t e = 0; e < edge_count; ++e) {
-    const auto triangles = adjacency.edge_triangles[static_cast<std::int32_t>(e)];
-    int balance = 0;
-    for (const std::int32_t t : triangles) {
-      surface.edge_pseudo_normals[e] += surface.face_normals[static_cast<std::size_t>(t)];
-      balance += direction_on_edge(surface.mesh, t, adjacency.edges[e]);
-    }
-    surface.edge_pseudo_normals[e].stableNormalize();
-    surface.edge_is_boundary[e] = triangles.size() == 1;
-    surface.edge_is_non_manifold[e] = triangles.size() > 2 || (triangles.size() == 2 && balance != 0);
-    if (surface.edge_is_boundary[e])
-      for (const std::int32_t vertex : adjacency.edges[e])
-        surface.vertex_is_boundary[static_cast<std::size_t>(vertex)] = true;
+    const std::size_t triangles = adjacency.edge_triangles[static_cast<std::int32_t>(e)].size();
+    if (triangles == 2 && balance[e] == 0) continue;
+    const bool boundary = triangles == 1;
+    (boundary ? surface.edge_is_boundary : surface.edge_is_non_manifold)[e] = true;
+    for (const std::int32_t vertex : adjacency.edges[e])
+      (boundary ? surface.vertex_is_boundary
+                : surface.vertex_has_non_manifold_edge)[static_cast<std::size_t>(vertex)] = true;
   }
 }
 
-void derive_vertex_pseudo_normals(Surface& surface) {
-  surface.vertex_pseudo_normals.assign(surface.mesh.vertices.size(), Vec3::Zero());
-  for (std::size_t t = 0; t < surface.mesh.triangles.size(); ++t) {
-    if (surface.face_normals[t].isZero(0.0)) continue;
-    const Triangle corners = surface.mesh.triangle(static_cast<std::int32_t>(t));
-    for (int k = 0; k < 3; ++k) {
-      const auto vertex = static_cast<std::size_t>(surface.mesh.triangles[t][static_cast<std::size_t>(k)]);
-      surface.vertex_pseudo_normals[vertex] += corner_angle(corners, k) * surface.face_normals[t];
-    }
-  }
-  for (Vec3& normal : surface.vertex_pseudo_normals) normal.stableNormalize();
+Vec3 edge_pseudo_normal(const Surface& surface, std::int32_t edge) {
+  Vec3 sum = Vec3::Zero();
+  for (const std::int32_t triangle : surface.adjacency.edge_triangles[edge])
+    sum += surface.face_normals[static_cast<std::size_t>(triangle)];
+  return sum.stableNormalized();
+}
+
+template <class T>
+std::size_t bytes_of(const std::vector<T>& items) {
+  return items.capacity() * sizeof(T);
+}
+
+std::size_t bytes_of(const std::vector<bool>& flags) {
+  return flags.capacity() / 8;
 }
 
 }  // namespace
@@ -76,25 +103,25 @@ FeatureId Surface::feature_of(std::int32_t triangle, TriangleFeature part) const
   return {FeatureKind::FACE, triangle};
 }
 
-std::span<const std::int32_t> Surface::incident_triangles(const FeatureId& feature) const {
+TriangleList Surface::incident_triangles(const FeatureId& feature) const {
   switch (feature.kind) {
     case FeatureKind::VERTEX:
-      return adjacency.vertex_triangles[feature.index];
+      return TriangleList(adjacency.vertex_triangles[feature.index]);
     case FeatureKind::EDGE:
-      return adjacency.edge_triangles[feature.index];
+      return TriangleList(adjacency.edge_triangles[feature.index]);
     case FeatureKind::FACE:
       break;
   }
-  return {face_rows_.data() + feature.index, 1};
+  return TriangleList(feature.index);
 }
 
-const Vec3& Surface::pseudo_normal(const FeatureId& feature) const {
+Vec3 Surface::pseudo_normal(const FeatureId& feature) const {
   const auto i = static_cast<std::size_t>(feature.index);
   switch (feature.kind) {
     case FeatureKind::VERTEX:
       return vertex_pseudo_normals[i];
     case FeatureKind::EDGE:
-      return edge_pseudo_normals[i];
+      return edge_pseudo_normal(*this, feature.index);
     case FeatureKind::FACE:
       break;
   }
@@ -114,15 +141,17 @@ bool Surface::is_boundary(const FeatureId& feature) const {
   return false;
 }
 
+std::size_t Surface::bytes() const {
+  return bytes_of(mesh.vertices) + bytes_of(mesh.triangles) + adjacency.bytes() + bytes_of(face_normals) +
+         bytes_of(vertex_pseudo_normals) + bytes_of(edge_is_boundary) + bytes_of(vertex_is_boundary) +
+         bytes_of(edge_is_non_manifold) + bytes_of(vertex_has_non_manifold_edge);
+}
+
 Surface build_surface(TriangleMesh mesh) {
   Surface surface;
   surface.mesh = std::move(mesh);
   surface.adjacency = build_adjacency(surface.mesh);
-  derive_face_normals(surface);
-  derive_edges(surface);
-  derive_vertex_pseudo_normals(surface);
-  surface.face_rows_.resize(surface.mesh.triangles.size());
-  std::iota(surface.face_rows_.begin(), surface.face_rows_.end(), 0);
+  tbb::parallel_invoke([&] { derive_normals(surface); }, [&] { derive_flags(surface); });
   return surface;
 }
 

@@ -7,39 +7,58 @@
 #include <lmdbench/mesh/feature.h>
 #include <lmdbench/mesh/triangle_mesh.h>
 
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
 
 namespace lmdbench {
 
+/// Indices of some triangles of a mesh: those of a row that the mesh holds, or a single one.
+class TriangleList {
+ public:
+  explicit TriangleList(std::span<const std::int32_t> row) : row_(row.data()), size_(row.size()) {}
+  explicit TriangleList(std::int32_t triangle) : single_(triangle), size_(1) {}
+
+  const std::int32_t* begin() const { return row_ != nullptr ? row_ : &single_; }
+  const std::int32_t* end() const { return begin() + size_; }
+  std::size_t size() const { return size_; }
+  bool empty() const { return size_ == 0; }
+  std::int32_t front() const { return *begin(); }
+  std::int32_t operator[](std::size_t i) const { return begin()[i]; }
+
+ private:
+  const std::int32_t* row_ = nullptr;
+  std::int32_t single_ = -1;
+  std::size_t size_;
+};
+
 /// A mesh with all that is derived from it once and read by every method: immutable, shared between methods
 /// and threads. Directions are unit vectors in the mesh's frame.
 struct Surface {
   TriangleMesh mesh;
   Adjacency adjacency;
-  std::vector<Vec3> face_normals;  ///< #T by 3; zero for a triangle without area.
-  std::vector<Vec3>
-      edge_pseudo_normals;  ///< #E by 3; normalised sum of the incident faces' normals, or zero.
+  std::vector<Vec3> face_normals;           ///< #T by 3; zero for a triangle without area.
   std::vector<Vec3> vertex_pseudo_normals;  ///< #V by 3; angle-weighted (Baerentzen and Aanaes 2005).
   std::vector<bool> edge_is_boundary;       ///< #E; the edge has exactly one triangle.
   std::vector<bool> vertex_is_boundary;     ///< #V; some incident edge is a boundary edge.
   std::vector<bool>
       edge_is_non_manifold;  ///< #E; more than two triangles, or two that disagree on orientation.
+  std::vector<bool> vertex_has_non_manifold_edge;  ///< #V; some incident edge is non-manifold.
 
   /// Id of a triangle's part.
   FeatureId feature_of(std::int32_t triangle, TriangleFeature part) const;
   /// Triangles that contain the feature: one for a face, those on the edge, those round the vertex (paper,
   /// Fig. 5).
-  std::span<const std::int32_t> incident_triangles(const FeatureId& feature) const;
-  /// Pseudo-normal of the feature: decides the outer side.
-  const Vec3& pseudo_normal(const FeatureId& feature) const;
+  TriangleList incident_triangles(const FeatureId& feature) const;
+  /// Pseudo-normal of the feature: decides the outer side. Of an edge it is the normalised sum of the
+  /// incident faces' normals, or zero; made when it is asked for, because next to nobody asks.
+  Vec3 pseudo_normal(const FeatureId& feature) const;
   /// A boundary edge, or a vertex on one; a face never is.
   bool is_boundary(const FeatureId& feature) const;
-
- private:
-  friend Surface build_surface(TriangleMesh mesh);
-  std::vector<std::int32_t> face_rows_;  ///< 0 .. #T-1, so that a face's incident triangles are a span too.
+  /// Memory that all of this takes; certified, improved and exhaustive read no other part of a mesh but their
+  /// own hierarchies.
+  std::size_t bytes() const;
 };
 
 /// Derives adjacency and normals. Triangles without area add nothing to any normal.

@@ -35,11 +35,12 @@ Vec3 triangle_normal(const Triangle& triangle) {
     largest = std::max(largest, sides[k].cwiseAbs().maxCoeff());
   }
   if (!(largest > 0.0)) return Vec3::Zero();
-  // A power of two: scaling changes no digit.
-  const int exponent = std::ilogb(largest);
+  // Powers of two: scaling changes no digit. In two steps, because the inverse of a subnormal is no number.
+  const double half_scale = std::scalbn(1.0, -std::ilogb(largest) / 2);
+  const double rest = std::scalbn(1.0, -std::ilogb(largest * half_scale));
   double longest_squared = 0.0;
   for (Vec3& side : sides) {
-    for (int i = 0; i < 3; ++i) side[i] = std::scalbn(side[i], -exponent);
+    side = rest * (half_scale * side);
     longest_squared = std::max(longest_squared, side.squaredNorm());
   }
   const Vec3 cross = accurate_cross(sides[0], sides[1]);
@@ -48,12 +49,16 @@ Vec3 triangle_normal(const Triangle& triangle) {
   return cross / length;
 }
 
-double corner_angle(const Triangle& triangle, int corner) {
-  const auto c = static_cast<std::size_t>(corner);
-  const Vec3 to_next = (triangle[(c + 1) % 3] - triangle[c]).stableNormalized();
-  const Vec3 to_previous = (triangle[(c + 2) % 3] - triangle[c]).stableNormalized();
-  if (to_next.isZero(0.0) || to_previous.isZero(0.0)) return 0.0;
-  return std::atan2(to_next.cross(to_previous).norm(), to_next.dot(to_previous));
+std::array<double, 3> corner_angles(const Triangle& triangle) {
+  std::array<Vec3, 3> sides;
+  for (std::size_t k = 0; k < 3; ++k) sides[k] = (triangle[(k + 1) % 3] - triangle[k]).stableNormalized();
+  std::array<double, 3> angles{};
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Vec3 &to_next = sides[k], &from_previous = sides[(k + 2) % 3];
+    if (to_next.isZero(0.0) || from_previous.isZero(0.0)) continue;
+    angles[k] = std::atan2(to_next.cross(from_previous).norm(), -to_next.dot(from_previous));
+  }
+  return angles;
 }
 
 }  // namespace lmdbench

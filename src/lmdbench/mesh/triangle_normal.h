@@ -4,6 +4,8 @@
 
 #include <lmdbench/geometry/types.h>
 
+#include <array>
+
 namespace lmdbench {
 
 /// A triangle counts as one without area when the sine-like ratio |e0 x e1| / (longest side)^2 is at or below
@@ -19,7 +21,7 @@ Vec3 accurate_cross(const Vec3& a, const Vec3& b);
 /// (`ZERO_AREA_TOLERANCE`). The same for every scale: no product over- or underflows.
 Vec3 triangle_normal(const Triangle& triangle);
 
-/// Angle at a corner, radians in [0, pi]; 0 where one of the two sides has no length.
-double corner_angle(const Triangle& triangle, int corner);
+/// Angles at the corners, radians in [0, pi]; 0 where one of the two sides has no length.
+std::array<double, 3> corner_angles(const Triangle& triangle);
 
 }  // namespace lmdbench

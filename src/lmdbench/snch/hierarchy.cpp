@@ -24,8 +24,7 @@ Cone leaf_cone(const Surface& surface, std::int32_t triangle, std::vector<Vec3>&
   normals.clear();
   for (const std::int32_t corner : surface.mesh.triangles[static_cast<std::size_t>(triangle)]) {
     if (surface.vertex_is_boundary[static_cast<std::size_t>(corner)]) return {};
-    for (const std::int32_t edge : surface.adjacency.vertex_edges[corner])
-      if (surface.edge_is_non_manifold[static_cast<std::size_t>(edge)]) return {};
+    if (surface.vertex_has_non_manifold_edge[static_cast<std::size_t>(corner)]) return {};
     for (const std::int32_t neighbour : surface.adjacency.vertex_triangles[corner]) {
       const Vec3& normal = surface.face_normals[static_cast<std::size_t>(neighbour)];
       if (normal.isZero(0.0)) return {};

@@ -1,10 +1,11 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include <lmdbench/geometry/cone.h>
 #include <lmdbench/mesh/polar_cone.h>
+#include <lmdbench/mesh/vertex_neighbours.h>
 #include <lmdbench/snch/polar_cap.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 #include <vector>
@@ -22,11 +23,20 @@ struct Constraint {
 /// Crossings of planes that are closer to parallel than this (a sine) are left out: their neighbours bound
 /// the cone to within the slack.
 constexpr double LEAST_CROSSING = 1e-6;
+/// Planes whose angle has a larger sine than this cross clearly: most candidates can be rejected without a
+/// root.
+constexpr double CLEAR_CROSSING = 0.2;
 /// A constraint that is looser than this (a sine) is dropped; caps of needle-like triangles get wider, never
 /// wrong.
 constexpr double LARGEST_SLACK = 0.1;
 /// Heights of triangles below this part of their length are rounding: such a triangle constrains nothing.
 constexpr double LEAST_HEIGHT = 1e-12;
+
+/// How far a direction may stick out of a cone, as a difference of cosines, before the cone grows: far below
+/// the slack that is added, far above rounding.
+constexpr double RIM_TOLERANCE = 1e-13;
+/// An axis that comes out shorter than this is rounding.
+constexpr double LEAST_AXIS = 1e-9;
 
 /// Extreme directions of a polar cone, and what must be added to their spread.
 struct Extremes {
@@ -34,14 +44,49 @@ struct Extremes {
   double slack = 0.0;
 };
 
+/// Axis of the smallest circular cone around directions that a half space holds; not unit. A cone that two or
+/// three directions on its rim carry is tried for, and grown from the one before as a smallest circle is (E.
+/// Welzl, 1991, without the shuffling: there are about five directions).
+Vec3 axis_around(const std::vector<Vec3>& directions) {
+  const auto outside = [](const Vec3& axis, const Vec3& rim, const Vec3& direction) {
+    return axis.dot(direction) < axis.dot(rim) - RIM_TOLERANCE * axis.norm();
+  };
+  Vec3 axis = directions[0];
+  Vec3 rim = directions[0];
+  for (std::size_t i = 1; i < directions.size(); ++i) {
+    if (!outside(axis, rim, directions[i])) continue;
+    rim = directions[i];
+    axis = directions[0] + rim;
+    for (std::size_t j = 1; j < i; ++j) {
+      if (!outside(axis, rim, directions[j])) continue;
+      axis = directions[j] + rim;
+      for (std::size_t k = 0; k < j; ++k) {
+        if (!outside(axis, rim, directions[k])) continue;
+        axis = (directions[j] - rim).cross(directions[k] - rim);
+        if (axis.dot(rim) < 0.0) axis = -axis;
+      }
+    }
+  }
+  return axis;
+}
+
 std::optional<PolarCap> cap_around(const Extremes& extremes) {
   if (extremes.directions.empty()) return std::nullopt;
-  const Cone cone = cone_of_directions(extremes.directions);
   PolarCap cap;
-  cap.axis = cone.axis;
+  cap.axis = axis_around(extremes.directions);
+  const double length = cap.axis.norm();
+  if (!(length > LEAST_AXIS)) return PolarCap{};
+  cap.axis /= length;
+  // Measured, so that all directions are inside however the axis was found.
+  double cosine = 1.0, squared_sine = 0.0;
+  for (const Vec3& direction : extremes.directions) {
+    cosine = std::min(cosine, cap.axis.dot(direction));
+    squared_sine = std::max(squared_sine, cap.axis.cross(direction).squaredNorm());
+  }
   // sin and cos of phi + slack, rounded outwards: |d cos|, |d sin| <= slack.
-  cap.cosine = cone.cosine - (cone.sine * extremes.slack + 0.5 * extremes.slack * extremes.slack);
-  cap.sine = std::min(1.0, cone.sine + extremes.slack);
+  const double sine = std::sqrt(squared_sine);
+  cap.cosine = cosine - (sine * extremes.slack + 0.5 * extremes.slack * extremes.slack);
+  cap.sine = std::min(1.0, sine + extremes.slack);
   if (!(cap.cosine > 0.0)) return PolarCap{};
   return cap;
 }
@@ -81,6 +126,22 @@ Scratch& scratch() {
   return instance;
 }
 
+/// Which of the two crossings x and -x of planes i and j some other constraint rejects for certain. x need
+/// not be unit, and is at least CLEAR_CROSSING long; the constraints have no more slack than POLAR_SLACK.
+std::array<bool, 2> clearly_rejected(const std::vector<Constraint>& constraints, const Vec3& x, std::size_t i,
+                                     std::size_t j) {
+  // Planes that cross at such an angle shift their crossing by less than 2 / CLEAR_CROSSING slacks.
+  constexpr double LIMIT = (1.0 + 2.0 / CLEAR_CROSSING) * POLAR_SLACK;
+  std::array<bool, 2> rejected{};
+  for (std::size_t k = 0; k < constraints.size() && !(rejected[0] && rejected[1]); ++k) {
+    if (k == i || k == j) continue;
+    const double along = constraints[k].direction.dot(x);
+    rejected[0] = rejected[0] || along > LIMIT;
+    rejected[1] = rejected[1] || -along > LIMIT;
+  }
+  return rejected;
+}
+
 /// Crossings of two constraints' planes that satisfy all others. False when no two planes cross.
 bool find_crossings(Scratch& work) {
   const std::size_t count = work.constraints.size();
@@ -94,15 +155,21 @@ bool find_crossings(Scratch& work) {
       const Vec3& a = work.constraints[i].direction;
       const Vec3& b = work.constraints[j].direction;
       Vec3 crossing = a.cross(b);
-      const double sine = crossing.norm();
-      if (sine < LEAST_CROSSING) continue;
+      const double squared_sine = crossing.squaredNorm();
+      if (squared_sine < LEAST_CROSSING * LEAST_CROSSING) continue;
       crossed = true;
+      std::array<bool, 2> rejected{};
+      if (squared_sine > CLEAR_CROSSING * CLEAR_CROSSING)
+        rejected = clearly_rejected(work.constraints, crossing, i, j);
+      if (rejected[0] && rejected[1]) continue;
+      const double sine = std::sqrt(squared_sine);
       crossing /= sine;
       // Relaxed planes cross at most this far from the exact ones: s / cos(half their angle).
       const double half_cosine = std::sqrt(std::max(0.0, 0.5 * (1.0 + a.dot(b))));
       const double shift = POLAR_SLACK / std::max(half_cosine, LEAST_CROSSING);
-      for (const Vec3& candidate : {crossing, Vec3(-crossing)}) {
-        if (!satisfies(work.constraints, work.order, candidate, i, j, shift)) continue;
+      for (const std::size_t sign : {0u, 1u}) {
+        const Vec3 candidate = sign == 0 ? crossing : Vec3(-crossing);
+        if (rejected[sign] || !satisfies(work.constraints, work.order, candidate, i, j, shift)) continue;
         work.extremes.directions.push_back(candidate);
         work.extremes.slack = std::max(work.extremes.slack, POLAR_SLACK + shift);
       }
@@ -115,13 +182,12 @@ std::optional<PolarCap> vertex_cap(const Surface& surface, std::int32_t vertex) 
   if (surface.adjacency.vertex_triangles[vertex].empty()) return std::nullopt;
   Scratch& work = scratch();
   const Vec3& p = surface.mesh.vertices[static_cast<std::size_t>(vertex)];
-  for (const std::int32_t edge : surface.adjacency.vertex_edges[vertex]) {
-    const auto& ends = surface.adjacency.edges[static_cast<std::size_t>(edge)];
-    Vec3 direction =
-        surface.mesh.vertices[static_cast<std::size_t>(ends[0] == vertex ? ends[1] : ends[0])] - p;
+  for_each_neighbour(surface, vertex, [&](std::int32_t neighbour) {
+    const Vec3 direction = surface.mesh.vertices[static_cast<std::size_t>(neighbour)] - p;
     const double length = direction.norm();
     if (length > 0.0) work.constraints.push_back({direction / length, POLAR_SLACK});
-  }
+    return true;
+  });
   if (!find_crossings(work)) return PolarCap{};
   if (work.extremes.directions.empty()) return std::nullopt;
   // Saddles are done here, and so are peaks, all of whose directions are outer ones: whether a vertex has an
@@ -136,7 +202,42 @@ std::optional<PolarCap> vertex_cap(const Surface& surface, std::int32_t vertex) 
   return cap_around(work.extremes);
 }
 
+std::int32_t opposite_corner(const Surface& surface, std::int32_t triangle,
+                             const std::array<std::int32_t, 2>& ends) {
+  const auto& corners = surface.mesh.triangles[static_cast<std::size_t>(triangle)];
+  return *std::find_if(corners.begin(), corners.end() - 1,
+                       [&](std::int32_t corner) { return corner != ends[0] && corner != ends[1]; });
+}
+
+/// Whether an edge is reflex beyond all slack, so that its cone is empty: half of all edges are, and this
+/// needs no root. With a0 and a1 the unit vectors across the edge into its triangles, n0 the normal of the
+/// first and theta the angle from a0 to a1 over the outer side, the cone's nearest direction is
+/// asin(sin(theta / 2)) away from the outer side, and sin(theta / 2) >= sin(theta) / 2 = a1.n0 / 2. Asked for
+/// are 5e-4, against a slack of at most 5e-5 where no triangle is flatter than FLAT.
+bool is_clearly_reflex(const Surface& surface, std::int32_t edge) {
+  constexpr double LEAST_SINE = 1e-3, FLAT = 10.0;
+  const auto e = static_cast<std::size_t>(edge);
+  if (surface.edge_is_boundary[e] || surface.edge_is_non_manifold[e]) return false;
+  const auto& ends = surface.adjacency.edges[e];
+  const auto triangles = surface.adjacency.edge_triangles[edge];
+  const Vec3& p = surface.mesh.vertices[static_cast<std::size_t>(ends[0])];
+  const Vec3 along = surface.mesh.vertices[static_cast<std::size_t>(ends[1])] - p;
+  const double squared_length = along.squaredNorm();
+  const Vec3& normal = surface.face_normals[static_cast<std::size_t>(triangles[0])];
+  double rise = 0.0, squared_height = 0.0;
+  for (const std::int32_t triangle : {triangles[0], triangles[1]}) {
+    const std::int32_t corner = opposite_corner(surface, triangle, ends);
+    const Vec3 to_corner = surface.mesh.vertices[static_cast<std::size_t>(corner)] - p;
+    rise = normal.dot(to_corner);
+    squared_height = along.cross(to_corner).squaredNorm() / squared_length;
+    const double squared_size = 2.0 * (squared_length + to_corner.squaredNorm());
+    if (!(FLAT * FLAT * squared_height > squared_size)) return false;
+  }
+  return rise > 0.0 && rise * rise > LEAST_SINE * LEAST_SINE * squared_height;
+}
+
 std::optional<PolarCap> edge_cap(const Surface& surface, std::int32_t edge) {
+  if (is_clearly_reflex(surface, edge)) return std::nullopt;
   const auto e = static_cast<std::size_t>(edge);
   const auto& ends = surface.adjacency.edges[e];
   const Vec3& p = surface.mesh.vertices[static_cast<std::size_t>(ends[0])];
@@ -161,7 +262,7 @@ std::optional<PolarCap> edge_cap(const Surface& surface, std::int32_t edge) {
     }
   }
   if (has_outer_side(surface, {FeatureKind::EDGE, edge}))
-    work.constraints.push_back({-surface.edge_pseudo_normals[e], POLAR_SLACK});
+    work.constraints.push_back({-surface.pseudo_normal({FeatureKind::EDGE, edge}), POLAR_SLACK});
   if (work.constraints.empty()) return PolarCap{};
 
   // All planes contain the edge's normal plane's directions only: the cone is an arc, its ends are

@@ -35,7 +35,9 @@ PolarCap enclosing_cap(std::span<const PolarCap> caps, int steps) {
     const PolarCap* widest = nullptr;
     for (const PolarCap& cap : caps) {
       const double between = std::min(1.0, axis.dot(cap.axis));
-      const double reach = between * cap.cosine - std::sqrt(squared_sine(between)) * cap.sine;
+      const double farthest = between * cap.cosine;
+      if (farthest - cap.sine >= least) continue;  // without the root, which most need not
+      const double reach = farthest - std::sqrt(squared_sine(between)) * cap.sine;
       if (reach < least) {
         least = reach;
         widest = &cap;
