@@ -68,6 +68,43 @@ TEST(Orientation, AgreesWithRationalsWhereRoundingDecidesNothing) {
   EXPECT_GT(zeros, 100) << "the generator no longer makes exactly coplanar points";
 }
 
+TEST(Orientation, TwoDimensionsAgreeWithRationals) {
+  std::mt19937_64 random(7);
+  std::uniform_real_distribution<double> coordinate(-1.0, 1.0);
+  std::uniform_int_distribution<int> steps(-2, 2);
+  int zeros = 0;
+  for (int round = 0; round < 20000; ++round) {
+    // Three points of a line, on a lattice or up to rounding, the last moved by a few units in the last
+    // place.
+    const bool on_lattice = round % 2 == 0;
+    const auto point = [&] {
+      const double first = coordinate(random);
+      const double second = coordinate(random);
+      const Vec3 p(first, second, coordinate(random));
+      return on_lattice ? Vec3(p.unaryExpr([](double x) { return std::round(8.0 * x); })) : p;
+    };
+    const Vec3 a = point(), b = point();
+    Vec3 c = a + (on_lattice ? 3.0 : coordinate(random)) * (b - a);
+    for (int step = steps(random); step != 0; step += step > 0 ? -1 : 1) {
+      c[1] = std::nextafter(c[1], step > 0 ? HUGE_VAL : -HUGE_VAL);
+    }
+    for (int axis = 0; axis < 3; ++axis) {
+      const int x = (axis + 1) % 3, y = (axis + 2) % 3;
+      const Rational determinant = (Rational(b[x]) - Rational(a[x])) * (Rational(c[y]) - Rational(a[y])) -
+                                   (Rational(b[y]) - Rational(a[y])) * (Rational(c[x]) - Rational(a[x]));
+      zeros += determinant.sign() == 0;
+      ASSERT_EQ(orientation_2d(a, b, c, axis), determinant.sign()) << "round " << round;
+    }
+  }
+  EXPECT_GT(zeros, 1000) << "the generator no longer makes exactly collinear points";
+}
+
+TEST(Orientation, DoesNotTakeAnUnderflowForZero) {
+  // Products of two coordinates vanish in doubles; the points are not collinear.
+  const double tiny = 0x1p-600;
+  EXPECT_EQ(orientation_3d(Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, tiny, 0), Vec3(0, 0, 0x1p-500)), 1);
+}
+
 TEST(Expansion, IsExactWhereDoublesAreNot) {
   // 1e30 + 1 - 1e30 is 0 in doubles.
   Expansion<3> sum;
