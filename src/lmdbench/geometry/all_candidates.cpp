@@ -13,7 +13,6 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <optional>
 
 // Steps of distance_by_all_candidates:
 // - sort the corners of each triangle and the two triangles, so that the caller's order cannot change a bit;
@@ -52,7 +51,7 @@ bool nearer(const TrianglePairDistance& candidate, const TrianglePairDistance& b
 }
 
 struct Query {
-  SortedTriangle a, b;
+  const SortedTriangle &a, &b;
   FaceFrame face_a, face_b;
   double tolerance;
 
@@ -64,6 +63,10 @@ struct Query {
         tolerance(coincidence) {}
 };
 
+std::array<double, 3> squared_edges(const Triangle& t) {
+  return {(t[1] - t[0]).squaredNorm(), (t[2] - t[1]).squaredNorm(), (t[2] - t[0]).squaredNorm()};
+}
+
 /// The nearest edge pair, and the longest overlap of parallel edges if there is one.
 struct EdgePairs {
   TrianglePairDistance nearest;
@@ -74,13 +77,16 @@ EdgePairs examine_edge_pairs(const Query& query) {
   EdgePairs result;
   result.nearest.squared_distance = std::numeric_limits<double>::infinity();
   result.overlap.squared_distance = std::numeric_limits<double>::infinity();
+  const std::array<double, 3> squared_a = squared_edges(query.a.corners);
+  const std::array<double, 3> squared_b = squared_edges(query.b.corners);
   for (int i = 0; i < 3; ++i) {
     const Vec3& a0 = query.a.corners[EDGE_ENDS[i][0]];
     const Vec3& a1 = query.a.corners[EDGE_ENDS[i][1]];
     for (int j = 0; j < 3; ++j) {
       PointsOnSegments pair;
-      const bool a_first = segment_pair(a0, a1, query.b.corners[EDGE_ENDS[j][0]],
-                                        query.b.corners[EDGE_ENDS[j][1]], query.tolerance, pair);
+      const bool a_first =
+          segment_pair(a0, a1, squared_a[i], query.b.corners[EDGE_ENDS[j][0]],
+                       query.b.corners[EDGE_ENDS[j][1]], squared_b[j], query.tolerance, pair);
       if (pair.squared_distance > result.nearest.squared_distance && pair.overlap_length == 0.0) continue;
       TrianglePairDistance candidate;
       candidate.squared_distance = pair.squared_distance;
@@ -198,56 +204,61 @@ TrianglePairDistance shared_point(const Vec3& point, double length, double toler
   return result;
 }
 
-/// The answer for triangles that cross by a margin with the middle of the shared segment inside both: the
-/// usual intersection, and no case for exact predicates.
-std::optional<TrianglePairDistance> certain_crossing(const Query& query) {
-  if (!query.face_a.has_face || !query.face_b.has_face) return std::nullopt;
-  const auto shared = shared_segment(query.a.corners, query.face_a, query.b.corners, query.face_b);
-  if (!shared.is_certain) return std::nullopt;
+/// The triangles cross by a margin with the middle of the shared segment inside both: the usual intersection,
+/// and no case for exact predicates.
+bool is_certain_crossing(const Query& query, const SharedSegment& shared) {
+  if (!query.face_a.has_face || !query.face_b.has_face || !shared.is_certain) return false;
   const Vec3 middle = shared.middle();
-  if (!query.face_a.is_interior(query.face_a.weights(middle))) return std::nullopt;
-  if (!query.face_b.is_interior(query.face_b.weights(middle))) return std::nullopt;
-  return shared_point(middle, shared.length, query.tolerance);
+  return query.face_a.is_interior(query.face_a.weights(middle)) &&
+         query.face_b.is_interior(query.face_b.weights(middle));
+}
+
+/// The shared point with the features that carry it; at a corner, a copy of that.
+TrianglePairDistance shared_point_on_features(const Query& query, const Vec3& point, double length) {
+  const auto on_a = point_triangle_distance(point, query.a.corners);
+  const auto on_b = point_triangle_distance(point, query.b.corners);
+  TrianglePairDistance result = shared_point(is_vertex(on_a.feature)   ? on_a.point
+                                             : is_vertex(on_b.feature) ? on_b.point
+                                                                       : point,
+                                             length, query.tolerance);
+  result.feature_a = query.a.original_feature(on_a.feature);
+  result.feature_b = query.b.original_feature(on_b.feature);
+  return result;
+}
+
+/// The triangles' planes differ, so what intersecting triangles share is no polygon.
+bool have_different_planes(const Query& query) {
+  if (!query.face_a.has_face || !query.face_b.has_face) return true;
+  const Vec3 z = heights_over(query.face_a, query.b.corners);
+  return z.maxCoeff() - z.minCoeff() > query.tolerance;
 }
 
 /// The answer for any triangles that share a point: the middle of the shared set.
-TrianglePairDistance answer_intersection(const Query& query, const TrianglePairDistance& nearest) {
+TrianglePairDistance answer_intersection(const Query& query, const SharedSegment& shared,
+                                         const TrianglePairDistance& nearest) {
   // Triangles that touch, or that are coplanar, have the middle of what they share as the nearest pair
   // already.
-  Vec3 middle = nearest.point_a;
-  double length = 0.0;
-  bool use_segment = false;
-  if (nearest.minimiser_dimension < 2 || !(std::sqrt(nearest.squared_distance) <= query.tolerance)) {
-    const auto shared = shared_segment(query.a.corners, query.face_a, query.b.corners, query.face_b);
-    const bool touching = nearest.squared_distance <= 4.0 * query.tolerance * query.tolerance;
-    use_segment = shared.is_clear && (!touching || shared.length > query.tolerance);
-    if (use_segment) {
-      middle = shared.middle();
-      length = shared.length;
-    }
+  const bool is_polygon =
+      nearest.minimiser_dimension == 2 && std::sqrt(nearest.squared_distance) <= query.tolerance;
+  const bool touching = nearest.squared_distance <= 4.0 * query.tolerance * query.tolerance;
+  if (!is_polygon && shared.is_clear && (!touching || shared.length > query.tolerance)) {
+    return shared_point_on_features(query, shared.middle(), shared.length);
   }
-  const auto on_a = point_triangle_distance(middle, query.a.corners);
-  const auto on_b = point_triangle_distance(middle, query.b.corners);
-  if (is_vertex(on_a.feature)) {
-    middle = on_a.point;
-  } else if (is_vertex(on_b.feature)) {
-    middle = on_b.point;
-  }
-  TrianglePairDistance result = shared_point(middle, length, query.tolerance);
-  if (!use_segment) {
-    result.minimiser_dimension = nearest.minimiser_dimension;
-    result.minimiser_measure = nearest.minimiser_measure;
-  }
-  result.feature_a = query.a.original_feature(on_a.feature);
-  result.feature_b = query.b.original_feature(on_b.feature);
+  TrianglePairDistance result = shared_point_on_features(query, nearest.point_a, 0.0);
+  result.minimiser_dimension = nearest.minimiser_dimension;
+  result.minimiser_measure = nearest.minimiser_measure;
   return result;
 }
 
 /// @pre a before b in lexicographic order of sorted corners
 TrianglePairDistance ordered_distance(const SortedTriangle& a, const SortedTriangle& b, double tolerance) {
   const Query query(a, b, tolerance);
-  if (const auto crossing = certain_crossing(query)) return *crossing;
+  const SharedSegment shared = shared_segment(a.corners, query.face_a, b.corners, query.face_b);
+  if (is_certain_crossing(query, shared)) return shared_point(shared.middle(), shared.length, tolerance);
   const bool intersecting = triangles_intersect(a.corners, b.corners);
+  if (intersecting && shared.is_clear && shared.length > tolerance && have_different_planes(query)) {
+    return shared_point_on_features(query, shared.middle(), shared.length);
+  }
   const EdgePairs edge_pairs = examine_edge_pairs(query);
   TrianglePairDistance best = edge_pairs.nearest;
   const TrianglePairDistance on_b = nearest_corner_of_a_to_face_of_b(a, query.face_b);
@@ -255,7 +266,7 @@ TrianglePairDistance ordered_distance(const SortedTriangle& a, const SortedTrian
   const TrianglePairDistance on_a = swapped(nearest_corner_of_a_to_face_of_b(b, query.face_a));
   if (better(on_a, best)) best = on_a;
   prefer_whole_minimiser_set(query, edge_pairs.overlap, best);
-  return intersecting ? answer_intersection(query, best) : best;
+  return intersecting ? answer_intersection(query, shared, best) : best;
 }
 
 }  // namespace

@@ -188,10 +188,9 @@ inline void ordered_segment_distance(const Vec3& p0, const Vec3& p1, const Vec3&
 /// Two segments in any order of length. The longer one takes the role p of the result, ties are broken by
 /// coordinates, so the order of the arguments does not matter.
 /// @returns true when the first segment has the role p
-inline bool segment_pair(const Vec3& a0, const Vec3& a1, const Vec3& b0, const Vec3& b1, double tolerance,
+inline bool segment_pair(const Vec3& a0, const Vec3& a1, double squared_length_a, const Vec3& b0,
+                         const Vec3& b1, double squared_length_b, double tolerance,
                          PointsOnSegments& result) {
-  const double squared_length_a = (a1 - a0).squaredNorm();
-  const double squared_length_b = (b1 - b0).squaredNorm();
   bool a_first = squared_length_a > squared_length_b;
   if (squared_length_a == squared_length_b) {
     a_first = a0 != b0 ? lexicographic_less(a0, b0) : lexicographic_less(a1, b1);
@@ -201,6 +200,11 @@ inline bool segment_pair(const Vec3& a0, const Vec3& a1, const Vec3& b0, const V
                            a_first ? squared_length_a : squared_length_b,
                            a_first ? squared_length_b : squared_length_a, tolerance, result);
   return a_first;
+}
+
+inline bool segment_pair(const Vec3& a0, const Vec3& a1, const Vec3& b0, const Vec3& b1, double tolerance,
+                         PointsOnSegments& result) {
+  return segment_pair(a0, a1, (a1 - a0).squaredNorm(), b0, b1, (b1 - b0).squaredNorm(), tolerance, result);
 }
 
 }  // namespace lmdbench::kernel
