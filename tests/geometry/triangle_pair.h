@@ -1,0 +1,23 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <lmdbench/geometry/types.h>
+
+namespace lmdbench::testing {
+
+struct TrianglePair {
+  Triangle a, b;
+};
+
+/// The pair with every corner scaled, rotated and moved.
+TrianglePair transformed(const TrianglePair& pair, double scale, const Mat3& rotation, const Vec3& offset);
+
+/// The pair with the corners of both triangles reordered (0 <= order < 36) and, for order >= 36, swapped (<
+/// 72).
+TrianglePair reordered(const TrianglePair& pair, int order);
+
+/// Largest absolute coordinate of the pair: the scale that errors are relative to.
+double magnitude(const TrianglePair& pair);
+
+}  // namespace lmdbench::testing
