@@ -4,6 +4,8 @@
 
 #include <lmdbench/lmd/registry.h>
 
+#include <micro/lmd_error.h>
+
 #include <cstddef>
 #include <functional>
 #include <memory>
@@ -25,13 +27,6 @@ class GlobalSearch {
   virtual const LmdSet* lmds() const = 0;
 };
 
-/// How the error of an implementation is judged.
-enum class Exactness {
-  COMPLETE_SET,      ///< The LMD set must be the true one.
-  MINIMUM_DISTANCE,  ///< The minimum distance must be the true one.
-  APPROXIMATE        ///< May miss or overestimate, and the error is reported; never below the true minimum.
-};
-
 struct SearchImplementation {
   std::string name;
   Exactness exactness = Exactness::APPROXIMATE;
@@ -47,8 +42,11 @@ SearchImplementation certified_search_from_scratch();
 SearchImplementation exhaustive_search();
 SearchImplementation fcl_cold_search();
 SearchImplementation fcl_warm_search();
+SearchImplementation embree_search();
+SearchImplementation cgal_vertex_search();
 
-/// All that this build knows, in the order of reports.
+/// All that this build knows, in the order of reports, but for `cgal_vertex_search`, which has a program of
+/// its own.
 std::vector<SearchImplementation> search_implementations();
 
 /// A method's `search` as an implementation, followed by its trackings in the global thread where wanted.

@@ -24,7 +24,7 @@ struct Choice : StudyChoice {
 
 struct Row {
   std::string name;
-  SearchError error;
+  LmdError error;
   double median_ms = 0.0, p99_ms = 0.0, ratio_to_fcl = 0.0;
 };
 

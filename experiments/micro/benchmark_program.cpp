@@ -1,0 +1,51 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/error.h>
+
+#include <micro/benchmark_program.h>
+#include <micro/bodies.h>
+
+#include <cstdlib>
+#include <exception>
+#include <iostream>
+
+namespace lmdbench::micro {
+
+int run_benchmarks(int argc, char** argv, const std::function<void()>& add) {
+  benchmark::Initialize(&argc, argv);
+  if (benchmark::ReportUnrecognizedArguments(argc, argv)) return static_cast<int>(ExitCode::USAGE);
+  try {
+    add();
+    benchmark::RunSpecifiedBenchmarks();
+  } catch (const Error& error) {
+    std::cerr << "error: " << error.what() << '\n';
+    return static_cast<int>(error.code());
+  } catch (const std::exception& error) {
+    std::cerr << "error: " << error.what() << '\n';
+    return static_cast<int>(ExitCode::INPUT_DATA);
+  }
+  return static_cast<int>(ExitCode::DONE);
+}
+
+std::filesystem::path benchmark_meshes() {
+  const char* meshes = std::getenv("LMDBENCH_MESHES");
+  return meshes == nullptr ? SceneChoice().meshes : meshes;
+}
+
+bool accept(benchmark::State& state, const std::string& objection) {
+  if (!objection.empty()) state.SkipWithError(objection.c_str());
+  return objection.empty();
+}
+
+bool accept(benchmark::State& state, const LmdError& error) {
+  if (!accept(state, error.objection)) return false;
+  if (error.feature_pairs.truths > 0) {
+    state.counters["recall"] = error.feature_pairs.recall();
+    state.counters["precision"] = error.feature_pairs.precision();
+    state.counters["recall_adjacent"] = error.neighbours.recall();
+  }
+  state.counters["worst_minimum_error"] = error.worst_minimum_error;
+  return true;
+}
+
+}  // namespace lmdbench::micro

@@ -1,0 +1,44 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/lmd/registry.h>
+
+#include <micro/lmd_error.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace lmdbench::micro {
+
+Truth exhaustive_truth(const Scene& scene, const std::vector<Pose>& poses) {
+  const std::unique_ptr<Method> method = make_method("exhaustive", scene);
+  Truth truth(poses.size());
+  WorkCounters counters;
+  for (std::size_t i = 0; i < poses.size(); ++i) method->search(poses[i], truth[i], counters);
+  return truth;
+}
+
+void LmdError::add(Exactness exactness, const std::string& where, const Scene& scene, const LmdSet& truth,
+                   const LmdSet* lmds, double minimum) {
+  const auto object = [&](const std::string& what) {
+    if (objection.empty()) objection = where + ": " + what;
+  };
+  if (lmds != nullptr) {
+    const MatchCount count = count_matches(truth, *lmds, Match::FEATURE_PAIR, scene);
+    feature_pairs += count;
+    neighbours += count_matches(truth, *lmds, Match::ADJACENT, scene);
+    const bool complete = count.missed() == 0 && count.right == lmds->size();
+    if (exactness == Exactness::COMPLETE_SET && !complete) object("not the true LMD set");
+  }
+  if (truth.empty()) return;
+  const double true_minimum = minimum_distance(truth);
+  const double relative =
+      std::isnan(minimum) ? std::numeric_limits<double>::infinity() : (minimum - true_minimum) / true_minimum;
+  if (relative < -MINIMUM_TOLERANCE) object("a minimum distance below the true one");
+  worst_minimum_error = std::max(worst_minimum_error, relative);
+  if (std::abs(relative) <= MINIMUM_TOLERANCE) return;
+  ++minimum_missed;
+  if (exactness != Exactness::APPROXIMATE) object("not the true minimum distance");
+}
+
+}  // namespace lmdbench::micro

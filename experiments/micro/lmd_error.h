@@ -1,0 +1,51 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <lmdbench/geometry/pose.h>
+#include <lmdbench/lmd/scene.h>
+
+#include <micro/match.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace lmdbench::micro {
+
+/// How the error of an implementation is judged.
+enum class Exactness : std::uint8_t {
+  COMPLETE_SET,      ///< The LMD set must be the true one.
+  MINIMUM_DISTANCE,  ///< The minimum distance must be the true one.
+  APPROXIMATE        ///< May miss or overestimate, and the error is reported; never below the true minimum.
+};
+
+/// Ground truth at each pose.
+using Truth = std::vector<LmdSet>;
+
+Truth exhaustive_truth(const Scene& scene, const std::vector<Pose>& poses);
+
+/// Minimum distances closer than this, relative, are equal: FCL's own tolerance in this project.
+inline constexpr double MINIMUM_TOLERANCE = 1e-6;
+
+/// The error that the time of an implementation bought, over all poses.
+struct LmdError {
+  std::string objection;           ///< Why it must not be timed; empty when it does what it promises.
+  MatchCount feature_pairs;        ///< Empty counts for peers without an LMD set.
+  MatchCount neighbours;           ///< The same, neighbouring features counting as found.
+  std::size_t minimum_missed = 0;  ///< Poses where the minimum distance is not the true one.
+  /// Largest relative overestimate of the minimum distance; infinite where nothing was found though there was
+  /// an LMD.
+  double worst_minimum_error = 0.0;
+
+  /// Adds one pose. A pose without a true LMD within the cutoff says nothing about the minimum distance and
+  /// is left out of it.
+  /// @param where   names the pose in objections
+  /// @param lmds    what was found; null for peers that find a nearest pair only
+  /// @param minimum smallest distance that was found [m]; NaN for none
+  void add(Exactness exactness, const std::string& where, const Scene& scene, const LmdSet& truth,
+           const LmdSet* lmds, double minimum);
+};
+
+}  // namespace lmdbench::micro

@@ -1,0 +1,11 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <micro/node_test/implementation.h>
+
+namespace lmdbench::micro {
+
+std::vector<NodeTestImplementation> node_test_implementations() {
+  return {binary_ray_test(), binary_line_test(), wide_scalar_test(), wide_vector_test(), wide_slack_test()};
+}
+
+}  // namespace lmdbench::micro

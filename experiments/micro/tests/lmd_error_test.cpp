@@ -1,0 +1,59 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <gtest/gtest.h>
+#include <micro/lmd_error.h>
+#include <micro/tests/shapes_setting.h>
+
+#include <cmath>
+
+namespace lmdbench::micro {
+namespace {
+
+class LmdErrorTest : public testing::Test {
+ protected:
+  LmdErrorTest() : setting_(shapes_setting(0.3, 1)) {}
+  LmdError error(Exactness exactness, const LmdSet* lmds, double minimum) const {
+    LmdError result;
+    result.add(exactness, "here", setting_.scene, setting_.truth[0], lmds, minimum);
+    return result;
+  }
+  const LmdSet& truth() const { return setting_.truth[0]; }
+
+  Setting setting_;
+};
+
+TEST_F(LmdErrorTest, AcceptsTheTruth) {
+  ASSERT_GE(truth().size(), 1U);
+  const LmdError result = error(Exactness::COMPLETE_SET, &truth(), truth()[0].distance);
+  EXPECT_EQ(result.objection, "");
+  EXPECT_EQ(result.feature_pairs.recall(), 1.0);
+  EXPECT_EQ(result.worst_minimum_error, 0.0);
+}
+
+TEST_F(LmdErrorTest, ObjectsToAnIncompleteSetWhereCompletenessIsPromised) {
+  const LmdSet nothing;
+  EXPECT_EQ(error(Exactness::COMPLETE_SET, &nothing, NAN).objection, "here: not the true LMD set");
+  const LmdError approximate = error(Exactness::APPROXIMATE, &nothing, NAN);
+  EXPECT_EQ(approximate.objection, "");
+  EXPECT_EQ(approximate.feature_pairs.recall(), 0.0);
+  EXPECT_TRUE(std::isinf(approximate.worst_minimum_error));
+}
+
+TEST_F(LmdErrorTest, ObjectsToALmdThatIsNone) {
+  LmdSet more = truth();
+  more.push_back(more[0]);
+  more.back().feature_moving.index = more[0].feature_moving.index == 0 ? 1 : 0;
+  EXPECT_NE(error(Exactness::COMPLETE_SET, &more, truth()[0].distance).objection, "");
+}
+
+TEST_F(LmdErrorTest, NobodyMayFindLessThanTheMinimum) {
+  const double minimum = truth()[0].distance;
+  EXPECT_EQ(error(Exactness::APPROXIMATE, nullptr, 0.9 * minimum).objection,
+            "here: a minimum distance below the true one");
+  EXPECT_NEAR(error(Exactness::APPROXIMATE, nullptr, 1.5 * minimum).worst_minimum_error, 0.5, 1e-12);
+  EXPECT_EQ(error(Exactness::MINIMUM_DISTANCE, nullptr, 1.5 * minimum).objection,
+            "here: not the true minimum distance");
+}
+
+}  // namespace
+}  // namespace lmdbench::micro
