@@ -22,14 +22,21 @@ inline constexpr double COINCIDENCE_TOLERANCE = 16.0 * std::numeric_limits<doubl
 
 /// Largest absolute coordinate; a coordinate that is not a number is passed over, see all_finite.
 inline double largest_coordinate(std::span<const Vec3> points) {
-  // One running maximum an axis: three short chains that the processor overlaps.
-  double x = 0.0, y = 0.0, z = 0.0;
-  for (const Vec3& point : points) {
-    x = std::abs(point[0]) > x ? std::abs(point[0]) : x;
-    y = std::abs(point[1]) > y ? std::abs(point[1]) : y;
-    z = std::abs(point[2]) > z ? std::abs(point[2]) : z;
+  static_assert(sizeof(Vec3) == 3 * sizeof(double), "the coordinates of several points lie side by side");
+  using Two = Eigen::Array2d;
+  if (points.empty()) return 0.0;
+  const double* coordinate = points.front().data();
+  const double* const end = coordinate + 3 * points.size();
+  // Two running maxima of two: short chains that the processor overlaps.
+  Two first = Two::Zero(), second = Two::Zero();
+  for (; end - coordinate >= 4; coordinate += 4) {
+    first = first.max(Eigen::Map<const Two>(coordinate).abs());
+    second = second.max(Eigen::Map<const Two>(coordinate + 2).abs());
   }
-  return std::max(x, std::max(y, z));
+  first = first.max(second);
+  double result = std::max(first[0], first[1]);
+  for (; coordinate != end; ++coordinate) result = std::max(result, std::abs(*coordinate));
+  return result;
 }
 
 inline bool all_finite(std::span<const Vec3> points) {
