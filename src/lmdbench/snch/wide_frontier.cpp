@@ -253,6 +253,7 @@ void WideFrontier::make_requested_tests(const Work& work) {
 
 /// Without a branch: which are due follows no pattern.
 void WideFrontier::list_due(const std::vector<Expiry>& expiries, const MotionClocks& clocks) {
+  due_.reserve(expiries.capacity());  // grows as seldom as that does, not by one
   due_.resize(expiries.size());
   std::size_t count = 0;
   const double angle = clocks.angle();
