@@ -38,7 +38,7 @@ void scale_back(const Triangle& triangle, const Triangle& scaled_triangle, int e
     point = point.unaryExpr([exponent](double value) { return std::ldexp(value, -exponent); });
     return;
   }
-  const Vec3 scaled_corner = scaled_triangle[local_index(feature)];
+  const Vec3& scaled_corner = scaled_triangle[local_index(feature)];
   for (int k = 0; k < 3; ++k) {
     if (scaled_triangle[k] == scaled_corner &&
         lexicographic_less(triangle[k], triangle[local_index(feature)])) {
