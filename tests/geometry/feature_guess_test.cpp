@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include <lmdbench/geometry/feature_descent.h>
 #include <lmdbench/geometry/feature_guess.h>
+#include <lmdbench/geometry/feature_proof.h>
 #include <lmdbench/geometry/tolerance.h>
 #include <lmdbench/geometry/triangle_distance.h>
 
@@ -89,7 +89,7 @@ TEST(FeatureGuess, LeadsToTheProofOfNearlyEveryDisjointPair) {
       const TrianglePair pair = testing::triangle_families()[family].generate(random);
       TrianglePairDistance result;
       const bool is_proved =
-          kernel::feature_descent(pair.a, pair.b, coincidence_length(testing::magnitude(pair)), result);
+          kernel::prove_by_features(pair.a, pair.b, coincidence_length(testing::magnitude(pair)), result);
       proved += is_proved;
       disjoint += is_proved || !triangle_distance(pair.a, pair.b).intersecting;
     }

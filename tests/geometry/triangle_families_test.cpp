@@ -3,7 +3,7 @@
 #include "geometry/triangle_families.h"
 
 #include <lmdbench/geometry/all_candidates.h>
-#include <lmdbench/geometry/feature_descent.h>
+#include <lmdbench/geometry/feature_proof.h>
 #include <lmdbench/geometry/tolerance.h>
 #include <lmdbench/geometry/triangle_distance.h>
 
@@ -121,7 +121,7 @@ TEST_P(TriangleFamilies, TheProofAndTheExaminationOfAllCandidatesAgree) {
     if (magnitude > 0x1p100 || magnitude < 0x1p-100) continue;  // outside what both are for
     const double tolerance = coincidence_length(magnitude);
     TrianglePairDistance proved;
-    if (!kernel::feature_descent(pair.a, pair.b, tolerance, proved)) continue;
+    if (!kernel::prove_by_features(pair.a, pair.b, tolerance, proved)) continue;
     const TrianglePairDistance examined = kernel::distance_by_all_candidates(pair.a, pair.b, tolerance);
     ASSERT_NO_FATAL_FAILURE(expect_same_bits(proved, examined, pair)) << "pair " << i;
     ASSERT_EQ(proved.feature_a, examined.feature_a) << paste(pair);

@@ -17,7 +17,7 @@
 // Steps of distance_by_all_candidates:
 // - sort the corners of each triangle and the two triangles, so that the caller's order cannot change a bit;
 // - triangles that cross by a margin are answered by the middle of the segment they share;
-// - an exact intersection test for the others;
+// - an exact intersection test for the others; the same answer where they share a clear segment;
 // - 9 edge pairs and 6 corner-face pairs, each a feasible pair of points; keep the nearest;
 // - where an edge is parallel to a face, or both faces are parallel, and as near: take the middle of the
 // overlap.

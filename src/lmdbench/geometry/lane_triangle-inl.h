@@ -30,7 +30,7 @@ using Real = hn::Vec<Lanes>;
 using Mask = hn::Mask<Lanes>;
 using Vector = LaneVector<Real>;
 
-/// Margins are this many COINCIDENCE_TOLERANCE of the largest coordinate wide, as in feature_descent.
+/// Margins are this many COINCIDENCE_TOLERANCE of the largest coordinate wide, as in feature_proof.cpp.
 constexpr double MARGIN = 16.0 * COINCIDENCE_TOLERANCE;
 /// Edges at a smaller angle and faces with a smaller altitude (relative, squared) are left to the scalar
 /// kernel: from here on the points of both kernels agree to 1e-12.

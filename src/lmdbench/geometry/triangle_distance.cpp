@@ -1,16 +1,16 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/geometry/all_candidates.h>
-#include <lmdbench/geometry/feature_descent.h>
+#include <lmdbench/geometry/feature_proof.h>
 #include <lmdbench/geometry/tolerance.h>
 #include <lmdbench/geometry/triangle_distance.h>
 
 #include <algorithm>
 #include <cmath>
 
-// A short descent proves nearly every pair of disjoint triangles in general position; contact, parallel
-// features and degenerate triangles are left to the examination of all candidates. Both give the same bits
-// where both answer.
+// A guess of the features proves nearly every pair of disjoint triangles in general position; contact,
+// parallel features and degenerate triangles are left to the examination of all candidates. Both give the
+// same bits where both answer.
 
 namespace lmdbench {
 namespace {
@@ -73,8 +73,8 @@ TrianglePairDistance triangle_distance(const Triangle& a, const Triangle& b) {
   const bool in_range = magnitude >= SMALLEST_MAGNITUDE && magnitude <= LARGEST_MAGNITUDE;
   const double tolerance = coincidence_length(magnitude);
   TrianglePairDistance result;
-  // The descent proves nothing where a coordinate is not a number.
-  if (in_range && kernel::feature_descent(a, b, tolerance, result)) return result;
+  // Nothing is proved where a coordinate is not a number.
+  if (in_range && kernel::prove_by_features(a, b, tolerance, result)) return result;
   if (!all_finite(a) || !all_finite(b)) return result;
   return in_range || magnitude == 0.0 ? kernel::distance_by_all_candidates(a, b, tolerance)
                                       : distance_by_scaled_candidates(a, b, magnitude);

@@ -14,7 +14,7 @@
 // - all candidates: 9 edge pairs and 6 corner-face pairs, for what the first step left.
 // - crossing: pairs that clearly cross.
 // - triangle_distance, for what is still open.
-// The proof is that of feature_descent: every corner that does not carry the pair is behind the plane
+// The proof is that of feature_proof.cpp: every corner that does not carry the pair is behind the plane
 // across d by a margin far above rounding, and the pair is nearer than its neighbours by as much. Vectors
 // decide only what is well conditioned (MIN_SQUARED_SINE), so that points agree with the scalar kernel's.
 //

@@ -13,6 +13,6 @@ namespace lmdbench::kernel {
 /// @param tolerance coincidence_length of the largest coordinate, which is in [2^-100, 2^100] or not finite
 /// @returns false, with `result` untouched, where nothing was proved: contact, parallel features, exact ties,
 ///   degenerate triangles, coordinates that are not finite
-bool feature_descent(const Triangle& a, const Triangle& b, double tolerance, TrianglePairDistance& result);
+bool prove_by_features(const Triangle& a, const Triangle& b, double tolerance, TrianglePairDistance& result);
 
 }  // namespace lmdbench::kernel

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/geometry/carriers.h>
 #include <lmdbench/geometry/face_frame.h>
-#include <lmdbench/geometry/feature_descent.h>
 #include <lmdbench/geometry/feature_guess.h>
+#include <lmdbench/geometry/feature_proof.h>
 #include <lmdbench/geometry/segment_kernel.h>
 #include <lmdbench/geometry/sorted_triangle.h>
 
@@ -11,7 +11,7 @@
 #include <cmath>
 #include <limits>
 
-// Steps of feature_descent:
+// Steps of prove_by_features:
 // - triangles that are far apart for their size: start at the corners that are farthest towards the other
 //   triangle and take the edges from there that lead ahead;
 // - else, or where that proves nothing: the features that a quick look at all candidates finds nearest
@@ -281,7 +281,7 @@ bool are_far_apart(const Triangle& a, const Triangle& b, const Vec3& toward_b) {
 
 }  // namespace
 
-bool feature_descent(const Triangle& a, const Triangle& b, double tolerance, TrianglePairDistance& result) {
+bool prove_by_features(const Triangle& a, const Triangle& b, double tolerance, TrianglePairDistance& result) {
   Attempt attempt;
   const Vec3 toward_b = (b[0] + b[1] + b[2]) - (a[0] + a[1] + a[2]);
   if (are_far_apart(a, b, toward_b)) {
