@@ -35,7 +35,8 @@ using Quad = hn::FixedTag<float, 4>;
 using QuadReal = hn::Vec<Quad>;
 using QuadVector = LaneVector<QuadReal>;
 
-/// Sixteen slots, edge of a times four plus edge of b, as many at a time as a register holds.
+/// Slots of edge pairs, four times the edge of a plus the edge of b, as many at a time as a register holds.
+/// The last of three fours is repeated to fill the widest register.
 constexpr std::size_t SLOTS = 16;
 using Wide = hn::CappedTag<float, SLOTS>;
 using WideReal = hn::Vec<Wide>;
@@ -69,8 +70,8 @@ HWY_INLINE QuadVector spread(const QuadVector& v) {
   return {hn::Broadcast<K>(v.x), hn::Broadcast<K>(v.y), hn::Broadcast<K>(v.z)};
 }
 
-/// Part of an edge on either side of a plane, and weight of its corners, from which on single precision is
-/// sure enough that an edge pierces a face.
+/// Part of an edge or face from which on single precision knows an inner point from one on the border. A
+/// point nearer to the border is taken to be on it: from there one more step leads inside.
 constexpr float CLEARLY = 1e-3F;
 
 /// The corners of one triangle over the face of the other.
