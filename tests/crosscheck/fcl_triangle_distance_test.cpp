@@ -24,6 +24,19 @@ TEST(FclTriangleDistance, IsRightOnTrianglesOfUnitSize) {
   EXPECT_NEAR((result.point_b - Vec3(0, 0, 0.25)).norm(), 0.0, 1e-12);
 }
 
+TEST(FclTriangleDistance, TakesTheMovingTriangleInItsOwnFrame) {
+  Pose X_WM;
+  X_WM.translation = {0.0, 0.0, 0.25};
+  X_WM.rotation = Eigen::AngleAxisd(0.5, Vec3::UnitZ());
+  for (const double scale : {1.0, 3.0}) {
+    const FclTriangleDistance result =
+        fcl_triangle_distance(standing_triangle(1.0, 0.0), floor_triangle(1.0), X_WM, scale);
+    EXPECT_NEAR(result.distance, 0.25, 1e-12);
+    EXPECT_NEAR((result.point_a - Vec3(0, 0, 0.25)).norm(), 0.0, 1e-12);
+    EXPECT_NEAR(result.point_b.norm(), 0.0, 1e-12);
+  }
+}
+
 TEST(FclTriangleDistance, IsWrongOnSmallTriangles) {
   constexpr double SIZE = 5e-5;
   const FclTriangleDistance result =

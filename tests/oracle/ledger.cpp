@@ -29,6 +29,9 @@ constexpr double INFINITE = std::numeric_limits<double>::infinity();
 /// to exact arithmetic. Far above its error, relative to the distance.
 constexpr double SORTING_MARGIN = 1e-6;
 
+constexpr const char* FCL = "fcl";
+constexpr const char* FCL_UNSCALED = "fcl-unscaled";
+
 struct NearestExact {
   double distance = INFINITE;
   std::int32_t fixed_body = -1, moving = -1, fixed = -1;
@@ -50,7 +53,23 @@ class Court {
   const Surface& moving() const { return run_.scene.moving->surface(); }
   const Surface& fixed(std::int32_t body) const { return *surfaces_[static_cast<std::size_t>(body)]; }
   double scale() const { return scaled_->scale(); }
-  FclResult unscaled(const Pose& X_WM) const { return unscaled_->distance(X_WM); }
+  FclResult fcl(const Pose& X_WM) const { return scaled_->distance(X_WM); }
+  FclResult fcl_unscaled(const Pose& X_WM) const { return unscaled_->distance(X_WM); }
+
+  JudgedPair judged_pair(const std::string& why, const Pose& X_WM, std::int32_t body,
+                         std::int32_t triangle_moving, std::int32_t triangle_fixed) const {
+    JudgedPair pair;
+    pair.why = why;
+    pair.fixed_body = body;
+    pair.triangle_moving = triangle_moving;
+    pair.triangle_fixed = triangle_fixed;
+    pair.moving_M = moving().mesh.triangle(triangle_moving);
+    pair.fixed_W = fixed(body).mesh.triangle(triangle_fixed);
+    pair.exact = testing::exact_distance(RigidTransform(X_WM).triangle(pair.moving_M), pair.fixed_W);
+    pair.fcl = fcl_triangle_distance(pair.moving_M, pair.fixed_W, X_WM, scale()).distance;
+    pair.fcl_unscaled = fcl_triangle_distance(pair.moving_M, pair.fixed_W, X_WM, 1.0).distance;
+    return pair;
+  }
 
   /// Minimum distance: the exact distance of some pair bounds it from above; all pairs whose boxes come
   /// nearer than that are looked at in extended precision, and the nearest of them exactly.
@@ -107,30 +126,23 @@ bool differ(double a, double b, double tolerance) {
   return !(std::abs(a - b) <= tolerance * std::min(a, b));
 }
 
-Triangle scaled(const Triangle& triangle, double factor) {
-  return {factor * triangle[0], factor * triangle[1], factor * triangle[2]};
-}
-
-LedgerRow judge(const Court& court, const RigidTransform& transform, std::vector<Opinion> opinions,
-                const NearestExact& truth, double tolerance) {
+LedgerRow judge(const Court& court, const Pose& X_WM, std::vector<Opinion> opinions,
+                const FclResult& unscaled, double tolerance) {
+  const NearestExact truth = court.truth(X_WM);
   LedgerRow row;
+  row.pose = X_WM;
   row.truth = truth.distance;
-  row.fixed_body = truth.fixed_body;
-  row.triangle_moving = truth.moving;
-  row.triangle_fixed = truth.fixed;
-  row.moving_W = transform.triangle(court.moving().mesh.triangle(truth.moving));
-  row.fixed_W = court.fixed(truth.fixed_body).mesh.triangle(truth.fixed);
-  row.fcl_unscaled_on_pair = fcl_triangle_distance(row.fixed_W, row.moving_W).distance;
-  row.fcl_on_pair =
-      fcl_triangle_distance(scaled(row.fixed_W, court.scale()), scaled(row.moving_W, court.scale()))
-          .distance /
-      court.scale();
+  row.pairs.push_back(court.judged_pair("nearest", X_WM, truth.fixed_body, truth.moving, truth.fixed));
   for (Opinion& opinion : opinions) {
     opinion.wrong = differ(opinion.distance, truth.distance, tolerance);
     const double difference = std::abs(opinion.distance - truth.distance);
     opinion.relative_error = difference == 0.0      ? 0.0
                              : truth.distance > 0.0 ? difference / truth.distance
                                                     : INFINITE;
+    if (!opinion.wrong || (opinion.who != FCL && opinion.who != FCL_UNSCALED)) continue;
+    const FclResult named = opinion.who == FCL ? court.fcl(X_WM) : unscaled;
+    row.pairs.push_back(
+        court.judged_pair(opinion.who, X_WM, named.fixed_body, named.triangle_moving, named.triangle_fixed));
   }
   row.opinions = std::move(opinions);
   return row;
@@ -165,6 +177,7 @@ Ledger arbitrate(const std::filesystem::path& result, const std::filesystem::pat
   const Court court(run);
   Ledger ledger;
   ledger.experiment = experiment.name;
+  ledger.scale = court.scale();
   ledger.tolerance = file.real_attribute("/crosscheck/fcl", "tolerance_relative");
   const std::vector<std::int64_t> frames = file.integers("/crosscheck/fcl/frame");
   const std::vector<double> fcl = file.doubles("/crosscheck/fcl/distance");
@@ -177,7 +190,7 @@ Ledger arbitrate(const std::filesystem::path& result, const std::filesystem::pat
 
   for (std::size_t i = 0; i < frames.size(); ++i) {
     const Pose& pose = poses[static_cast<std::size_t>(frames[i])];
-    std::vector<Opinion> opinions{{"fcl", fcl[i]}, {"lmdbench", own[i]}};
+    std::vector<Opinion> opinions{{FCL, fcl[i]}, {"lmdbench", own[i]}};
     for (std::size_t m = 0; m < differences.size(); ++m) {
       const double difference = differences[m][i];  // NaN where the method was not asked
       if (!std::isnan(difference))
@@ -189,13 +202,11 @@ Ledger arbitrate(const std::filesystem::path& result, const std::filesystem::pat
       });
     };
     if (any_differs()) ++ledger.disagreements;
-    const FclResult unscaled = court.unscaled(pose);
-    opinions.push_back({"fcl-unscaled", unscaled.separated ? unscaled.distance : 0.0});
+    const FclResult unscaled = court.fcl_unscaled(pose);
+    opinions.push_back({FCL_UNSCALED, unscaled.separated ? unscaled.distance : 0.0});
     if (!any_differs()) continue;
-    LedgerRow row =
-        judge(court, RigidTransform(pose), std::move(opinions), court.truth(pose), ledger.tolerance);
+    LedgerRow row = judge(court, pose, std::move(opinions), unscaled, ledger.tolerance);
     row.frame = frames[i];
-    row.pose = pose;
     ledger.rows.push_back(std::move(row));
   }
   return ledger;

@@ -23,16 +23,25 @@ struct Opinion {
   bool wrong = false;
 };
 
+/// A triangle pair of a disputed frame, as it pastes into a test.
+struct JudgedPair {
+  std::string why;  ///< "nearest", or who named it: "fcl", "fcl-unscaled"
+  std::int32_t fixed_body = 0;
+  std::int32_t triangle_moving = -1, triangle_fixed = -1;
+  Triangle moving_M;          ///< In the moving mesh's frame [m].
+  Triangle fixed_W;           ///< In the world [m].
+  double exact = 0.0;         ///< Exact distance, rounded once [m].
+  double fcl = 0.0;           ///< What FCL's kernel answers within the probe's query, scaled as there [m].
+  double fcl_unscaled = 0.0;  ///< The same with the meshes as they are.
+};
+
 /// A frame whose opinions differ.
 struct LedgerRow {
   std::int64_t frame = 0;
   Pose pose;           ///< X_WM
   double truth = 0.0;  ///< Exact minimum distance, rounded once [m]; 0 in contact.
-  std::int32_t fixed_body = 0;
-  std::int32_t triangle_moving = -1, triangle_fixed = -1;  ///< The exact nearest pair.
-  Triangle moving_W, fixed_W;                              ///< Its corners in the world.
-  double fcl_on_pair = 0.0;  ///< FCL's kernel on just these two triangles, scaled as the probe does [m].
-  double fcl_unscaled_on_pair = 0.0;  ///< The same in metres.
+  /// The exact nearest pair, then those that FCL names where it is wrong.
+  std::vector<JudgedPair> pairs;
   std::vector<Opinion> opinions;
 };
 
@@ -43,6 +52,7 @@ struct Ledger {
   std::int64_t disagreements =
       0;                        ///< Rows of which fcl, lmdbench and the methods make up; all are arbitrated.
   double tolerance = 0.0;       ///< Relative.
+  double scale = 1.0;           ///< Of the meshes as the probe hands them to FCL.
   std::vector<LedgerRow> rows;  ///< Frames in which any two differ, fcl-unscaled among them.
 };
 
@@ -55,8 +65,9 @@ Ledger arbitrate(const std::filesystem::path& result, const std::filesystem::pat
 /// The experiment file that a result's command line names, or an empty path.
 std::filesystem::path experiment_file_of(const std::filesystem::path& result);
 
-/// Counts by party, then the worst rows of each party with triangles to paste into a test.
-std::string ledger_markdown(const Ledger& ledger);
+/// A table with a row a run: who was wrong in how many frames and by how much; then the worst row of each
+/// party and kind of error, as a test to paste.
+std::string ledger_markdown(const std::vector<Ledger>& ledgers);
 
 /// All rows; numbers have 17 digits and read back to the same bits.
 std::string ledger_json(const Ledger& ledger);

@@ -11,7 +11,7 @@
 #include <vector>
 
 /// lmdbench_ledger RESULT.h5... [--experiment FILE] [--out NAME]: the disagreement ledger of results with an
-/// FCL cross-check; Markdown on standard output, with --out also NAME.md and NAME.json.
+/// FCL cross-check; Markdown on standard output, with --out also NAME.md and, with all rows, NAME.json.
 int main(int argc, char** argv) {
   CLI::App app{"Arbitrates what FCL, the nearest pair and the methods answered, in exact arithmetic"};
   std::vector<std::string> results;
@@ -22,14 +22,15 @@ int main(int argc, char** argv) {
   app.add_option("--out", out, "also write NAME.md and NAME.json");
   CLI11_PARSE(app, argc, argv);
   try {
-    std::string markdown = "# Disagreement ledger\n\n", json;
+    std::vector<lmdbench::exact::Ledger> ledgers;
+    std::string json;
     for (const std::string& result : results) {
       const auto file = experiment.empty() ? lmdbench::exact::experiment_file_of(result)
                                            : std::filesystem::path(experiment);
-      const auto ledger = lmdbench::exact::arbitrate(result, file);
-      markdown += lmdbench::exact::ledger_markdown(ledger);
-      json += (json.empty() ? "[\n" : ",\n") + lmdbench::exact::ledger_json(ledger);
+      ledgers.push_back(lmdbench::exact::arbitrate(result, file));
+      json += (json.empty() ? "[\n" : ",\n") + lmdbench::exact::ledger_json(ledgers.back());
     }
+    const std::string markdown = lmdbench::exact::ledger_markdown(ledgers);
     std::cout << markdown;
     if (!out.empty()) {
       std::ofstream(out + ".md") << markdown;

@@ -48,15 +48,18 @@ TEST(Ledger, TellsWhoIsWrongOnAMicrometre) {
     for (const char* who : {"fcl", "lmdbench", "certified", "exhaustive"})
       EXPECT_FALSE(opinion_of(row, who).wrong) << who << ", frame " << row.frame;
     unscaled_wrong += opinion_of(row, "fcl-unscaled").wrong;
-    // The row's triangles carry the distance.
-    EXPECT_LT((row.moving_W[0] - row.fixed_W[0]).norm(), 2e-6);
+    ASSERT_FALSE(row.pairs.empty());
+    EXPECT_EQ(row.pairs[0].exact, row.truth);
   }
   EXPECT_GT(unscaled_wrong, 10);
-  EXPECT_THAT(ledger_markdown(ledger), HasSubstr("### fcl-unscaled: wrong in"));
+  const std::string text = ledger_markdown({ledger});
+  EXPECT_THAT(text, HasSubstr("### fcl-unscaled: sees contact where there is none"));
+  EXPECT_THAT(text, HasSubstr("TEST(LedgerRows, ExtremeTinyFrame"));
   const auto json = nlohmann::json::parse(ledger_json(ledger));
   ASSERT_EQ(json["rows"].size(), ledger.rows.size());
   for (int axis = 0; axis < 3; ++axis)
-    EXPECT_EQ(json["rows"][0]["moving_W"][1][axis].get<double>(), ledger.rows[0].moving_W[1][axis]);
+    EXPECT_EQ(json["rows"][0]["pairs"][0]["moving_M"][1][axis].get<double>(),
+              ledger.rows[0].pairs[0].moving_M[1][axis]);
 }
 
 TEST(Ledger, RefusesWhatItCannotJudge) {

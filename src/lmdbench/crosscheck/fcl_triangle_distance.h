@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <lmdbench/geometry/pose.h>
 #include <lmdbench/geometry/types.h>
 
 #include <limits>
@@ -21,5 +22,15 @@ struct FclTriangleDistance {
 /// @warning Known to be wrong on triangles whose squared doubled area is under 1e-15 and on nearly parallel
 /// edges; see fcl_crosscheck.h for the remedy of the first.
 FclTriangleDistance fcl_triangle_distance(const Triangle& a, const Triangle& b);
+
+/// What the kernel answers about one pair of triangles within a query of FclCrosscheck, to the last bit: FCL
+/// then hands it the triangles in their own frames, with the relative pose, and its errors hang on such
+/// roundings.
+/// @param moving_M  a triangle of the moving mesh, in that mesh's frame, metres
+/// @param fixed_W   a triangle of a fixed mesh, metres
+/// @param scale     FclCrosscheck::scale(); 1 for FclScaling::NONE
+/// @return distance and points in metres, world frame; point_a on the moving triangle
+FclTriangleDistance fcl_triangle_distance(const Triangle& moving_M, const Triangle& fixed_W, const Pose& X_WM,
+                                          double scale);
 
 }  // namespace lmdbench
