@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/error.h>
 #include <lmdbench/mesh/build_mesh.h>
 #include <lmdbench/mesh/fetch_source.h>
 #include <lmdbench/mesh/file_hash.h>
@@ -8,7 +9,8 @@
 #include <lmdbench/mesh/run_program.h>
 #include <lmdbench/mesh/shapes.h>
 
-#include "mesh/temporary_folder.h"
+#include "mesh/message_of.h"
+#include "support/scratch_directory.h"
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -19,6 +21,9 @@
 
 namespace lmdbench {
 namespace {
+
+using testing::message_of;
+using testing::ScratchDirectory;
 
 namespace fs = std::filesystem;
 using ::testing::AllOf;
@@ -67,7 +72,7 @@ class BuildMeshTest : public ::testing::Test {
   fs::path sources() const { return folder_.path() / "meshes" / "sources"; }
   BuildOutcome build(const std::string& name) { return build_mesh(manifest_, *manifest_.find(name), ignore); }
 
-  TemporaryFolder folder_;
+  ScratchDirectory folder_;
   std::string source_hash_;
   Manifest manifest_;
 };
@@ -139,7 +144,7 @@ TEST_F(BuildMeshTest, TellsWhatIsMissingWithoutTheTools) {
 TEST_F(BuildMeshTest, TellsAFailedDownloadAndHowToGoWithoutOne) {
   fs::remove_all(sources());
   // An apt-get that fails as one without a network does.
-  const auto fake = folder_.write(
+  const std::filesystem::path fake = folder_.write(
       "bin/apt-get", "#!/bin/sh\necho 'E: Unable to locate package some-package' >&2\nexit 100\n");
   fs::permissions(fake, fs::perms::owner_all);
   const std::string path = std::getenv("PATH");

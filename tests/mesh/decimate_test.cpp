@@ -1,10 +1,11 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/error.h>
 #include <lmdbench/mesh/decimate.h>
 #include <lmdbench/mesh/shapes.h>
 #include <lmdbench/mesh/validity.h>
 
-#include "mesh/temporary_folder.h"
+#include "mesh/message_of.h"
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -12,6 +13,8 @@
 
 namespace lmdbench {
 namespace {
+
+using testing::message_of;
 
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;

@@ -1,11 +1,13 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/error.h>
 #include <lmdbench/mesh/import.h>
 #include <lmdbench/mesh/off_file.h>
 #include <lmdbench/mesh/shapes.h>
 #include <lmdbench/mesh/surface.h>
 
-#include "mesh/temporary_folder.h"
+#include "mesh/message_of.h"
+#include "support/scratch_directory.h"
 #include <Eigen/Geometry>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -19,6 +21,9 @@
 
 namespace lmdbench {
 namespace {
+
+using testing::message_of;
+using testing::ScratchDirectory;
 
 using ::testing::AllOf;
 using ::testing::ElementsAre;
@@ -87,7 +92,7 @@ std::string to_obj(const TriangleMesh& mesh) {
 }
 
 TEST(ImportTest, KeepsTheTrianglesOfEveryFormatInTheirOrder) {
-  const TemporaryFolder folder;
+  const ScratchDirectory folder;
   const TriangleMesh mesh = single_precision_blob();
   write_off(folder.path() / "blob.off", mesh);
   expect_same_triangles(import_mesh(folder.path() / "blob.off"), mesh, 0.0);
@@ -98,14 +103,14 @@ TEST(ImportTest, KeepsTheTrianglesOfEveryFormatInTheirOrder) {
 }
 
 TEST(ImportTest, WeldedStlIsClosed) {
-  const TemporaryFolder folder;
+  const ScratchDirectory folder;
   const Surface surface =
       build_surface(import_mesh(folder.write("s.stl", to_binary_stl(single_precision_blob()))));
   EXPECT_EQ(std::count(surface.edge_is_boundary.begin(), surface.edge_is_boundary.end(), true), 0);
 }
 
 TEST(ImportTest, IsSilentOnStandardOutput) {
-  const TemporaryFolder folder;
+  const ScratchDirectory folder;
   ::testing::internal::CaptureStdout();
   ::testing::internal::CaptureStderr();
   import_mesh(folder.write("s.stl", to_binary_stl(make_box({1, 1, 1}))));
@@ -117,8 +122,8 @@ TEST(ImportTest, IsSilentOnStandardOutput) {
 // A glTF node tree: the same triangle once as it is, once moved, and once mirrored in x, which must not turn
 // it inside out.
 TEST(ImportTest, MergesNodesWithTheirTransforms) {
-  const TemporaryFolder folder;
-  const auto file = folder.write("scene.gltf", R"({
+  const ScratchDirectory folder;
+  const std::filesystem::path file = folder.write("scene.gltf", R"({
     "asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}],
     "nodes": [{"mesh": 0, "children": [1, 2]},
               {"mesh": 0, "translation": [10, 20, 30], "scale": [2, 2, 2]},
@@ -139,7 +144,7 @@ TEST(ImportTest, MergesNodesWithTheirTransforms) {
 }
 
 TEST(ImportTest, CutsPolygonsInPlaceAndSkipsLines) {
-  const TemporaryFolder folder;
+  const ScratchDirectory folder;
   const TriangleMesh mesh = import_mesh(folder.write(
       "p.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 5 5 5\nf 1 2 3\nf 1 2 3 4\nl 1 5\nf 2 3 4\n"));
   ASSERT_EQ(mesh.triangles.size(), 4u);
@@ -148,7 +153,7 @@ TEST(ImportTest, CutsPolygonsInPlaceAndSkipsLines) {
 }
 
 TEST(ImportTest, KeepsTrianglesWithoutArea) {
-  const TemporaryFolder folder;
+  const ScratchDirectory folder;
   const TriangleMesh mesh = import_mesh(
       folder.write("d.off", "OFF\n4 3 0\n0 0 0\n1 0 0\n2 0 0\n0 1 0\n3 0 1 2\n3 0 1 3\n3 1 1 3\n"));
   EXPECT_THAT(mesh.triangles, ElementsAre(Corners{0, 1, 2}, Corners{0, 1, 3}, Corners{1, 1, 3}));
@@ -161,8 +166,8 @@ struct BrokenFile {
 class BrokenMeshTest : public ::testing::TestWithParam<BrokenFile> {};
 
 TEST_P(BrokenMeshTest, IsRefused) {
-  const TemporaryFolder folder;
-  const auto file = folder.write(GetParam().file, GetParam().content);
+  const ScratchDirectory folder;
+  const std::filesystem::path file = folder.write(GetParam().file, GetParam().content);
   const std::string message = message_of<InputError>([&] { import_mesh(file); });
   EXPECT_THAT(message, AllOf(HasSubstr(file.string()), HasSubstr(GetParam().says), HasSubstr("remedy")));
 }
@@ -187,7 +192,7 @@ INSTANTIATE_TEST_SUITE_P(
     [](const auto& parameter) { return parameter.param.name; });
 
 TEST(ImportTest, NamesAMissingFileAndAFolder) {
-  const TemporaryFolder folder;
+  const ScratchDirectory folder;
   EXPECT_THAT(message_of<InputError>([&] { import_mesh(folder.path() / "none.off"); }),
               HasSubstr("none.off"));
   EXPECT_THAT(message_of<InputError>([&] { import_mesh(folder.path()); }), HasSubstr("directory"));

@@ -1,12 +1,14 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/error.h>
 #include <lmdbench/mesh/file_hash.h>
 #include <lmdbench/mesh/manifest.h>
 #include <lmdbench/mesh/off_file.h>
 #include <lmdbench/mesh/shape_recipe.h>
 #include <lmdbench/mesh/shapes.h>
 
-#include "mesh/temporary_folder.h"
+#include "mesh/message_of.h"
+#include "support/scratch_directory.h"
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -16,6 +18,9 @@
 
 namespace lmdbench {
 namespace {
+
+using testing::message_of;
+using testing::ScratchDirectory;
 
 using nlohmann::json;
 using ::testing::AllOf;
@@ -33,7 +38,7 @@ json small_manifest() {
 }
 
 TEST(ManifestTest, ReadsEntriesWithTheirSources) {
-  const TemporaryFolder folder;
+  const ScratchDirectory folder;
   const Manifest manifest = load_manifest(folder.write("manifest.json", small_manifest().dump()));
   ASSERT_EQ(manifest.entries.size(), 2u);
   const ManifestEntry* thing = manifest.find("thing-1k");
@@ -48,7 +53,7 @@ TEST(ManifestTest, ReadsEntriesWithTheirSources) {
 }
 
 TEST(ManifestTest, ReadsNpmSourcesAndOptionalMeshes) {
-  const TemporaryFolder folder;
+  const ScratchDirectory folder;
   json document = small_manifest();
   json& source = document["sources"]["thing"];
   source.erase("archive");
@@ -72,10 +77,10 @@ struct BadManifest {
 class BadManifestTest : public ::testing::TestWithParam<BadManifest> {};
 
 TEST_P(BadManifestTest, IsRefusedWithItsPlace) {
-  const TemporaryFolder folder;
+  const ScratchDirectory folder;
   json document = small_manifest();
   GetParam().spoil(document);
-  const auto file = folder.write("manifest.json", document.dump());
+  const std::filesystem::path file = folder.write("manifest.json", document.dump());
   EXPECT_THAT(message_of<InputError>([&] { load_manifest(file); }),
               AllOf(HasSubstr(file.string()), HasSubstr(GetParam().place), HasSubstr("remedy")));
 }
@@ -113,7 +118,7 @@ INSTANTIATE_TEST_SUITE_P(
     [](const auto& parameter) { return parameter.param.name; });
 
 TEST(ManifestTest, RefusesWhatIsNoJson) {
-  const TemporaryFolder folder;
+  const ScratchDirectory folder;
   EXPECT_THAT(message_of<InputError>([&] { load_manifest(folder.write("m.json", "{\"a\": }")); }),
               HasSubstr("byte 7"));
   EXPECT_THAT(message_of<InputError>([&] { load_manifest(folder.path() / "none.json"); }),
@@ -121,7 +126,7 @@ TEST(ManifestTest, RefusesWhatIsNoJson) {
 }
 
 TEST(ResolveMeshTest, MakesShapesInMemoryWithTheHashOfTheirFile) {
-  const TemporaryFolder folder;
+  const ScratchDirectory folder;
   folder.write("manifest.json", small_manifest().dump());
   const ResolvedMesh resolved = resolve_mesh("block", folder.path());
   EXPECT_EQ(resolved.mesh.triangles, make_l_block(1.0).triangles);
@@ -131,7 +136,7 @@ TEST(ResolveMeshTest, MakesShapesInMemoryWithTheHashOfTheirFile) {
 }
 
 TEST(ResolveMeshTest, ReadsBuiltMeshesAndTellsHowToBuildMissingOnes) {
-  const TemporaryFolder folder;
+  const ScratchDirectory folder;
   folder.write("manifest.json", small_manifest().dump());
   EXPECT_THAT(message_of<InputError>([&] { resolve_mesh("thing-1k", folder.path()); }),
               HasSubstr("run 'lmdbench mesh build thing-1k'"));
@@ -143,7 +148,7 @@ TEST(ResolveMeshTest, ReadsBuiltMeshesAndTellsHowToBuildMissingOnes) {
 }
 
 TEST(ResolveMeshTest, TakesPathsWithoutAManifest) {
-  const TemporaryFolder folder;
+  const ScratchDirectory folder;
   write_off(folder.path() / "own.off", make_box({1, 1, 1}));
   const std::string path = (folder.path() / "own.off").string();
   EXPECT_EQ(resolve_mesh(path, folder.path() / "nowhere").mesh.triangles.size(), 12u);
@@ -151,7 +156,7 @@ TEST(ResolveMeshTest, TakesPathsWithoutAManifest) {
 }
 
 TEST(ResolveMeshTest, NamesTheKnownMeshesForAnUnknownOne) {
-  const TemporaryFolder folder;
+  const ScratchDirectory folder;
   folder.write("manifest.json", small_manifest().dump());
   EXPECT_THAT(message_of<InputError>([&] { resolve_mesh("blok", folder.path()); }),
               AllOf(HasSubstr("'blok'"), HasSubstr("thing-1k"), HasSubstr("block")));

@@ -1,9 +1,11 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/error.h>
 #include <lmdbench/mesh/off_file.h>
 #include <lmdbench/mesh/shapes.h>
 
-#include "mesh/temporary_folder.h"
+#include "mesh/message_of.h"
+#include "support/scratch_directory.h"
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -17,11 +19,14 @@
 namespace lmdbench {
 namespace {
 
+using testing::message_of;
+using testing::ScratchDirectory;
+
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 
 TEST(OffFileTest, ReadsBackTheSameBits) {
-  const TemporaryFolder folder;
+  const ScratchDirectory folder;
   TriangleMesh mesh = make_blob(0.1, 0.03, 2);
   std::mt19937_64 random(1);
   std::uniform_real_distribution<double> exponent(-300.0, 300.0), mantissa(-1.0, 1.0);
@@ -44,7 +49,7 @@ TEST(OffFileTest, ReadsBackTheSameBits) {
 }
 
 TEST(OffFileTest, ReadsCommentsBlankLinesColoursPolygonsAndWindowsLineEnds) {
-  const TemporaryFolder folder;
+  const ScratchDirectory folder;
   const auto file =
       folder.write("mesh.off",
                    "# made by hand\r\nOFF # keyword\r\n\r\n4 3 0\r\n0 0 0 255 0 0\r\n+1 0 0\r\n"
@@ -57,14 +62,14 @@ TEST(OffFileTest, ReadsCommentsBlankLinesColoursPolygonsAndWindowsLineEnds) {
 }
 
 TEST(OffFileTest, ReadsCountsOnTheKeywordsLine) {
-  const TemporaryFolder folder;
+  const ScratchDirectory folder;
   const auto mesh = read_off(folder.write("mesh.off", "OFF 3 1 3\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n"));
   ASSERT_TRUE(mesh);
   EXPECT_EQ(mesh->triangles.size(), 1u);
 }
 
 TEST(OffFileTest, LeavesOtherVariantsToAssimp) {
-  const TemporaryFolder folder;
+  const ScratchDirectory folder;
   EXPECT_FALSE(read_off(folder.write("a.off", "COFF\n3 1 0\n")));
   EXPECT_FALSE(read_off(folder.write("b.off", "OFF BINARY\n\1\2\3")));
 }
@@ -76,8 +81,8 @@ struct BrokenFile {
 class BrokenOffTest : public ::testing::TestWithParam<BrokenFile> {};
 
 TEST_P(BrokenOffTest, IsRefusedWithItsPlaceAndARemedy) {
-  const TemporaryFolder folder;
-  const auto file = folder.write("broken.off", GetParam().content);
+  const ScratchDirectory folder;
+  const std::filesystem::path file = folder.write("broken.off", GetParam().content);
   const std::string message = message_of<InputError>([&] { read_off(file); });
   EXPECT_THAT(message, AllOf(HasSubstr(file.string()), HasSubstr(GetParam().place),
                              HasSubstr(GetParam().problem), HasSubstr("remedy")));
@@ -107,8 +112,8 @@ INSTANTIATE_TEST_SUITE_P(
     [](const auto& parameter) { return parameter.param.name; });
 
 TEST(OffFileTest, WritesAllOrNothing) {
-  const TemporaryFolder folder;
-  const auto file = folder.write("mesh.off", "old");
+  const ScratchDirectory folder;
+  const std::filesystem::path file = folder.write("mesh.off", "old");
   std::filesystem::create_directory(folder.path() / "mesh.off.part");  // the new content has nowhere to go
   EXPECT_THROW(write_off(file, make_box({1, 1, 1})), EnvironmentError);
   std::ifstream stream(file);
@@ -118,7 +123,7 @@ TEST(OffFileTest, WritesAllOrNothing) {
 }
 
 TEST(OffFileTest, MakesMissingFoldersAndLeavesNoPart) {
-  const TemporaryFolder folder;
+  const ScratchDirectory folder;
   write_off(folder.path() / "a" / "b" / "mesh.off", make_box({1, 1, 1}));
   EXPECT_TRUE(std::filesystem::exists(folder.path() / "a" / "b" / "mesh.off"));
   EXPECT_FALSE(std::filesystem::exists(folder.path() / "a" / "b" / "mesh.off.part"));

@@ -1,10 +1,11 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/error.h>
 #include <lmdbench/mesh/flaws.h>
 #include <lmdbench/mesh/shape_recipe.h>
 #include <lmdbench/mesh/shapes.h>
 
-#include "mesh/temporary_folder.h"
+#include "mesh/message_of.h"
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -13,6 +14,8 @@
 
 namespace lmdbench {
 namespace {
+
+using testing::message_of;
 
 using nlohmann::json;
 using ::testing::AllOf;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <hdf5.h>
+#include <support/scratch_directory.h>
 
 #include <cstdint>
 #include <filesystem>
@@ -124,27 +125,6 @@ class OpenResult {
   }
 
   hid_t id_;
-};
-
-/// A directory of its own for every test, removed afterwards.
-class ScratchDirectory {
- public:
-  ScratchDirectory() {
-    std::string name = (std::filesystem::temp_directory_path() / "lmdbench-record-XXXXXX").string();
-    if (::mkdtemp(name.data()) == nullptr) throw std::runtime_error("cannot make " + name);
-    path_ = name;
-  }
-  ~ScratchDirectory() {
-    std::error_code ignored;
-    std::filesystem::remove_all(path_, ignored);
-  }
-  ScratchDirectory(const ScratchDirectory&) = delete;
-  ScratchDirectory& operator=(const ScratchDirectory&) = delete;
-
-  std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
-
- private:
-  std::filesystem::path path_;
 };
 
 }  // namespace lmdbench::testing
