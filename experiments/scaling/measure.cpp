@@ -81,17 +81,17 @@ bool nearest_pair_is_lmd(const Scene& scene, const Pose& X_WM) {
   return is_local_minimum(moving, RigidTransform(X_WM), fixed, lmd);
 }
 
-double process_seconds() {
-  timespec now{};
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
-  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-}
-
 double wall_seconds() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
 }  // namespace
+
+double process_seconds() {
+  timespec now{};
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
 
 Measurement measure(const Scene& scene, const std::vector<Pose>& poses, const MeasureChoice& choice) {
   const Body& moving = *scene.moving;

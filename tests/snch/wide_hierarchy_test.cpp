@@ -8,6 +8,7 @@
 
 #include <gtest/gtest.h>
 #include <support/scenes.h>
+#include <tbb/global_control.h>
 
 #include <algorithm>
 #include <cstring>
@@ -70,6 +71,49 @@ TEST(PolarCap, HoldsThePolarCone) {
   }
   EXPECT_GT(narrow, 1000u);
   EXPECT_GT(none, 1000u);
+}
+
+TEST(PolarCap, OfTentsOfAnyBend) {
+  // Two triangles on one edge, flat to folded both ways, needle-like to fat: the cone is the arc from normal
+  // to normal where the edge is convex, empty where it is reflex.
+  std::mt19937_64 random(7);
+  std::size_t convex = 0, reflex = 0;
+  for (int i = 0; i < 20000; ++i) {
+    const double size = std::pow(10.0, 4.0 * uniform(random) - 2.0);
+    const double bend = (2.0 * uniform(random) - 1.0) * (i % 4 == 0 ? 1e-4 : 3.1);  // > 0: convex
+    const auto wing = [&](double angle) {
+      return Vec3(uniform(random) * 3.0 - 1.0, size * std::cos(angle), -size * std::sin(angle));
+    };
+    const Vec3 left = wing(0.5 * bend);
+    Vec3 right = wing(0.5 * bend);
+    right.y() = -right.y();
+    const Mat3 turn = testing::random_rotation(random).toRotationMatrix();
+    TriangleMesh tent;
+    tent.vertices = {turn * Vec3::Zero(), turn * Vec3::UnitX(), turn * left, turn * right};
+    tent.triangles = {{0, 1, 2}, {1, 0, 3}};
+    const Surface surface = build_surface(tent);
+    const auto cap = polar_cap(surface, {FeatureKind::EDGE, 0});
+    const double flatness = (3.0 + size) / size;
+    const double doubt = 50.0 * POLAR_SLACK * flatness;
+    if (bend > 0.0) {
+      ASSERT_TRUE(cap) << "bend " << bend << ", size " << size;
+      ++convex;
+      if (cap->is_all_directions()) {
+        ASSERT_GT(0.5 * bend + doubt, 1.5) << "bend " << bend << ", size " << size;
+        continue;
+      }
+      for (const Vec3& normal : surface.face_normals) {
+        ASSERT_GE(cap->axis.dot(normal), cap->cosine) << "bend " << bend << ", size " << size;
+        ASSERT_LE(cap->axis.cross(normal).norm(), cap->sine);
+      }
+      ASSERT_LE(std::acos(cap->cosine), 0.5 * bend + doubt) << "bend " << bend << ", size " << size;
+    } else if (-bend > doubt && -bend < 3.0) {
+      ASSERT_FALSE(cap) << "bend " << bend << ", size " << size;
+      ++reflex;
+    }
+  }
+  EXPECT_GT(convex, 5000u);
+  EXPECT_GT(reflex, 5000u);
 }
 
 TEST(PolarCap, IsTight) {
@@ -153,6 +197,39 @@ TEST(WideHierarchy, IsTheSameEveryTime) {
   const WideHierarchy a = build_wide_hierarchy(surface), b = build_wide_hierarchy(surface);
   ASSERT_EQ(a.nodes.size(), b.nodes.size());
   EXPECT_EQ(std::memcmp(a.nodes.data(), b.nodes.data(), a.bytes()), 0);
+}
+
+TEST(WideHierarchy, DoesNotDependOnTheNumberOfThreads) {
+  const TriangleMesh mesh = make_blob(1.0, 0.3, 5);
+  const auto with_threads = [&](std::size_t threads) {
+    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+    return build_wide_hierarchy(build_surface(mesh));
+  };
+  const WideHierarchy one = with_threads(1), four = with_threads(4);
+  ASSERT_EQ(one.nodes.size(), four.nodes.size());
+  EXPECT_EQ(std::memcmp(one.nodes.data(), four.nodes.data(), one.bytes()), 0);
+}
+
+TEST(WideHierarchy, DividesAsTheOptionsSay) {
+  WideBuildOptions narrow;
+  narrow.width = 4;
+  WideBuildOptions coarse;
+  coarse.leaf_size = 2;
+  const Surface surface = build_surface(make_blob(1.0, 0.3, 3));
+  const auto lanes_in_use = [](const WideNode& node) {
+    return WIDE_WIDTH - std::count(std::begin(node.child), std::end(node.child), 0u);
+  };
+  const WideHierarchy of_narrow = build_wide_hierarchy(surface, narrow);
+  for (const WideNode& node : of_narrow.nodes) ASSERT_LE(lanes_in_use(node), 4);
+  const WideHierarchy of_coarse = build_wide_hierarchy(surface, coarse);
+  std::size_t features = 0;
+  for (std::size_t i = 1; i < of_coarse.nodes.size(); ++i) {
+    const WideNode& node = of_coarse.nodes[i];
+    if (!WideRef::from_bits(node.child[0]).is_feature()) continue;
+    ASSERT_LE(lanes_in_use(node), 2);
+    features += static_cast<std::size_t>(lanes_in_use(node));
+  }
+  EXPECT_GE(features + 1, of_coarse.feature_count) << "an odd last one may stand among nodes";
 }
 
 TEST(WideHierarchy, IsCompact) {

@@ -7,6 +7,7 @@
 #include <hwy/targets.h>
 #include <support/scenes.h>
 
+#include <cstring>
 #include <random>
 #include <set>
 #include <string>
@@ -70,6 +71,18 @@ TEST(WideTargets, EveryInstructionSetFindsTheSamePairsWithTheSameCounters) {
     }
   }
   EXPECT_EQ(names.size(), hwy::SupportedAndGeneratedTargets().size());
+}
+
+TEST(WideTargets, EveryInstructionSetBuildsTheSameHierarchy) {
+  const Surface surface = build_surface(make_blob(1.0, 0.3, 4));
+  const WideHierarchy reference = build_wide_hierarchy(surface);
+  for (const std::int64_t target : hwy::SupportedAndGeneratedTargets()) {
+    const OneTarget only(target);
+    const WideHierarchy hierarchy = build_wide_hierarchy(surface);
+    ASSERT_EQ(hierarchy.nodes.size(), reference.nodes.size());
+    EXPECT_EQ(std::memcmp(hierarchy.nodes.data(), reference.nodes.data(), reference.bytes()), 0)
+        << wide_kernel_target();
+  }
 }
 
 }  // namespace

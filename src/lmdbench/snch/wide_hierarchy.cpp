@@ -86,8 +86,7 @@ class Builder {
   void build() {
     if (items_.empty()) return;
     const Range all{0, items_.size()};
-    const std::size_t node_count =
-        1 + std::max<std::size_t>(1, count_wide_nodes(items_.size(), options_.full_nodes));
+    const std::size_t node_count = 1 + std::max<std::size_t>(1, count_wide_nodes(items_.size(), options_));
     result_.nodes.assign(node_count, WideNode{});
     result_.nodes[0].child[0] = WideRef::node(1).bits();
     std::vector<std::int32_t> vertices;
@@ -103,8 +102,8 @@ class Builder {
   /// @return false when the cone of some child is all directions: then the parent's is too
   bool build_node(std::size_t node_index, const Range& range, std::vector<std::int32_t>& vertices,
                   Scratch& scratch) {
-    const WideDivision division(range.size(), options_.full_nodes);
-    const std::size_t nodes_below = count_wide_nodes(division.unit, options_.full_nodes);
+    const WideDivision division(range.size(), options_);
+    const std::size_t nodes_below = count_wide_nodes(division.unit, options_);
     WideNode& node = result_.nodes[node_index];
     std::array<Lane, WIDTH> storage;
     const std::span<Lane> lanes(storage.data(), division.children);

@@ -74,14 +74,17 @@ inline constexpr float NO_LMD_COSINE = 2.0F;
 ///
 /// | builder                          | node tests         | bytes a triangle |
 /// |----------------------------------|--------------------|------------------|
-/// | POSITION, full nodes (default)   | 606 / 1131 / 2212  | 114              |
-/// | POSITION, halved at the middle   | 925 / 1703 / 2975  | 454              |
-/// | NORMAL, weight 0.03              | 621 / 1117 / 2048  | 114              |
-/// | NORMAL, weight 0.3               | 5824 / 6706 / 8267 | 114              |
-/// | ORDER                            | 2430 / 3705 / 6132 | 114              |
-/// | POSITION, one-ring cones         | 1228 / 2829 / 7049 | 114              |
+/// | POSITION, full nodes (default)   | 587 / 856 / 1776   | 114              |
+/// | POSITION, halved at the middle   | 761 / 1134 / 2216  | 454              |
+/// | NORMAL, weight 0.03              | 592 / 877 / 1656   | 114              |
+/// | NORMAL, weight 0.3               | 5364 / 6308 / 8116 | 114              |
+/// | ORDER                            | 2189 / 3286 / 5396 | 114              |
+/// | POSITION, one-ring cones         | 1076 / 2204 / 5296 | 114              |
+/// | width 4                          | 830 / 1240 / 2602  | 133              |
+/// | 2 features a lane                | 500 / 768 / 1518   | 66               |
 ///
-/// One-ring cones also let 30 times as many pairs through to the final tests.
+/// One-ring cones let 14 to 35 times as many pairs through to the final tests, 2 features a lane 6 to 11
+/// times as many. All meshes and rows, width 16 among them, with times: results/reference/builders.md.
 enum class WideSplit : std::uint8_t {
   POSITION,  ///< Median along the longest side of the box of centres.
   NORMAL,    ///< Median along the longest side of the box of centres and cone axes, axes weighted by
@@ -94,7 +97,11 @@ struct WideBuildOptions {
   bool tight_caps =
       true;  ///< Cones from polar cones; false: one-ring cones of face normals (for comparison only).
   bool full_nodes =
-      true;  ///< Divide at multiples of powers of eight, which fills nodes; false: at the middle.
+      true;  ///< Divide at multiples of powers of the width, which fills nodes; false: at the middle.
+  std::size_t width = WIDE_WIDTH;  ///< Children that a node gets, 2 to WIDE_WIDTH; fewer for comparison only.
+  /// Features in the smallest sets, 1 to `width`: sets of more than one get a node of their own, which nodes
+  /// of several features a lane would save. More than one for comparison only.
+  std::size_t leaf_size = 1;
   double normal_weight =
       0.3;  ///< Length that a unit of axis difference counts as, in units of the set's extent.
 };

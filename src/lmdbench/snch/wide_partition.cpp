@@ -60,11 +60,11 @@ class Partition {
   using Places = std::span<Place>;
 
   void divide(Places places) {
-    if (places.size() <= WIDE_WIDTH) {
+    const WideDivision division(places.size(), options_);
+    if (division.unit == 1) {
       std::sort(places.begin(), places.end(), [](const Place& a, const Place& b) { return a.item < b.item; });
       return;
     }
-    const WideDivision division(places.size(), options_.full_nodes);
     bisect(places, division.unit, division.children);
   }
 
@@ -182,22 +182,23 @@ class Partition {
 
 }  // namespace
 
-WideDivision::WideDivision(std::size_t size, bool full_nodes) : unit(1), children(size) {
-  if (size <= WIDE_WIDTH) return;
-  if (full_nodes) {
-    while (unit * WIDE_WIDTH < size) unit *= WIDE_WIDTH;
+WideDivision::WideDivision(std::size_t size, const WideBuildOptions& options) : unit(1), children(size) {
+  if (size <= options.leaf_size) return;
+  if (options.full_nodes) {
+    unit = options.leaf_size;
+    while (unit * options.width < size) unit *= options.width;
   } else {
-    unit = (size + WIDE_WIDTH - 1) / WIDE_WIDTH;
+    unit = (size + options.width - 1) / options.width;
   }
   children = (size + unit - 1) / unit;
 }
 
-std::size_t count_wide_nodes(std::size_t size, bool full_nodes) {
+std::size_t count_wide_nodes(std::size_t size, const WideBuildOptions& options) {
   if (size <= 1) return 0;
-  const WideDivision division(size, full_nodes);
+  const WideDivision division(size, options);
   const std::size_t full = division.children - 1;
-  std::size_t count = 1 + count_wide_nodes(size - full * division.unit, full_nodes);
-  if (full > 0) count += full * count_wide_nodes(division.unit, full_nodes);
+  std::size_t count = 1 + count_wide_nodes(size - full * division.unit, options);
+  if (full > 0) count += full * count_wide_nodes(division.unit, options);
   return count;
 }
 

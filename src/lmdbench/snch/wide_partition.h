@@ -12,14 +12,15 @@ namespace lmdbench {
 /// How a set of features is shared among the children of a node: all but the last child get `unit` of them.
 struct WideDivision {
   std::size_t unit;      ///< Sets are divided at multiples of this.
-  std::size_t children;  ///< At most WIDE_WIDTH.
+  std::size_t children;  ///< At most the width.
 
-  /// Full nodes: the unit is a power of eight, so that below the root only one path of nodes is partly empty.
-  WideDivision(std::size_t size, bool full_nodes);
+  /// Full nodes: the unit is a power of the width, so that below the root only one path of nodes is partly
+  /// empty.
+  WideDivision(std::size_t size, const WideBuildOptions& options);
 };
 
 /// Number of nodes of the tree over a set, this tree's root included; none for a single feature.
-std::size_t count_wide_nodes(std::size_t size, bool full_nodes);
+std::size_t count_wide_nodes(std::size_t size, const WideBuildOptions& options);
 
 /// Puts the items into the order of the tree: every node's children are consecutive parts of its own range,
 /// as WideDivision has it. Ties are broken by the feature, so that the result depends on the mesh alone.
