@@ -77,9 +77,21 @@ def measure(method):
         "true_force_jump_fmax": worst(result.read(f"/reference/force_jump_{method.force_law}")) / force,
         "not_a_number": not_a_number(method),
     }
-    row["stands"] = bool(row["not_a_number"] == 0 and not row["recall_adjacent"] < STANDS_RECALL
-                         and row["force_error_fmax"] <= STANDS_FORCE)
+    row["why_not"] = why_not(row)
+    row["stands"] = not row["why_not"]
     return row
+
+
+def why_not(row):
+    """What keeps a method from standing in a scene, in words; empty where it stands."""
+    reasons = []
+    if row["not_a_number"]:
+        reasons.append(f"{row['not_a_number']} values missing")
+    if row["recall_adjacent"] < STANDS_RECALL:
+        reasons.append(f"misses {100 * (1 - row['recall_adjacent']):.0f} % of the LMDs")
+    if not row["force_error_fmax"] <= STANDS_FORCE:
+        reasons.append(f"force off by {row['force_error_fmax']:.2g} F_max")
+    return reasons
 
 
 def cells(row):
@@ -93,12 +105,28 @@ def cells(row):
     return [row["scene"], row["method"], f"{row['contact_frames']} ({row['touching_frames']})", str(row["lmds_maximum"]),
             percent("recall"), percent("precision"), f"{row['frames_wrong']} of {row['probed_frames']}",
             number(row["distance_error_cutoff"]), number(row["force_error_fmax"]), number(row["force_jump_fmax"]),
-            number(row["true_force_jump_fmax"]), str(row["not_a_number"]), "yes" if row["stands"] else "no"]
+            number(row["true_force_jump_fmax"]), str(row["not_a_number"]), "yes" if row["stands"] else "no: " + ", ".join(row["why_not"])]
 
 
 def markdown(rows):
     lines = ["| " + " | ".join(HEADINGS) + " |", "|" + "---|" * len(HEADINGS)]
     return "\n".join(lines + ["| " + " | ".join(cells(row)) + " |" for row in rows])
+
+
+def standings(rows):
+    """A line a method: in how many scenes it stands, and in how many each criterion fails."""
+    lines = ["| method | stands | misses LMDs | force off | values missing | fewest LMDs known [%] | worst force error [F_max] |",
+             "|" + "---|" * 7]
+    for method in dict.fromkeys(row["method"] for row in rows):
+        own = [row for row in rows if row["method"] == method]
+        known, force = (min(own, key=lambda row: row["recall_adjacent"]), max(own, key=lambda row: row["force_error_fmax"]))
+        lines.append(f"| {method} | {sum(row['stands'] for row in own)} of {len(own)} "
+                     f"| {sum(row['recall_adjacent'] < STANDS_RECALL for row in own)} "
+                     f"| {sum(not row['force_error_fmax'] <= STANDS_FORCE for row in own)} "
+                     f"| {sum(row['not_a_number'] > 0 for row in own)} "
+                     f"| {100 * known['recall_adjacent']:.1f} ({known['scene']}) "
+                     f"| {force['force_error_fmax']:.2g} ({force['scene']}) |")
+    return "\n".join(lines)
 
 
 LEGEND = f"""\
@@ -109,7 +137,7 @@ one in which a search can have arrived. Distance error: the worst. Force error: 
 meshes are apart (in contact no force is the true one), against the true force under the same law. Force jump: the
 largest change from one frame to the next; beside it the largest of the true force in the probed frames. Not a number:
 values that must be numbers and are not. Stands: recall with adjacent features at least {STANDS_RECALL:.0%}, force never off by
-more than {STANDS_FORCE:.0%} of F_max, no value missing."""
+more than {STANDS_FORCE:.0%} of F_max, no value missing; else what is in the way."""
 
 
 def complaints(rows):
@@ -130,7 +158,7 @@ def main(argv):
     parser.add_argument("--check", action="store_true", help="exit code 1 where a promise is broken")
     arguments = parser.parse_args(argv)
     rows = [measure(method) for file in arguments.results for method in Result(file).methods.values()]
-    text = markdown(rows) + "\n\n" + LEGEND + "\n"
+    text = standings(rows) + "\n\n" + markdown(rows) + "\n\n" + LEGEND + "\n"
     print(text, end="")
     if arguments.out:
         with open(f"{arguments.out}.md", "w", encoding="utf-8") as file:
