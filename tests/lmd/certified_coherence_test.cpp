@@ -131,6 +131,30 @@ TEST(CertifiedCoherence, FindsTheTruthWithSeveralFixedBodies) {
   expect_truth_along(scene, 0.3, swing(pose, 2.0, 0.002, 300, random));
 }
 
+TEST(CertifiedCoherence, AJumpLeavesNoWorkBehind) {
+  Scene scene = make_scene(make_blob(1.0, 0.2, 4), make_blob(1.2, 0.3, 4), 0.1);
+  std::mt19937_64 random(8);
+  const Pose begin = grazing_pose(scene, 0.02, random);
+  const Vec3 direction = random_direction(random);
+  std::vector<Pose> slide(80, begin);
+  for (std::size_t frame = 0; frame < slide.size(); ++frame)
+    slide[frame].translation += 2e-4 * static_cast<double>(frame) * direction;
+  Certified certified(scene);
+  LmdSet lmds;
+  const auto work_along_slide = [&] {
+    WorkCounters counters;
+    for (const Pose& pose : slide) certified.search(pose, lmds, counters);
+    return counters[Counter::NODE_PAIRS] + counters[Counter::LEAF_PAIRS];
+  };
+  const std::uint64_t undisturbed = work_along_slide();
+  Pose elsewhere = begin;
+  elsewhere.translation += Vec3(0.0, 0.0, 1.0);
+  WorkCounters ignored;
+  certified.search(elsewhere, lmds, ignored);
+  // The jump there and back is no pace that goes on.
+  EXPECT_LE(work_along_slide(), undisturbed + undisturbed / 4);
+}
+
 TEST(CertifiedCoherence, FindsTheTruthAtRandomPoses) {
   // Nothing coheres: every frame falls back to a search from scratch.
   const Scene scene = make_scene(make_blob(1.0, 0.3, 2), make_torus(1.0, 0.4, 20, 10), 0.0);

@@ -249,12 +249,10 @@ void Certified::search(const Pose& X_WM, LmdSet& lmds, WorkCounters& counters) {
   const double touch = RELATIVE_TOUCH * std::exp2(std::ceil(std::log2(coordinates)));
   bool keep = false;
   if (coherent_) {
-    if (has_last_ && touch == touch_) {
-      keep = clocks_.advance(moving, transform, X_WM, 1e-3 * touch) &&
-             clocks_.largest_shift_pace() <= LARGEST_PACE * scene_.cutoff;
-    } else {
-      clocks_.reset(moving, transform, X_WM);
-    }
+    keep = has_last_ && touch == touch_ && clocks_.advance(moving, transform, X_WM, 1e-3 * touch) &&
+           clocks_.largest_shift_pace() <= LARGEST_PACE * scene_.cutoff;
+    // A jump must not be taken for a pace: what is kept later would be opened for motions that never come.
+    if (!keep) clocks_.reset(moving, transform, X_WM);
     has_last_ = true;
     touch_ = touch;
   }
