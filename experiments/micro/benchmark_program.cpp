@@ -3,28 +3,20 @@
 #include <lmdbench/error.h>
 
 #include <micro/benchmark_program.h>
-#include <micro/bodies.h>
+#include <micro/program.h>
 
 #include <cstdlib>
-#include <exception>
-#include <iostream>
 
 namespace lmdbench::micro {
 
 int run_benchmarks(int argc, char** argv, const std::function<void()>& add) {
   benchmark::Initialize(&argc, argv);
   if (benchmark::ReportUnrecognizedArguments(argc, argv)) return static_cast<int>(ExitCode::USAGE);
-  try {
+  return report_errors([&add] {
     add();
     benchmark::RunSpecifiedBenchmarks();
-  } catch (const Error& error) {
-    std::cerr << "error: " << error.what() << '\n';
-    return static_cast<int>(error.code());
-  } catch (const std::exception& error) {
-    std::cerr << "error: " << error.what() << '\n';
-    return static_cast<int>(ExitCode::INPUT_DATA);
-  }
-  return static_cast<int>(ExitCode::DONE);
+    return static_cast<int>(ExitCode::DONE);
+  });
 }
 
 std::filesystem::path benchmark_meshes() {

@@ -27,8 +27,7 @@ void add_study_options(CLI::App& app, StudyChoice& choice) {
   app.add_option("--json", choice.json, "Also write the tables to this file");
 }
 
-int run_program(CLI::App& app, int argc, const char* const* argv, const std::function<int()>& run) {
-  CLI11_PARSE(app, argc, argv);
+int report_errors(const std::function<int()>& run) {
   try {
     return run();
   } catch (const Error& error) {
@@ -38,6 +37,11 @@ int run_program(CLI::App& app, int argc, const char* const* argv, const std::fun
     std::cerr << "error: " << error.what() << '\n';
     return static_cast<int>(ExitCode::INPUT_DATA);
   }
+}
+
+int run_program(CLI::App& app, int argc, const char* const* argv, const std::function<int()>& run) {
+  CLI11_PARSE(app, argc, argv);
+  return report_errors(run);
 }
 
 void write_report(const std::string& file, const nlohmann::json& report) {

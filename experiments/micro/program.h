@@ -33,8 +33,12 @@ void add_mesh_options(CLI::App& app, SceneChoice& scene);
 /// --meshes, --diagonal, --gap, --cutoff, --poses, --seed and --json. `choice` holds the defaults.
 void add_study_options(CLI::App& app, StudyChoice& choice);
 
-/// Parses the command line and runs the study. Errors are told on standard error.
-/// @return what `run` returns, or the exit code of the error (error.h)
+/// Tells errors on standard error.
+/// @return what `run` returns, or the exit code of its error (error.h)
+int report_errors(const std::function<int()>& run);
+
+/// Parses the command line and runs the study.
+/// @return the exit code, as `report_errors`
 int run_program(CLI::App& app, int argc, const char* const* argv, const std::function<int()>& run);
 
 /// Writes the report, so that the file is the old or the new one at any time; nothing when no file is named.
