@@ -23,11 +23,11 @@ struct RecordedPath {
   Scene scene;
   LockstepInput input;  ///< Poses of the frames.
   DriverChoice driver;
-  std::vector<LockstepMethod> methods;  ///< The experiment's.
-  ForceProfile profile;                 ///< Of what is no method of the experiment.
-  std::vector<LmdSet> lmds = {};             ///< LMDs of every frame, by `certified`.
-  std::vector<std::size_t> checked = {};     ///< Frames whose truth is known, ascending.
-  Truth truth = {};                          ///< One a checked frame, by `exhaustive`.
+  std::vector<LockstepMethod> methods;    ///< The experiment's.
+  ForceProfile profile;                   ///< Of what is no method of the experiment.
+  std::vector<LmdSet> lmds = {};          ///< LMDs of every frame, by `certified`.
+  std::vector<std::size_t> checked = {};  ///< Frames whose truth is known, ascending.
+  Truth truth = {};                       ///< One a checked frame, by `exhaustive`.
 
   const std::vector<Pose>& poses() const { return input.poses; }
   /// @throws std::out_of_range for a label that the experiment has not
