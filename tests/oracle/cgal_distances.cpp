@@ -18,9 +18,11 @@ Kernel::Triangle_3 converted(const Triangle& t) {
 
 }  // namespace
 
-void cgal_distances(std::span<const Triangle> a, std::span<const Triangle> b, std::span<double> distances) {
-  for (std::size_t i = 0; i < distances.size(); ++i) {
-    distances[i] = std::sqrt(CGAL::squared_distance(converted(a[i]), converted(b[i])));
+void cgal_distances(std::span<const Triangle> a, std::span<const Triangle> b,
+                    std::span<DistanceAnswer> answers) {
+  for (std::size_t i = 0; i < answers.size(); ++i) {
+    const double distance = std::sqrt(CGAL::squared_distance(converted(a[i]), converted(b[i])));
+    answers[i] = {distance, distance == 0.0, std::nullopt};
   }
 }
 

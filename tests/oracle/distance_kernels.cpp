@@ -11,22 +11,29 @@
 namespace lmdbench::testing {
 namespace {
 
-void scalar_distances(std::span<const Triangle> a, std::span<const Triangle> b, std::span<double> distances) {
-  for (std::size_t i = 0; i < distances.size(); ++i) {
-    distances[i] = std::sqrt(triangle_distance(a[i], b[i]).squared_distance);
-  }
+DistanceAnswer answer(const TrianglePairDistance& result) {
+  return {std::sqrt(result.squared_distance), result.intersecting, Segment{result.point_a, result.point_b}};
 }
 
-void batch_distances(std::span<const Triangle> a, std::span<const Triangle> b, std::span<double> distances) {
+void scalar_distances(std::span<const Triangle> a, std::span<const Triangle> b,
+                      std::span<DistanceAnswer> answers) {
+  for (std::size_t i = 0; i < answers.size(); ++i) answers[i] = answer(triangle_distance(a[i], b[i]));
+}
+
+void batch_distances(std::span<const Triangle> a, std::span<const Triangle> b,
+                     std::span<DistanceAnswer> answers) {
   thread_local std::vector<TrianglePairDistance> results;
-  results.resize(distances.size());
+  results.resize(answers.size());
   triangle_distance_batch(a, b, results);
-  for (std::size_t i = 0; i < distances.size(); ++i) distances[i] = std::sqrt(results[i].squared_distance);
+  for (std::size_t i = 0; i < answers.size(); ++i) answers[i] = answer(results[i]);
 }
 
-void fcl_distances(std::span<const Triangle> a, std::span<const Triangle> b, std::span<double> distances) {
-  for (std::size_t i = 0; i < distances.size(); ++i)
-    distances[i] = fcl_triangle_distance(a[i], b[i]).distance;
+void fcl_distances(std::span<const Triangle> a, std::span<const Triangle> b,
+                   std::span<DistanceAnswer> answers) {
+  for (std::size_t i = 0; i < answers.size(); ++i) {
+    const double distance = fcl_triangle_distance(a[i], b[i]).distance;
+    answers[i] = {distance, distance == 0.0, std::nullopt};
+  }
 }
 
 }  // namespace
