@@ -81,8 +81,8 @@ TraversalCounts count_traversal(const WideHierarchy& a, const WideHierarchy& b, 
     const WideNode& home_b = b.nodes[slot_b / WIDE_WIDTH];
     const bool open_a = leaf_b > 0 || (leaf_a == 0 && opening_gain(home_a, slot_a % WIDE_WIDTH) >
                                                           opening_gain(home_b, slot_b % WIDE_WIDTH));
-    const WideProbe probe = open_a ? make_probe(home_b, slot_b % WIDE_WIDTH, query.b_in_a)
-                                   : make_probe(home_a, slot_a % WIDE_WIDTH, query.a_in_b);
+    const WideProbe probe = open_a ? make_probe(WideChild(home_b, slot_b % WIDE_WIDTH), query.b_in_a)
+                                   : make_probe(WideChild(home_a, slot_a % WIDE_WIDTH), query.a_in_b);
     const WideHierarchy& opened = open_a ? a : b;
     children.clear();
     const std::uint32_t node = (open_a ? ref_a : ref_b).node_index();

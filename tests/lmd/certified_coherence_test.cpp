@@ -10,6 +10,7 @@
 #include <cstddef>
 #include <numbers>
 #include <random>
+#include <utility>
 #include <vector>
 
 namespace lmdbench {
@@ -177,15 +178,63 @@ TEST(CertifiedCoherence, FindsTheTruthAtRandomPoses) {
   EXPECT_GT(lmds, 30u);
 }
 
-TEST(PairFilter, NothingBecomesAnLmdBeforeItsSlackIsUsedUp) {
+TEST(CertifiedCoherence, FindsTheTruthUnderTremor) {
+  // Forecasts are never right, and must not be needed.
+  const Scene scene = make_scene(make_blob(1.0, 0.3, 2), make_torus(1.0, 0.4, 20, 10), 0.0);
+  std::mt19937_64 random(9);
+  std::vector<Pose> poses = swing(grazing_pose(scene, 0.02, random), 2.0, 0.001, 300, random);
+  for (Pose& pose : poses) {
+    pose.translation += 2e-3 * uniform(random) * random_direction(random);
+    const Eigen::Quaterniond shake(Eigen::AngleAxisd(2e-3 * uniform(random), random_direction(random)));
+    pose.rotation = (shake * pose.rotation).normalized();
+  }
+  expect_truth_along(scene, 0.1, poses);
+}
+
+TEST(CertifiedCoherence, FindsTheTruthWhereTheMotionTurnsRound) {
+  // Long steady stretches, so that plans are long, and then the opposite.
+  const Scene scene = make_scene(make_blob(1.0, 0.3, 3), make_blob(1.0, 0.2, 3), 0.0);
+  std::mt19937_64 random(10);
+  const Pose middle = grazing_pose(scene, 0.02, random);
+  const Vec3 direction = random_direction(random), axis = random_direction(random);
+  std::vector<Pose> poses;
+  for (int frame = 0; frame < 400; ++frame) {
+    const double along = std::abs(frame % 80 - 40.0);
+    Pose pose;
+    pose.translation = middle.translation + 1e-3 * along * direction;
+    pose.rotation =
+        (Eigen::Quaterniond(Eigen::AngleAxisd(2e-3 * along, axis)) * middle.rotation).normalized();
+    poses.push_back(pose);
+  }
+  expect_truth_along(scene, 0.1, poses);
+}
+
+/// Centre and radius of a feature.
+std::pair<Vec3, double> body_of(const Surface& surface, const FeatureId& feature) {
+  const auto index = static_cast<std::size_t>(feature.index);
+  std::vector<Vec3> corners;
+  const auto add = [&](std::int32_t vertex) {
+    corners.push_back(surface.mesh.vertices[static_cast<std::size_t>(vertex)]);
+  };
+  if (feature.kind == FeatureKind::VERTEX) add(feature.index);
+  if (feature.kind == FeatureKind::EDGE)
+    for (const std::int32_t vertex : surface.adjacency.edges[index]) add(vertex);
+  if (feature.kind == FeatureKind::FACE)
+    for (const std::int32_t vertex : surface.mesh.triangles[index]) add(vertex);
+  Vec3 centre = Vec3::Zero();
+  for (const Vec3& corner : corners) centre += corner / static_cast<double>(corners.size());
+  double radius = 0.0;
+  for (const Vec3& corner : corners) radius = std::max(radius, (corner - centre).norm());
+  return {centre, radius};
+}
+
+TEST(PairFilter, NothingIsAnLmdWhileTheRejectionStands) {
   const Scene scene = make_scene(make_blob(1.0, 0.4, 2), make_blob(1.0, 0.3, 2), 0.0);
   const Surface &moving = scene.moving->surface(), &fixed = scene.fixed[0]->surface();
-  const double cutoff = 0.3, radius = scene.moving->wide_hierarchy().radius;
-  const Vec3& origin = scene.moving->wide_hierarchy().origin;
-  const double lever = radius + 2.0 * cutoff;
+  const double cutoff = 0.3;
   std::mt19937_64 random(8);
   WideScratch scratch;
-  std::size_t moved = 0, near_limit = 0;
+  std::size_t stood = 0, far = 0, ended = 0;
   for (int i = 0; i < 40; ++i) {
     const Pose pose = grazing_pose(scene, 0.05, random);
     const RigidTransform before(pose);
@@ -197,36 +246,41 @@ TEST(PairFilter, NothingBecomesAnLmdBeforeItsSlackIsUsedUp) {
                     WideKernel::VECTOR, scratch, counters);
     const PairFilter first{moving, before, fixed, cutoff, 1e-9, 1e-5, 1e-8};
     for (const WidePair& pair : scratch.lmd_pairs) {
-      const PairAnswer answer = first(pair.a.feature_id(), pair.b.feature_id(), lever);
-      if (answer.verdict != PairVerdict::NO_LMD || !(answer.slack > 0.0)) continue;
-      for (int trial = 0; trial < 8; ++trial) {
-        const double size = 0.999 * std::min(answer.slack, 0.5), share = uniform(random);
-        const double angle = share * size / lever;
+      const auto [centre, radius] = body_of(moving, pair.a.feature_id());
+      const PairAnswer answer = first(pair.a.feature_id(), pair.b.feature_id(), radius + 2.0 * cutoff);
+      const PairStanding& standing = answer.standing;
+      if (answer.verdict != PairVerdict::NO_LMD || !(standing.slack > 0.0)) continue;
+      EXPECT_LE(standing.gradient.norm(), 1.0 + 1e-9);
+      for (int trial = 0; trial < 12; ++trial) {
+        const double angle = 0.3 * uniform(random) * uniform(random) * uniform(random);
+        Vec3 displacement = 0.5 * uniform(random) * uniform(random) * random_direction(random);
+        // Motions that lose nothing may be long.
+        if (trial % 2 == 0)
+          displacement -= std::max(0.0, displacement.dot(standing.gradient)) * standing.gradient;
+        const double left = standing.slack - standing.gradient.dot(displacement) -
+                            standing.spread * displacement.norm() - standing.lever * angle;
         Pose after = pose;
         const Eigen::Quaterniond turn(Eigen::AngleAxisd(angle, random_direction(random)));
-        const Vec3 centre = before.point(origin) + (1.0 - share) * size * random_direction(random);
         after.rotation = (turn * pose.rotation).normalized();
-        after.translation = centre - after.rotation * origin;
+        after.translation = before.point(centre) + displacement - after.rotation * centre;
         const RigidTransform transform(after);
         const PairFilter second{moving, transform, fixed, cutoff, 1e-9, 1e-5, 1e-8};
-        ASSERT_NE(second(pair.a.feature_id(), pair.b.feature_id(), lever).verdict, PairVerdict::LMD)
-            << to_string(pair.a.feature_id().kind) << " " << to_string(pair.b.feature_id().kind) << " slack "
-            << answer.slack;
-        ++moved;
-        // Beyond the slack something may well happen: the bound must not be empty.
-        const double angle_beyond = share * 3.0 * size / lever;
-        after.rotation =
-            (Eigen::AngleAxisd(angle_beyond, random_direction(random)) * pose.rotation).normalized();
-        after.translation = before.point(origin) + (1.0 - share) * 3.0 * size * random_direction(random) -
-                            after.rotation * origin;
-        const RigidTransform farther(after);
-        const PairFilter third{moving, farther, fixed, cutoff, 1e-9, 1e-5, 1e-8};
-        if (third(pair.a.feature_id(), pair.b.feature_id(), lever).verdict == PairVerdict::LMD) ++near_limit;
+        const bool is_lmd = second(pair.a.feature_id(), pair.b.feature_id(), 0.0).verdict == PairVerdict::LMD;
+        if (left > 0.0 && angle < standing.turn) {
+          ASSERT_FALSE(is_lmd) << to_string(pair.a.feature_id().kind) << " "
+                               << to_string(pair.b.feature_id().kind) << " slack " << standing.slack
+                               << " left " << left << " turn " << standing.turn;
+          ++stood;
+          if (displacement.norm() > 1.5 * standing.slack) ++far;
+        } else if (is_lmd) {
+          ++ended;
+        }
       }
     }
   }
-  EXPECT_GT(moved, 10000u);
-  EXPECT_GT(near_limit, 20u);
+  EXPECT_GT(stood, 10000u);
+  EXPECT_GT(far, 1000u);
+  EXPECT_GT(ended, 20u);
 }
 
 }  // namespace

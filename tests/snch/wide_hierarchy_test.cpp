@@ -3,9 +3,9 @@
 #include <lmdbench/mesh/polar_cone.h>
 #include <lmdbench/snch/polar_cap.h>
 #include <lmdbench/snch/wide_hierarchy.h>
-#include <lmdbench/snch/wide_slack.h>
 #include <lmdbench/snch/wide_traversal.h>
 
+#include "snch/wide_samples.h"
 #include <gtest/gtest.h>
 #include <support/scenes.h>
 #include <tbb/global_control.h>
@@ -20,20 +20,11 @@
 namespace lmdbench {
 namespace {
 
+using testing::LaneSample;
 using testing::random_direction;
+using testing::random_transform;
+using testing::shapes;
 using testing::uniform;
-
-std::vector<TriangleMesh> shapes() {
-  return {make_blob(1.0, 0.3, 3),
-          make_torus(1.0, 0.4, 20, 10),
-          make_unequal(1.0, 6, 100.0),
-          make_needles(0.5, 2.0, 40),
-          make_patch(2.0, 8, 0.2),
-          make_box({1.0, 2.0, 3.0}, 3),
-          make_l_block(1.0),
-          make_sphere(1.0, 2),
-          translated(make_blob(1.0, 0.3, 2), {1e4, 0.0, 0.0})};
-}
 
 std::vector<FeatureId> all_features(const Surface& surface) {
   std::vector<FeatureId> features;
@@ -243,24 +234,19 @@ TEST(WideHierarchy, OfAnEmptyMeshIsEmpty) {
   EXPECT_TRUE(build_wide_hierarchy(build_surface(TriangleMesh{})).nodes.empty());
 }
 
-/// A random rotation between two hierarchies with the moving one at about `distance`.
-RigidTransform random_pose(double distance, std::mt19937_64& random) {
-  return RigidTransform(Pose{distance * random_direction(random), testing::random_rotation(random)});
-}
-
 TEST(WideNodeTest, VectorAndScalarAgreeBitForBit) {
   std::mt19937_64 random(1);
   std::size_t alive = 0;
   for (const TriangleMesh& mesh : shapes()) {
     const WideHierarchy hierarchy = build_wide_hierarchy(build_surface(mesh));
     for (int i = 0; i < 2000; ++i) {
-      const WideQuery query(hierarchy, hierarchy, random_pose(uniform(random), random), 0.3 * uniform(random),
-                            1e-9);
+      const WideQuery query(hierarchy, hierarchy, random_transform(uniform(random), random),
+                            0.3 * uniform(random), 1e-9);
       const auto& node = hierarchy.nodes[random() % hierarchy.nodes.size()];
       const auto& home = hierarchy.nodes[random() % hierarchy.nodes.size()];
       const auto lane = static_cast<std::uint32_t>(random() % WIDE_WIDTH);
       if (!query.possible || home.child[lane] == 0) continue;
-      const WideProbe probe = make_probe(home, lane, query.a_in_b);
+      const WideProbe probe = make_probe(WideChild(home, lane), query.a_in_b);
       const WideMasks scalar = test_lanes_scalar(node, probe, query.limits);
       const WideMasks vector = test_lanes_vector(node, probe, query.limits);
       ASSERT_EQ(scalar.lmd, vector.lmd);
@@ -274,40 +260,6 @@ TEST(WideNodeTest, VectorAndScalarAgreeBitForBit) {
   EXPECT_GT(alive, 100u);
 }
 
-/// Fills a lane with a random body and cone, and draws a point and a direction inside.
-struct Sample {
-  Vec3 centre, axis, point, direction;
-  double radius, thickness, cosine;
-
-  explicit Sample(std::mt19937_64& random) {
-    centre = uniform(random) * random_direction(random);
-    axis = random_direction(random);
-    radius = 0.3 * uniform(random) * uniform(random);
-    thickness = radius * uniform(random) * uniform(random);
-    cosine = 1.0 - uniform(random) * uniform(random);
-    do {
-      point = radius * uniform(random) * random_direction(random);
-    } while (std::abs(point.dot(axis)) > thickness);
-    point += centre;
-    Vec3 across = axis.unitOrthogonal();
-    across = Eigen::AngleAxisd(2.0 * std::numbers::pi * uniform(random), axis) * across;
-    const double c = cosine + (1.0 - cosine) * uniform(random);
-    direction = c * axis + std::sqrt(1.0 - c * c) * across;
-  }
-
-  void store(WideNode& node, std::size_t lane) const {
-    for (int k = 0; k < 3; ++k) {
-      node.centre[k][lane] = static_cast<float>(centre[k]);
-      node.axis[k][lane] = static_cast<float>(axis[k]);
-    }
-    node.radius[lane] = static_cast<float>(radius + 1e-6);
-    node.thickness[lane] = static_cast<float>(thickness + 1e-6);
-    node.cosine[lane] = std::max(0.0F, static_cast<float>(cosine - 5e-7));
-    node.sine[lane] = std::min(1.0F, static_cast<float>(std::sqrt(1.0 - cosine * cosine) + 5e-7));
-    node.child[lane] = 1;
-  }
-};
-
 TEST(WideNodeTest, NeverRejectsAPairOfOppositeDirections) {
   // The lane is placed so that the direction from the probe's point to the lane's lies in both cones at a
   // distance within the cutoff: whatever the bodies, the pair must survive. Distance at most the touch
@@ -315,8 +267,8 @@ TEST(WideNodeTest, NeverRejectsAPairOfOppositeDirections) {
   std::mt19937_64 random(2);
   std::size_t rejected = 0;
   for (int i = 0; i < 200000; ++i) {
-    const Sample a(random);
-    Sample b(random);
+    const LaneSample a(random);
+    LaneSample b(random);
     const double cutoff = 0.2 * uniform(random);
     const double distance = cutoff * (i % 2 == 0 ? 1.0 : uniform(random));
     // Turn b so that its direction is the opposite of a's, then move its point to a's point + distance.
@@ -327,7 +279,7 @@ TEST(WideNodeTest, NeverRejectsAPairOfOppositeDirections) {
     WideNode home{}, node{};
     a.store(home, 0);
     b.store(node, 3);
-    const WideProbe probe = make_probe(home, 0, WideTransform(Mat3::Identity(), Vec3::Zero()));
+    const WideProbe probe = make_probe(WideChild(home, 0), WideTransform(Mat3::Identity(), Vec3::Zero()));
     const double size = 1.0 + b.centre.norm();
     const WideLimits limits{static_cast<float>(cutoff * (1.0 + 1e-7)),
                             static_cast<float>(distance * (1.0 + 1e-7)),
@@ -344,75 +296,6 @@ TEST(WideNodeTest, NeverRejectsAPairOfOppositeDirections) {
   EXPECT_GT(rejected, 10000u);
 }
 
-TEST(WideSlack, VectorAndScalarAgreeBitForBit) {
-  std::mt19937_64 random(4);
-  std::size_t alive = 0, dead = 0;
-  for (const TriangleMesh& mesh : shapes()) {
-    const WideHierarchy hierarchy = build_wide_hierarchy(build_surface(mesh));
-    for (int i = 0; i < 2000; ++i) {
-      const WideQuery query(hierarchy, hierarchy, random_pose(uniform(random), random), 0.3 * uniform(random),
-                            1e-9);
-      const auto& node = hierarchy.nodes[random() % hierarchy.nodes.size()];
-      const auto& home = hierarchy.nodes[random() % hierarchy.nodes.size()];
-      const auto lane = static_cast<std::uint32_t>(random() % WIDE_WIDTH);
-      const auto touch_lanes = static_cast<std::uint32_t>(random() & 0xFFu);
-      if (!query.possible || home.child[lane] == 0) continue;
-      const WideProbe probe = make_probe(home, lane, query.a_in_b);
-      const WidePaces paces{static_cast<float>(1000.0 * uniform(random)),
-                            static_cast<float>(1000.0 * uniform(random)),
-                            static_cast<float>(4.0 * uniform(random))};
-      const WideSlackMasks scalar = test_lanes_slack_scalar(node, probe, query.limits, paces, touch_lanes);
-      const WideSlackMasks vector = test_lanes_slack(node, probe, query.limits, paces, touch_lanes);
-      ASSERT_EQ(scalar.used, vector.used);
-      ASSERT_EQ(scalar.lmd, vector.lmd);
-      ASSERT_EQ(scalar.touch, vector.touch);
-      ASSERT_EQ(scalar.length_slack, vector.length_slack);
-      ASSERT_EQ(scalar.angle_slack, vector.angle_slack);
-      ++(scalar.lmd != 0 ? alive : dead);
-    }
-  }
-  EXPECT_GT(alive, 100u);
-  EXPECT_GT(dead, 100u);
-}
-
-TEST(WideSlack, NothingBecomesAnLmdBeforeItsSlackIsUsedUp) {
-  // As above, the pair is an LMD after a motion; before the motion the test may reject it, but not with a
-  // slack that the motion is smaller than.
-  std::mt19937_64 random(5);
-  std::size_t rejected = 0;
-  for (int i = 0; i < 200000; ++i) {
-    const Sample a(random);
-    Sample b(random);
-    const double cutoff = 0.2 * uniform(random);
-    const double distance = cutoff * uniform(random);
-    const Mat3 turn = Eigen::Quaterniond::FromTwoVectors(b.direction, -a.direction).toRotationMatrix();
-    const Vec3 offset = a.point + distance * a.direction - turn * b.point;
-    b.centre = turn * b.centre + offset;
-    b.axis = turn * b.axis;
-    // The moving mesh is a, with its centre at the origin and all of it within the radius 1.3.
-    const double lever = 1.3 + 2.0 * cutoff;
-    const double angle = 0.2 * uniform(random) * uniform(random);
-    const Vec3 shift = 0.1 * uniform(random) * uniform(random) * random_direction(random);
-    const Mat3 back = Eigen::AngleAxisd(angle, random_direction(random)).toRotationMatrix();
-    const double motion = shift.norm() + lever * angle;
-    WideNode home{}, node{};
-    a.store(home, 0);
-    b.store(node, 3);
-    const WideProbe probe = make_probe(home, 0, WideTransform(back, shift));
-    const double size = 2.0 + b.centre.norm();
-    const WideLimits limits{static_cast<float>(cutoff * (1.0 + 1e-7)), 0.0F,
-                            static_cast<float>(POSITION_ROUNDING * size)};
-    const WidePaces paces{static_cast<float>(uniform(random)), static_cast<float>(uniform(random)), 0.0F};
-    const WideSlackMasks masks = test_lanes_slack(node, probe, limits, paces, 0u);
-    if (masks.lmd != 0) continue;
-    ++rejected;
-    EXPECT_TRUE(static_cast<double>(masks.length_slack) <= motion * (1.0 + 1e-6) ||
-                static_cast<double>(masks.angle_slack) <= angle * (1.0 + 1e-6))
-        << i;
-  }
-  EXPECT_GT(rejected, 5000u);
-}
-
 TEST(WideTraversal, VectorAndScalarFindTheSamePairs) {
   std::mt19937_64 random(3);
   std::size_t pairs = 0;
@@ -420,7 +303,7 @@ TEST(WideTraversal, VectorAndScalarFindTheSamePairs) {
     const WideHierarchy hierarchy = build_wide_hierarchy(build_surface(mesh));
     for (int i = 0; i < 30; ++i) {
       const WideQuery query(hierarchy, hierarchy,
-                            random_pose(2.0 * hierarchy.radius * uniform(random), random),
+                            random_transform(2.0 * hierarchy.radius * uniform(random), random),
                             0.2 * uniform(random), 1e-9);
       WideScratch vector, scalar;
       WideCounters of_vector, of_scalar;

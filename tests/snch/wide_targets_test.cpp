@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include <lmdbench/snch/wide_slack.h>
+#include <lmdbench/snch/wide_lifetime.h>
 #include <lmdbench/snch/wide_traversal.h>
 
 #include <gtest/gtest.h>
@@ -58,15 +58,21 @@ TEST(WideTargets, EveryInstructionSetFindsTheSamePairsWithTheSameCounters) {
       ASSERT_EQ(counters.rejected_g2, of_reference.rejected_g2);
       ASSERT_EQ(counters.rejected_g3, of_reference.rejected_g3);
 
-      const WideProbe probe = make_probe(a.nodes[0], 0, query.a_in_b);
-      const WidePaces paces{100.0F, 100.0F, 0.1F};
+      const WideProbe probe = make_probe(WideChild(a.nodes[0], 0), query.a_in_b);
+      MotionForecast motion;
+      motion.reset(RigidTransform(), a.radius, 0.2);
+      motion.advance(
+          RigidTransform(Pose{{0.001, 0.0, 0.0}, Eigen::Quaterniond(1.0, 0.001, 0.0, 0.0).normalized()}),
+          1e-12);
+      const WideForecast forecast(motion, RigidTransform(pose), 0.1);
+      const WideLifetimeTest test{false, {0.001F, 0.0F, 0.0F}, 0xFFu};
       for (const WideNode& node : b.nodes) {
-        const WideSlackMasks vector = test_lanes_slack(node, probe, query.limits, paces, 0xFFu);
-        const WideSlackMasks scalar = test_lanes_slack_scalar(node, probe, query.limits, paces, 0xFFu);
+        const WideLifetimes vector = test_lanes_lifetime(node, probe, query.limits, forecast, test);
+        const WideLifetimes scalar = test_lanes_lifetime_scalar(node, probe, query.limits, forecast, test);
         ASSERT_EQ(vector.lmd, scalar.lmd);
         ASSERT_EQ(vector.touch, scalar.touch);
-        ASSERT_EQ(vector.length_slack, scalar.length_slack);
-        ASSERT_EQ(vector.angle_slack, scalar.angle_slack);
+        ASSERT_EQ(vector.frames, scalar.frames);
+        ASSERT_EQ(vector.allowance, scalar.allowance);
       }
     }
   }

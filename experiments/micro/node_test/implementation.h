@@ -38,7 +38,7 @@ struct NodeTestImplementation {
 
 NodeTestImplementation wide_scalar_test();
 NodeTestImplementation wide_vector_test();
-NodeTestImplementation wide_slack_test();
+NodeTestImplementation wide_lifetime_test();
 NodeTestImplementation binary_ray_test();
 NodeTestImplementation binary_line_test();
 

@@ -5,7 +5,8 @@
 namespace lmdbench::micro {
 
 std::vector<NodeTestImplementation> node_test_implementations() {
-  return {binary_ray_test(), binary_line_test(), wide_scalar_test(), wide_vector_test(), wide_slack_test()};
+  return {binary_ray_test(), binary_line_test(), wide_scalar_test(), wide_vector_test(),
+          wide_lifetime_test()};
 }
 
 }  // namespace lmdbench::micro

@@ -77,7 +77,8 @@ void record_pose(const WideHierarchy& a, const WideHierarchy& b, const WideQuery
     const WideRef probe_ref = WideRef::from_bits(home.child[probe_slot % WIDE_WIDTH]);
     WideTest test;
     test.node = &(opening.open_a ? a : b).nodes[opening.node];
-    test.probe = make_probe(home, probe_slot % WIDE_WIDTH, opening.open_a ? query.b_in_a : query.a_in_b);
+    test.probe =
+        make_probe(WideChild(home, probe_slot % WIDE_WIDTH), opening.open_a ? query.b_in_a : query.a_in_b);
     test.limits = query.limits;
     test.touch_lanes = lanes_for_touch(*test.node, probe_ref);
     test.pose = pose;

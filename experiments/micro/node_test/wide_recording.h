@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <lmdbench/snch/wide_slack.h>
+#include <lmdbench/snch/wide_lifetime.h>
 
 #include <micro/node_test/implementation.h>
 
@@ -76,9 +76,9 @@ class WideNodeTest : public NodeTest {
     return a.lmd == b.lmd && a.touch == b.touch && a.used == b.used && a.beyond == b.beyond &&
            a.not_collinear == b.not_collinear;
   }
-  static bool same(const WideSlackMasks& a, const WideSlackMasks& b) {
-    return a.used == b.used && a.lmd == b.lmd && a.touch == b.touch && a.length_slack == b.length_slack &&
-           a.angle_slack == b.angle_slack;
+  static bool same(const WideLifetimes& a, const WideLifetimes& b) {
+    return a.used == b.used && a.lmd == b.lmd && a.touch == b.touch && a.frames == b.frames &&
+           a.allowance == b.allowance;
   }
 
   Scene scene_;  ///< Keeps the nodes alive.

@@ -130,7 +130,7 @@ Certified::Certified(Scene scene, const MethodOptions& options, WideKernel kerne
   for (const auto& body : scene_.fixed) extent = std::max(extent, body->wide_hierarchy().radius);
   // Without a cutoff that means something there is nothing to save, and levers would be without bound.
   coherent_ = coherent_ && scene_.cutoff <= 10.0 * extent;
-  frontiers_.resize(scene_.fixed.size());
+  kept_.resize(scene_.fixed.size());
 }
 
 bool Certified::evaluate(const PairFilter& filter, std::int32_t body, const TrianglePair& pair,
@@ -153,11 +153,11 @@ bool Certified::evaluate(const PairFilter& filter, std::int32_t body, const Tria
 }
 
 /// Settles a candidate or leaves its triangle pairs to decide_pending; returns what WideFrontier asks for.
-double Certified::decide(const PairFilter& filter, std::int32_t body, const WidePair& candidate, double lever,
-                         WorkCounters& counters) {
+PairStanding Certified::decide(const PairFilter& filter, std::int32_t body, const WidePair& candidate,
+                               double lever, WorkCounters& counters) {
   const FeatureId on_moving = candidate.a.feature_id(), on_fixed = candidate.b.feature_id();
   const PairAnswer answer = filter(on_moving, on_fixed, lever);
-  if (answer.verdict == PairVerdict::NO_LMD) return answer.slack;
+  if (answer.verdict == PairVerdict::NO_LMD) return answer.standing;
   const auto triangles_moving = filter.moving.incident_triangles(on_moving);
   const auto triangles_fixed = filter.fixed.incident_triangles(on_fixed);
   Lmd lmd;
@@ -174,17 +174,17 @@ double Certified::decide(const PairFilter& filter, std::int32_t body, const Wide
     ++counters[Counter::FIRST_ORDER_TESTS];
     if (is_local_minimum(filter.moving, filter.X_WM, filter.fixed, lmd)) {
       minima_.push_back({lmd, 0, 0.0});
-      return -1.0;
+      return {};
     }
   }
   // Close to a tie, or the exact test sees the pair otherwise: leave nothing to the closed form.
   for (const std::int32_t t_moving : triangles_moving)
     for (const std::int32_t t_fixed : triangles_fixed) pending_.push_back({t_moving, t_fixed});
-  return -1.0;
+  return {};
 }
 
-double Certified::decide_touching(const PairFilter& filter, std::int32_t body, const WidePair& candidate,
-                                  WorkCounters& counters) {
+PairStanding Certified::decide_touching(const PairFilter& filter, std::int32_t body,
+                                        const WidePair& candidate, double lever, WorkCounters& counters) {
   const TrianglePair pair{candidate.a.feature_id().index, candidate.b.feature_id().index};
   const Triangle a = filter.X_WM.triangle(filter.moving.mesh.triangle(pair.moving));
   const Triangle b = filter.fixed.mesh.triangle(pair.fixed);
@@ -192,11 +192,11 @@ double Certified::decide_touching(const PairFilter& filter, std::int32_t body, c
       filter.X_WM.direction(filter.moving.face_normals[static_cast<std::size_t>(pair.moving)]);
   const Vec3& normal_b = filter.fixed.face_normals[static_cast<std::size_t>(pair.fixed)];
   const double margin = 2.0 * filter.touch;
-  const double gap = clear_gap(a, normal_a, b, normal_b, margin);
-  if (gap > 0.0) return gap - margin;
+  const ClearGap clear = clear_gap(a, normal_a, b, normal_b, margin);
+  if (clear.gap > 0.0) return {clear.gap - margin, clear.axis, 0.0, lever};
   LocalMinimum minimum;
   if (evaluate(filter, body, pair, minimum, counters)) minima_.push_back(minimum);
-  return minimum.lmd.distance > margin ? minimum.lmd.distance - margin : -1.0;
+  return {minimum.lmd.distance - margin, minimum.lmd.direction, 0.0, lever};
 }
 
 void Certified::decide_pending(const PairFilter& filter, std::int32_t body, WorkCounters& counters) {
@@ -247,12 +247,17 @@ void Certified::search(const Pose& X_WM, LmdSet& lmds, WorkCounters& counters) {
   }
   // The same in neighbouring frames, so that what was kept with it stays valid.
   const double touch = RELATIVE_TOUCH * std::exp2(std::ceil(std::log2(coordinates)));
+  const double longest = std::max(scene_.cutoff, touch);  // distance of what is looked for
+  RigidTransform X_WH = transform;
+  X_WH.translation = transform.point(moving.origin);
   bool keep = false;
   if (coherent_) {
-    keep = has_last_ && touch == touch_ && clocks_.advance(moving, transform, X_WM, 1e-3 * touch) &&
-           clocks_.largest_shift_pace() <= LARGEST_PACE * scene_.cutoff;
-    // A jump must not be taken for a pace: what is kept later would be opened for motions that never come.
-    if (!keep) clocks_.reset(moving, transform, X_WM);
+    if (has_last_ && touch == touch_) {
+      motion_.advance(X_WH, 1e-3 * touch);
+      keep = motion_.motion() <= LARGEST_PACE * scene_.cutoff;
+    }
+    // A jump must not be taken for a motion that goes on.
+    if (!keep) motion_.reset(X_WH, moving.radius, longest);
     has_last_ = true;
     touch_ = touch;
   }
@@ -271,17 +276,18 @@ void Certified::search(const Pose& X_WM, LmdSet& lmds, WorkCounters& counters) {
     WideCounters work;
     const auto decide_pair = [&](const WidePair& pair, bool touches, double lever) {
       ++counters[Counter::LEAF_PAIRS];
-      return touches ? decide_touching(filter, body, pair, counters)
+      return touches ? decide_touching(filter, body, pair, lever, counters)
                      : decide(filter, body, pair, lever, counters);
     };
-    WideFrontier& frontier = frontiers_[i];
-    if (keep && query.possible) {
+    WideFrontier& frontier = kept_[i].frontier;
+    if (keep && query.possible && kept_[i].gauge.keep()) {
       if (frontier.empty()) {
-        frontier.start(moving, fixed, query, clocks_, scene_.cutoff, work);
+        frontier.start(moving, fixed, query, motion_, transform, longest, work);
       } else {
-        frontier.advance(moving, fixed, query, clocks_, scene_.cutoff, work);
+        frontier.advance(moving, fixed, query, motion_, transform, longest, work);
+        kept_[i].gauge.note(work.node_tests, frontier.test_count());
       }
-      frontier.for_each_due(clocks_, decide_pair);
+      frontier.for_each_due(moving, motion_, longest, decide_pair);
     } else {
       frontier.clear();
       find_wide_pairs(moving, fixed, query, kernel_, scratch_, work);

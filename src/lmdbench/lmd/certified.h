@@ -3,6 +3,7 @@
 #pragma once
 
 #include <lmdbench/lmd/certified_filter.h>
+#include <lmdbench/lmd/coherence_gauge.h>
 #include <lmdbench/lmd/method.h>
 #include <lmdbench/lmd/method_options.h>
 #include <lmdbench/lmd/plateau.h>
@@ -44,11 +45,13 @@ namespace lmdbench {
 ///
 /// The merging of plateaus is the truth's, and it sees the same minima.
 ///
-/// Frame coherence: where the pose moves by little, step 1 is not made anew; the tests of the last frames are
-/// kept with the motion that each stands (wide_slack.h), and so are the answers of step 2 (PairFilter).
-/// Only what has expired is done again, and what may be an LMD is decided in every frame. Where the pose
-/// jumps, the frame is searched from scratch and nothing is kept. The set is the same either way; the work
-/// counters tell what was done.
+/// Frame coherence: where the pose moves by little, step 1 is not made anew. Every test of the last frames is
+/// kept with the number of frames that it stands if the motion goes on as forecast (wide_lifetime.h), and so
+/// are the answers of step 2 (PairFilter). What a frame does again is what has run out, and whatever the
+/// motion, as it turns out, has deviated too far for (motion_forecast.h); what may be an LMD is decided in
+/// every frame. Where the pose jumps, and where next to nothing stands (coherence_gauge.h), the frame is
+/// searched from scratch and nothing is kept. The set is the same either way; the work counters tell what was
+/// done.
 class Certified : public Method {
  public:
   /// @param kernel form of the node test where the frame is searched from scratch
@@ -68,10 +71,10 @@ class Certified : public Method {
     auto operator<=>(const TrianglePair&) const = default;
   };
 
-  double decide(const PairFilter& filter, std::int32_t body, const WidePair& candidate, double lever,
-                WorkCounters& counters);
-  double decide_touching(const PairFilter& filter, std::int32_t body, const WidePair& candidate,
-                         WorkCounters& counters);
+  PairStanding decide(const PairFilter& filter, std::int32_t body, const WidePair& candidate, double lever,
+                      WorkCounters& counters);
+  PairStanding decide_touching(const PairFilter& filter, std::int32_t body, const WidePair& candidate,
+                               double lever, WorkCounters& counters);
   void decide_pending(const PairFilter& filter, std::int32_t body, WorkCounters& counters);
   bool evaluate(const PairFilter& filter, std::int32_t body, const TrianglePair& pair, LocalMinimum& minimum,
                 WorkCounters& counters) const;
@@ -85,9 +88,14 @@ class Certified : public Method {
   std::vector<TrianglePair> pending_;
   std::vector<LocalMinimum> minima_;
 
-  std::vector<WideFrontier> frontiers_;  ///< One a fixed body; empty where nothing is kept.
-  MotionClocks clocks_;
-  bool has_last_ = false;  ///< The clocks hold the last frame's pose.
+  /// Of one fixed body; empty where nothing is kept.
+  struct Kept {
+    WideFrontier frontier;
+    CoherenceGauge gauge;
+  };
+  std::vector<Kept> kept_;
+  MotionForecast motion_;
+  bool has_last_ = false;  ///< The forecast knows the last frame.
 };
 
 }  // namespace lmdbench

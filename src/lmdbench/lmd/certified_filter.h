@@ -4,6 +4,7 @@
 
 #include <lmdbench/geometry/pose.h>
 #include <lmdbench/mesh/surface.h>
+#include <lmdbench/snch/pair_standing.h>
 
 #include <cstdint>
 
@@ -17,11 +18,10 @@ enum class PairVerdict : std::uint8_t {
               ///< decide.
 };
 
-/// What a test answers, and for how long: a pair without LMD has none either after a motion of the moving
-/// mesh whose size (wide_slack.h) is smaller than `slack`; 0 where nothing is known.
+/// What a test answers, and what that stands.
 struct PairAnswer {
   PairVerdict verdict = PairVerdict::BORDERLINE;
-  double slack = 0.0;  ///< metres; meaningful for NO_LMD only
+  PairStanding standing;  ///< Of NO_LMD.
 };
 
 /// Quantities that a query fixes.
@@ -41,15 +41,18 @@ struct PairFilter {
   /// parallel to an edge or a face within 1e-4, and faces that are parallel, have no single candidate and are
   /// borderline where they can be near.
   ///
-  /// The slack follows from what rejected the pair:
-  /// - too far, or on the inner side of a face: distances to points, lines and planes change by no more than
-  ///   a motion;
-  /// - a foot beyond an end or side by h: so do distances to the planes through an end or side, square to the
-  ///   edge or face. Two edges at the angle alpha: the plane through one edge and the common perpendicular n
-  ///   also turns, by no more than n; n turns by phi <= (pi / 3) theta / sin(alpha) while
-  ///   theta <= sin(alpha) / 2;
-  /// - d leaves a cone by d . e > 0 for a unit e: changes by no more than d does, or by |d| times the angle
-  ///   where the direction is a face's normal or n.
+  /// What the rejection stands (wide_lifetime.h) follows from what rejected the pair:
+  /// - too far, or on the inner side of a face: distances of points, lines and planes are convex in a
+  ///   displacement, and their gradient is the unit vector between the nearest points;
+  /// - a foot beyond an end or side by h: the distance from the plane through the end or side, square to the
+  ///   edge or face, is linear. Two edges at the angle alpha: the plane through one edge and the common
+  ///   perpendicular n also turns, by no more than n; n turns by phi <= (pi / 3) theta / sin(alpha) while
+  ///   theta <= sin(alpha) / 2, which is a lever of its own, and phi |Delta| is a spread;
+  /// - d leaves a cone by d . e > 0 for a unit e: linear where d is the difference of two points, or of a
+  /// point
+  ///   and its foot on an edge; where d is along a face's normal or n, it changes by |d| times the angle.
+  ///
+  /// @param lever of the moving feature: its radius about its centre and two cutoffs [m]
   PairAnswer operator()(const FeatureId& on_moving, const FeatureId& on_fixed, double lever) const;
 };
 

@@ -10,20 +10,21 @@ namespace lmdbench {
 
 namespace {
 
-/// Distance of a from b's plane; negative when it is cut. A zero normal separates nothing.
-double gap_to_plane(const Triangle& a, const Triangle& b, const Vec3& normal_b) {
+/// Gap between a and b's plane, with the axis from a towards it. A zero normal separates nothing.
+ClearGap gap_to_plane(const Triangle& a, const Triangle& b, const Vec3& normal_b) {
   const double h0 = normal_b.dot(a[0] - b[0]), h1 = normal_b.dot(a[1] - b[0]), h2 = normal_b.dot(a[2] - b[0]);
-  return std::max(std::min({h0, h1, h2}), -std::max({h0, h1, h2}));
+  const double above = std::min({h0, h1, h2}), below = -std::max({h0, h1, h2});
+  return above >= below ? ClearGap{above, -normal_b} : ClearGap{below, normal_b};
 }
 
 }  // namespace
 
-double clear_gap(const Triangle& a, const Vec3& normal_a, const Triangle& b, const Vec3& normal_b,
-                 double margin) {
-  const double over_b = gap_to_plane(a, b, normal_b);
-  if (over_b > margin) return over_b;
-  const double over_a = gap_to_plane(b, a, normal_a);
-  if (over_a > margin) return over_a;
+ClearGap clear_gap(const Triangle& a, const Vec3& normal_a, const Triangle& b, const Vec3& normal_b,
+                   double margin) {
+  const ClearGap over_b = gap_to_plane(a, b, normal_b);
+  if (over_b.gap > margin) return over_b;
+  const ClearGap over_a = gap_to_plane(b, a, normal_a);
+  if (over_a.gap > margin) return {over_a.gap, -over_a.axis};
   // Everything from a's first corner: differences of nearby points, no large coordinates.
   const Vec3& origin = a[0];
   const std::array<Vec3, 2> corners_a{a[1] - origin, a[2] - origin};
@@ -36,12 +37,15 @@ double clear_gap(const Triangle& a, const Vec3& normal_a, const Triangle& b, con
       const Vec3 axis = side_a.cross(side_b);
       const double a1 = axis.dot(corners_a[0]), a2 = axis.dot(corners_a[1]);
       const double b0 = axis.dot(corners_b[0]), b1 = axis.dot(corners_b[1]), b2 = axis.dot(corners_b[2]);
-      const double gap = std::max(std::min({b0, b1, b2}) - std::max({0.0, a1, a2}),
-                                  std::min({0.0, a1, a2}) - std::max({b0, b1, b2}));
-      if (gap > 0.0 && gap * gap > margin * margin * axis.squaredNorm()) return gap / axis.norm();
+      const double ahead = std::min({b0, b1, b2}) - std::max({0.0, a1, a2}),
+                   behind = std::min({0.0, a1, a2}) - std::max({b0, b1, b2});
+      const double gap = std::max(ahead, behind);
+      if (!(gap > 0.0 && gap * gap > margin * margin * axis.squaredNorm())) continue;
+      const double length = axis.norm();
+      return {gap / length, (ahead > behind ? 1.0 : -1.0) / length * axis};
     }
   }
-  return 0.0;
+  return {};
 }
 
 }  // namespace lmdbench

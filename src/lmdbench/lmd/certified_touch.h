@@ -6,12 +6,18 @@
 
 namespace lmdbench {
 
-/// A lower bound of the triangles' distance: the gap along the first axis that shows one above `margin`, out
-/// of both normals and the products of two sides (the separating axes of two convex bodies). 0 means "perhaps
-/// none": nothing relies on it but the saving of an exact distance, so no care is needed for parallel sides.
+/// A lower bound of the triangles' distance: the gap along an axis.
+struct ClearGap {
+  double gap = 0.0;          ///< metres; 0: perhaps none
+  Vec3 axis = Vec3::Zero();  ///< Unit vector from a towards b along which the gap is.
+};
+
+/// The gap along the first axis that shows one above `margin`, out of both normals and the products of two
+/// sides (the separating axes of two convex bodies). Nothing relies on it but the saving of an exact
+/// distance, so no care is needed for parallel sides.
 /// @param normal_a unit normal, or zero for a triangle without area
 /// @param margin   far above the rounding of the coordinates
-double clear_gap(const Triangle& a, const Vec3& normal_a, const Triangle& b, const Vec3& normal_b,
-                 double margin);
+ClearGap clear_gap(const Triangle& a, const Vec3& normal_a, const Triangle& b, const Vec3& normal_b,
+                   double margin);
 
 }  // namespace lmdbench

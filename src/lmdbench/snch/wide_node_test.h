@@ -87,19 +87,35 @@ struct alignas(16) WideTransform {
   }
 };
 
-/// A lane of a node as probe, moved by `X`.
-inline WideProbe make_probe(const WideNode& node, std::uint32_t lane, const WideTransform& X) {
+/// A lane of a node, in its own mesh's frame.
+struct WideChild {
+  float centre[3], radius, axis[3], thickness, cosine, sine;
+  WideRef ref;
+
+  WideChild() = default;
+  WideChild(const WideNode& node, std::uint32_t lane)
+      : centre{node.centre[0][lane], node.centre[1][lane], node.centre[2][lane]},
+        radius(node.radius[lane]),
+        axis{node.axis[0][lane], node.axis[1][lane], node.axis[2][lane]},
+        thickness(node.thickness[lane]),
+        cosine(node.cosine[lane]),
+        sine(node.sine[lane]),
+        ref(WideRef::from_bits(node.child[lane])) {}
+};
+
+/// The child as probe, moved by `X`.
+inline WideProbe make_probe(const WideChild& child, const WideTransform& X) {
   WideProbe probe{};
   for (int i = 0; i < 3; ++i) {
-    probe.centre[i] = X.columns[0][i] * node.centre[0][lane] + X.columns[1][i] * node.centre[1][lane] +
-                      X.columns[2][i] * node.centre[2][lane] + X.translation[i];
-    probe.axis[i] = X.columns[0][i] * node.axis[0][lane] + X.columns[1][i] * node.axis[1][lane] +
-                    X.columns[2][i] * node.axis[2][lane];
+    probe.centre[i] = X.columns[0][i] * child.centre[0] + X.columns[1][i] * child.centre[1] +
+                      X.columns[2][i] * child.centre[2] + X.translation[i];
+    probe.axis[i] =
+        X.columns[0][i] * child.axis[0] + X.columns[1][i] * child.axis[1] + X.columns[2][i] * child.axis[2];
   }
-  probe.radius = node.radius[lane];
-  probe.thickness = node.thickness[lane];
-  probe.cosine = node.cosine[lane];
-  probe.sine = node.sine[lane];
+  probe.radius = child.radius;
+  probe.thickness = child.thickness;
+  probe.cosine = child.cosine;
+  probe.sine = child.sine;
   return probe;
 }
 

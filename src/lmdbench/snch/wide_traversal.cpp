@@ -146,7 +146,7 @@ void descend(const WideHierarchy& a, const WideHierarchy& b, const WideQuery& qu
     const WideRef ref_b = WideRef::from_bits(home_b.child[lane_b]);
     const WideOpening opening = choose_opening(a, b, slot_a, slot_b);
     const bool open_a = opening.open_a;
-    const WideProbe probe = make_probe_vector(open_a ? home_b : home_a, open_a ? lane_b : lane_a,
+    const WideProbe probe = make_probe_vector(open_a ? WideChild(home_b, lane_b) : WideChild(home_a, lane_a),
                                               open_a ? query.b_in_a : query.a_in_b);
     const WideRef probe_ref = open_a ? ref_b : ref_a;
     const WideNode& node = (open_a ? nodes_a : nodes_b)[opening.node];
