@@ -17,12 +17,12 @@ class CgalVertices : public GlobalSearch {
         fixed_tree_(fixed_->surface().mesh) {}
 
   void run(const Pose& X_WM) override {
-    const RigidTransform X_to_fixed(X_WM), X_to_moving(X_WM.inverse());
+    const RigidTransform X(X_WM), X_MW(X_WM.inverse());
     const std::vector<Vec3>& vertices = moving_->surface().mesh.vertices;
-    minimum_ = fixed_tree_.distance(X_to_fixed.point(vertices.front()));
-    for (const Vec3& vertex : vertices) minimum_ = fixed_tree_.distance(X_to_fixed.point(vertex), minimum_);
+    minimum_ = fixed_tree_.distance(X.point(vertices.front()));
+    for (const Vec3& vertex : vertices) minimum_ = fixed_tree_.distance(X.point(vertex), minimum_);
     for (const Vec3& vertex : fixed_->surface().mesh.vertices)
-      minimum_ = moving_tree_.distance(X_to_moving.point(vertex), minimum_);
+      minimum_ = moving_tree_.distance(X_MW.point(vertex), minimum_);
   }
   double minimum_distance() const override { return minimum_; }
   const LmdSet* lmds() const override { return nullptr; }
