@@ -28,7 +28,6 @@ inline constexpr float LEAST = 1e-30F;
 inline constexpr float NO_CHOICE = 1e30F;
 /// Tests between the one that is made and the one whose node is fetched.
 inline constexpr std::size_t FETCH_DISTANCE = 2;
-inline constexpr std::size_t CACHE_LINE = 64;
 
 }  // namespace lmdbench
 #endif
@@ -226,12 +225,6 @@ HWY_INLINE WideLifetimes test_lifetime(const WideNode& node, const WideProbe& pr
 void TestLifetime(const WideNode& node, const WideProbe& probe, const WideLimits& limits,
                   const WideForecast& forecast, const WideLifetimeTest& test, WideLifetimes& result) {
   result = test_lifetime(node, probe, limits, forecast, test);
-}
-
-/// Brings a node near.
-HWY_INLINE void fetch(const WideNode& node) {
-  const auto* const bytes = reinterpret_cast<const char*>(&node);
-  for (std::size_t i = 0; i < sizeof(WideNode); i += CACHE_LINE) __builtin_prefetch(bytes + i);
 }
 
 /// Nothing here depends on an earlier test, so that a processor works on several at once.

@@ -5,6 +5,7 @@
 #include <lmdbench/snch/wide_traversal.h>
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <limits>
@@ -23,6 +24,8 @@ namespace lmdbench::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
+/// Pairs of the queue that are looked at before their turn, to fetch what they will open: a power of two.
+constexpr std::size_t LOOK_AHEAD = 8;
 /// Entries of a queue that has never been used; it grows by doubling.
 constexpr std::size_t QUEUE_START = 4096;
 
@@ -133,7 +136,8 @@ void descend(const WideHierarchy& a, const WideHierarchy& b, const WideQuery& qu
   const hn::RebindToUnsigned<Lanes> u;
   if (scratch.queue_a.size() < QUEUE_START) scratch.resize_queue(QUEUE_START);
   scratch.queue_a[0] = scratch.queue_b[0] = 0;
-  std::size_t end = 1;
+  std::size_t end = 1, looked_at = 0;
+  std::array<WideOpening, LOOK_AHEAD> openings;
   for (std::size_t next = 0; next < end; ++next) {
     if (end + WIDE_WIDTH > scratch.queue_a.size()) scratch.resize_queue(2 * scratch.queue_a.size());
     std::uint32_t* const queue_a = scratch.queue_a.data();
@@ -144,7 +148,12 @@ void descend(const WideHierarchy& a, const WideHierarchy& b, const WideQuery& qu
     const std::uint32_t lane_a = slot_a % WIDE_WIDTH, lane_b = slot_b % WIDE_WIDTH;
     const WideRef ref_a = WideRef::from_bits(home_a.child[lane_a]);
     const WideRef ref_b = WideRef::from_bits(home_b.child[lane_b]);
-    const WideOpening opening = choose_opening(a, b, slot_a, slot_b);
+    for (; looked_at < std::min(end, next + LOOK_AHEAD); ++looked_at) {
+      const WideOpening ahead = choose_opening(a, b, queue_a[looked_at], queue_b[looked_at]);
+      fetch((ahead.open_a ? nodes_a : nodes_b)[ahead.node]);
+      openings[looked_at % LOOK_AHEAD] = ahead;
+    }
+    const WideOpening opening = openings[next % LOOK_AHEAD];
     const bool open_a = opening.open_a;
     const WideProbe probe = make_probe_vector(open_a ? WideChild(home_b, lane_b) : WideChild(home_a, lane_a),
                                               open_a ? query.b_in_a : query.a_in_b);
