@@ -44,7 +44,8 @@ class EdgeTriangles {
   /// Memory that the lists take.
   std::size_t bytes() const {
     std::size_t sum = pairs_.size() * sizeof(pairs_[0]);
-    for (const auto& row : rows_) sum += sizeof(row) + row.capacity() * sizeof(row[0]);
+    for (const auto& row : rows_)
+      sum += sizeof(std::vector<std::int32_t>) + row.capacity() * sizeof(std::int32_t);
     return sum;
   }
 

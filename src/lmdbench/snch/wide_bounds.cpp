@@ -69,7 +69,7 @@ HWY_INLINE Vectors unit(const Vectors& v) {
   return scale(hn::Div(hn::Set(Lanes(), 1.0F), hn::Sqrt(dot(v, v))), v);
 }
 
-void FindLaneAxes(const LaneCaps& caps, int steps, LaneVectors& axes) {
+void lane_axes(const LaneCaps& caps, int steps, LaneVectors& axes) {
   // Axes that are this close to the widest cap's have no direction to go.
   constexpr float LEAST_SQUARED_ACROSS = 1e-12F;
   const Lanes f;
@@ -109,7 +109,7 @@ void FindLaneAxes(const LaneCaps& caps, int steps, LaneVectors& axes) {
   }
 }
 
-void FindLaneCentres(const LaneSets& points, const LaneVectors& axes, int steps, LaneVectors& centres) {
+void lane_centres(const LaneSets& points, const LaneVectors& axes, int steps, LaneVectors& centres) {
   const Lanes f;
   const auto half = hn::Set(f, 0.5F);
   for (std::size_t first = 0; first < WIDE_WIDTH; first += hn::Lanes(f)) {
@@ -156,8 +156,8 @@ HWY_AFTER_NAMESPACE();
 
 namespace lmdbench {
 
-HWY_EXPORT(FindLaneAxes);
-HWY_EXPORT(FindLaneCentres);
+HWY_EXPORT(lane_axes);
+HWY_EXPORT(lane_centres);
 
 void LaneSets::resize(std::size_t vectors) {
   count = vectors;
@@ -172,11 +172,11 @@ void LaneCaps::resize(std::size_t caps) {
 }
 
 void find_lane_axes(const LaneCaps& caps, int steps, LaneVectors& axes) {
-  HWY_DYNAMIC_DISPATCH(FindLaneAxes)(caps, steps, axes);
+  HWY_DYNAMIC_DISPATCH(lane_axes)(caps, steps, axes);
 }
 
 void find_lane_centres(const LaneSets& points, const LaneVectors& axes, int steps, LaneVectors& centres) {
-  HWY_DYNAMIC_DISPATCH(FindLaneCentres)(points, axes, steps, centres);
+  HWY_DYNAMIC_DISPATCH(lane_centres)(points, axes, steps, centres);
 }
 
 }  // namespace lmdbench
