@@ -2,10 +2,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/lmd/exhaustive.h>
 #include <lmdbench/lmd/first_order.h>
+#include <lmdbench/lmd/registry.h>
 
 #include <gtest/gtest.h>
 #include <support/scenes.h>
 
+#include <cmath>
 #include <set>
 #include <tuple>
 
@@ -194,6 +196,23 @@ TEST(Exhaustive, SeesEveryFixedBody) {
   std::set<std::int32_t> bodies;
   for (const Lmd& lmd : lmds) bodies.insert(lmd.fixed_body);
   EXPECT_EQ(bodies, (std::set<std::int32_t>{0, 1}));
+}
+
+TEST(Exhaustive, NearlyParallelFacesAreOneContactAtAnyTilt) {
+  // From far below the tolerance of the first-order test to far above it: the whole overlap, then one corner.
+  const Scene scene = make_scene(make_box({0.06, 0.06, 0.06}, 2), make_box({0.3, 0.3, 0.01}, 5), 0.005);
+  for (int step = 0; step <= 60; ++step) {
+    const double tilt = 1e-11 * std::pow(1.15, step);
+    Pose pose;
+    pose.translation = {0.01, 0.02, 0.0355};
+    pose.rotation = Eigen::AngleAxisd(tilt, Vec3(1.0, 0.3, 0.0).normalized());
+    for (const char* name : {"exhaustive", "certified"}) {
+      LmdSet lmds;
+      WorkCounters counters;
+      make_method(name, scene)->search(pose, lmds, counters);
+      EXPECT_EQ(lmds.size(), 1u) << name << ", tilt " << tilt;
+    }
+  }
 }
 
 }  // namespace

@@ -19,7 +19,7 @@ bool same_features(const Lmd& found, const ExactLmd& exact) {
 /// The plateau's own tolerance (lmd/plateau.h): equal distance vectors but for rounding and for the tilt of
 /// faces that still count as parallel, here also in one plane of contact.
 bool same_contact(const Lmd& found, const ExactLmd& exact) {
-  constexpr double PLATEAU = 1e-9, PARALLEL = 2e-10;
+  constexpr double PLATEAU = 1e-9, PARALLEL = 2e-9;
   if (found.fixed_body != exact.fixed_body) return false;
   const Vec3 apart = found.point_moving - exact.point_moving;
   const double coordinates =

@@ -97,7 +97,7 @@ std::string judgement_table(const std::vector<Judgement>& judgements) {
   return text + R"(
 Exact LMDs: feature pairs whose critical pair of distance meets the first-order condition on both sides in exact
 arithmetic, by brute force. Each is known with the same features, or as a part of a plateau (edges or faces parallel to
-a sine of 2e-10) that the method reports as one LMD, or missed. Left to rounding: not known, but the distance is within
+a sine of 2e-9) that the method reports as one LMD, or missed. Left to rounding: not known, but the distance is within
 rounding of zero or the cutoff, or a triangle has no area. Sharing a plane: reported LMDs in one plane of contact with
 another one: pieces of a plateau that tolerances tore apart, or several feet on one plane. True by tolerance: reported
 LMDs that meet the condition but for a sine of 1e-9 and rounding: features that are parallel up to rounding, and

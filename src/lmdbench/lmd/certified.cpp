@@ -149,7 +149,9 @@ bool Certified::evaluate(const PairFilter& filter, std::int32_t body, const Tria
   minimum.dimension = nearest.minimiser_dimension;
   minimum.measure = nearest.minimiser_measure;
   ++counters[Counter::FIRST_ORDER_TESTS];
-  return is_local_minimum(filter.moving, filter.X_WM, filter.fixed, minimum.lmd);
+  minimum.strict = is_local_minimum(filter.moving, filter.X_WM, filter.fixed, minimum.lmd);
+  return minimum.strict ||
+         is_local_minimum(filter.moving, filter.X_WM, filter.fixed, minimum.lmd, PLATEAU_PIECE_TOLERANCE);
 }
 
 /// Settles a candidate or leaves its triangle pairs to decide_pending; returns what WideFrontier asks for.
@@ -217,6 +219,9 @@ void Certified::report(double coordinates, LmdSet& lmds) {
            std::tie(b.lmd.fixed_body, b.lmd.feature_moving, b.lmd.feature_fixed, b.lmd.distance, a.measure,
                     b.lmd.triangle_moving, b.lmd.triangle_fixed);
   });
+  // What is erased leaves its strictness to the one that stays, as in merge_plateaus.
+  for (std::size_t i = minima_.size(); i-- > 1;)
+    if (same_feature_pair(minima_[i - 1].lmd, minima_[i].lmd)) minima_[i - 1].strict |= minima_[i].strict;
   minima_.erase(std::unique(minima_.begin(), minima_.end(),
                             [](const LocalMinimum& a, const LocalMinimum& b) {
                               return same_feature_pair(a.lmd, b.lmd);
@@ -232,7 +237,8 @@ void Certified::report(double coordinates, LmdSet& lmds) {
     }
   }
   lmds.clear();
-  for (const LocalMinimum& minimum : minima_) lmds.push_back(minimum.lmd);
+  for (const LocalMinimum& minimum : minima_)
+    if (minimum.strict) lmds.push_back(minimum.lmd);
   std::sort(lmds.begin(), lmds.end(), lmd_less);
 }
 

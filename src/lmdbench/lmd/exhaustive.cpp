@@ -42,7 +42,10 @@ void Exhaustive::search(const Pose& X_WM, LmdSet& lmds, WorkCounters& counters) 
         minimum.dimension = pair.minimiser_dimension;
         minimum.measure = pair.minimiser_measure;
         ++counters[Counter::FIRST_ORDER_TESTS];
-        if (is_local_minimum(moving, transform, fixed, minimum.lmd)) minima_.push_back(minimum);
+        minimum.strict = is_local_minimum(moving, transform, fixed, minimum.lmd);
+        if (minimum.strict ||
+            is_local_minimum(moving, transform, fixed, minimum.lmd, PLATEAU_PIECE_TOLERANCE))
+          minima_.push_back(minimum);
       });
     }
   }

@@ -12,6 +12,10 @@ namespace lmdbench {
 /// the directions, far below any dihedral angle that a mesh means. Useful range 1e-12 .. 1e-8.
 inline constexpr double FIRST_ORDER_TOLERANCE = 1e-10;
 
+/// The same for the pieces of a plateau: wider, so that a plateau of which some piece passes the test holds
+/// together although others are tilted by a little more. A plateau needs a piece that passes the narrow test.
+inline constexpr double PLATEAU_PIECE_TOLERANCE = 10.0 * FIRST_ORDER_TOLERANCE;
+
 /// The first-order LMD condition of design section 2 for one side: no point of the triangles incident to
 /// `feature` is nearer to the other point to first order, and the direction leaves on the outer side,
 ///   n . (x - p) <= 0 for every corner x of those triangles, n . pseudo_normal > 0.
@@ -20,12 +24,13 @@ inline constexpr double FIRST_ORDER_TOLERANCE = 1e-10;
 /// that of non-manifold features, which have no side.
 /// @param p_W  the point on `feature`, world frame
 /// @param d_W  vector from p_W to the other point, not zero, any length, world frame
+/// @param tolerance  sine by which d_W may leave the cone
 bool in_outward_polar_cone(const Surface& surface, const RigidTransform& X_WS, const FeatureId& feature,
-                           const Vec3& p_W, const Vec3& d_W);
+                           const Vec3& p_W, const Vec3& d_W, double tolerance = FIRST_ORDER_TOLERANCE);
 
 /// Both sides of a pair: d in N_A(p) and -d in N_B(q). A pair at distance 0 has no direction and counts as an
 /// LMD (decision E12).
-bool is_local_minimum(const Surface& moving, const RigidTransform& X_WM, const Surface& fixed,
-                      const Lmd& lmd);
+bool is_local_minimum(const Surface& moving, const RigidTransform& X_WM, const Surface& fixed, const Lmd& lmd,
+                      double tolerance = FIRST_ORDER_TOLERANCE);
 
 }  // namespace lmdbench

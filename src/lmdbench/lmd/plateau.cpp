@@ -58,7 +58,7 @@ bool same_plane_of_contact(const Lmd& a, const Lmd& b) {
   const double coordinates =
       std::max(a.point_moving.cwiseAbs().maxCoeff(), a.point_fixed.cwiseAbs().maxCoeff());
   const double rounding = 64.0 * std::numeric_limits<double>::epsilon() * coordinates +
-                          2.0 * FIRST_ORDER_TOLERANCE * (a.point_moving - b.point_moving).norm();
+                          2.0 * PLATEAU_PIECE_TOLERANCE * (a.point_moving - b.point_moving).norm();
   if (std::abs(a.distance - b.distance) > PLATEAU_TOLERANCE * std::max(a.distance, b.distance) + rounding)
     return false;
   const Vec3 difference = (a.point_fixed - a.point_moving) - (b.point_fixed - b.point_moving);
@@ -118,6 +118,9 @@ void merge_plateaus(const Scene& scene, std::vector<LocalMinimum>& minima, LmdSe
     return std::tie(a.lmd.triangle_moving, a.lmd.triangle_fixed) <
            std::tie(b.lmd.triangle_moving, b.lmd.triangle_fixed);
   });
+  // What is erased leaves its strictness to the one that stays.
+  for (std::size_t i = minima.size(); i-- > 1;)
+    if (same_feature_pair(minima[i - 1].lmd, minima[i].lmd)) minima[i - 1].strict |= minima[i].strict;
   minima.erase(std::unique(minima.begin(), minima.end(),
                            [](const LocalMinimum& a, const LocalMinimum& b) {
                              return same_feature_pair(a.lmd, b.lmd);
@@ -161,6 +164,12 @@ void merge_plateaus(const Scene& scene, std::vector<LocalMinimum>& minima, LmdSe
   for (std::size_t begin = 0; begin < order.size();) {
     std::size_t end = begin + 1;
     while (end < order.size() && parents[order[begin]] == parents[order[end]]) ++end;
+    if (std::none_of(order.begin() + static_cast<std::ptrdiff_t>(begin),
+                     order.begin() + static_cast<std::ptrdiff_t>(end),
+                     [&](std::size_t i) { return minima[i].strict; })) {
+      begin = end;
+      continue;
+    }
     if (end - begin == 1) {
       lmds.push_back(minima[order[begin]].lmd);
     } else {

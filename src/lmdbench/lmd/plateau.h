@@ -15,6 +15,9 @@ struct LocalMinimum {
   Lmd lmd;
   int dimension = 0;
   double measure = 0.0;
+  /// Meets the condition to FIRST_ORDER_TOLERANCE; else only to PLATEAU_PIECE_TOLERANCE, and counts as a
+  /// piece of a plateau alone.
+  bool strict = true;
 };
 
 /// Relative difference of two distances, and angle of two directions, below which neighbouring minima are one
@@ -24,8 +27,9 @@ inline constexpr double PLATEAU_TOLERANCE = 1e-9;
 /// Makes the LMD set out of local minima: one entry a feature pair, and one entry a plateau. Parallel edges
 /// or faces have a whole segment or polygon of minimisers that spreads over many feature pairs; neighbouring
 /// pairs of equal distance and direction are joined, and the plateau is represented by the centroid of its
-/// pieces of the highest dimension, on the features of the piece nearest to it (design section 2). The result
-/// depends on the set alone, never on the order of `minima`; it is sorted by `lmd_less`.
+/// pieces of the highest dimension, on the features of the piece nearest to it (design section 2). Plateaus
+/// without a strict piece are dropped. The result depends on the set alone, never on the order of `minima`;
+/// it is sorted by `lmd_less`.
 void merge_plateaus(const Scene& scene, std::vector<LocalMinimum>& minima, LmdSet& lmds);
 
 }  // namespace lmdbench
