@@ -310,7 +310,9 @@ TEST(PolarConeTest, NonManifoldFeaturesHaveNoSide) {
 
 TEST(PolarConeTest, FoldedSheetKeepsTheHalfPlaneOfItsFold) {
   const Surface fold = hinge(M_PI);
-  ASSERT_LT(fold.pseudo_normal({FeatureKind::EDGE, 0}).norm() * (fold.face_normals[0] + fold.face_normals[1]).norm(), 1e-9);
+  ASSERT_LT(fold.pseudo_normal({FeatureKind::EDGE, 0}).norm() *
+                (fold.face_normals[0] + fold.face_normals[1]).norm(),
+            1e-9);
   const FeatureId edge = edge_between(fold, 0, 1);
   const PolarCone cone = polar_cone(fold, edge);
   ASSERT_FALSE(cone.empty());
