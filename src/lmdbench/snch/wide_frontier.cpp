@@ -68,10 +68,11 @@ void WideFrontier::plan_leaf(const WideHierarchy& a, const MotionForecast& motio
   const Vec3 velocity = motion.turn() * c + motion.origin_velocity();
   const double loss = standing.gradient.dot(velocity) + standing.spread * velocity.norm() +
                       standing.lever * motion.spin() + (1.0 + standing.spread) * motion.creep();
-  // As the node test does it. What deviates counts for Delta and theta alike (MotionForecast::deviation), and
-  // by `weight` more.
+  // As the node test does it. A deviation of t + a * reach (MotionForecast::deviation) displaces the centre
+  // by t + a * radius at most and turns by 0.72 a; for levers above half the reach that is not all, and the
+  // spread counts it again: `weight` makes up for both.
   const double share = static_cast<double>(DEVIATION_SHARE);
-  const double weight = (1.0 + standing.spread) * std::max(1.0, standing.lever / motion.reach());
+  const double weight = (1.0 + standing.spread) * std::max(1.0, 2.0 * standing.lever / motion.reach());
   const auto frames_of = [&](double slack, double loss_a_frame) {
     return (slack * (1.0 - share) - motion.base()) / (std::max(loss_a_frame, LEAST_LOSS) + motion.drift());
   };
