@@ -56,8 +56,10 @@ bool are_others_behind(const Triangle& t, const Carriers& carriers, const Vec3& 
     case 1: {
       const Vec3& second = t[carriers.corner[0] == 2 ? 0 : carriers.corner[0] + 1];
       const Vec3& third = t[carriers.corner[0] == 0 ? 2 : carriers.corner[0] - 1];
-      return is_behind(second - first, d, squared_d, squared_margin) &
-             is_behind(third - first, d, squared_d, squared_margin);
+      // Both, because which one is not behind is a coin toss for the branch predictor.
+      const bool is_second_behind = is_behind(second - first, d, squared_d, squared_margin);
+      const bool is_third_behind = is_behind(third - first, d, squared_d, squared_margin);
+      return is_second_behind & is_third_behind;
     }
     case 2: {
       // The way to the third corner across the edge: along the edge d says nothing but rounding. Times |e|^2,

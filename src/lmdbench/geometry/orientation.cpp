@@ -51,10 +51,10 @@ Tracked operator+(const Tracked& a, const Tracked& b) {
 }
 Tracked operator*(const Tracked& a, const Tracked& b) {
   const double value = a.value * b.value;
-  const bool is_zero = (a.value == 0.0) | (b.value == 0.0);
+  const bool is_zero = a.value == 0.0 || b.value == 0.0;
   const bool has_exact_error = std::abs(value) > LEAST_PRODUCT;
-  return {value,
-          a.exact & b.exact & (is_zero | has_exact_error) && std::fma(a.value, b.value, -value) == 0.0};
+  const bool can_tell = a.exact && b.exact && (is_zero || has_exact_error);
+  return {value, can_tell && std::fma(a.value, b.value, -value) == 0.0};
 }
 
 using ExactVector = std::array<Expansion<2>, 3>;
@@ -69,7 +69,7 @@ std::optional<int> tracked_orientation_3d(const Vec3& a, const Vec3& b, const Ve
     u[k] = difference(b[k], a[k]);
     v[k] = difference(c[k], a[k]);
     w[k] = difference(d[k], a[k]);
-    if (!(u[k].exact & v[k].exact & w[k].exact)) return std::nullopt;
+    if (!(u[k].exact && v[k].exact && w[k].exact)) return std::nullopt;
   }
   const Tracked determinant = w[0] * (u[1] * v[2] - u[2] * v[1]) + w[1] * (u[2] * v[0] - u[0] * v[2]) +
                               w[2] * (u[0] * v[1] - u[1] * v[0]);
