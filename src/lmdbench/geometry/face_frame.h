@@ -74,6 +74,15 @@ struct FaceFrame {
     return w.a > 0.0 && w.b > 0.0 && w.c > 0.0 && squared_distance_to_border(w) > squared_tolerance;
   }
 
+  /// Farther than the tolerance outside some edge.
+  bool is_outside(const Weights& w) const {
+    const auto is_beyond = [this](double weight, double squared_height) {
+      return weight < 0.0 && weight * weight * squared_height > squared_tolerance;
+    };
+    return is_beyond(w.a, squared_heights[0]) || is_beyond(w.b, squared_heights[1]) ||
+           is_beyond(w.c, squared_heights[2]);
+  }
+
   Vec3 point(const Weights& w) const { return a + w.b * e + w.c * ca; }
 
   Vec3 unit_normal() const { return e.cross(h) / std::sqrt(squared_e * squared_h); }

@@ -38,6 +38,14 @@ Polygon cut(const Polygon& polygon, const Vec2& p, const Vec2& q) {
   return result;
 }
 
+/// Weights of a triangle's corners for a point of its plane.
+FaceFrame::Weights planar_weights(const std::array<Vec2, 3>& t, const Vec2& x) {
+  const double double_area = cross(t[1] - t[0], t[2] - t[0]);
+  const double b = cross(x - t[0], t[2] - t[0]) / double_area;
+  const double c = cross(t[1] - t[0], x - t[0]) / double_area;
+  return {1.0 - b - c, b, c};
+}
+
 struct AreaAndCentroid {
   double area = 0.0;
   Vec2 centroid = Vec2::Zero();
@@ -94,11 +102,11 @@ FaceOverFace face_over_face(const FaceFrame& first, const FaceFrame& second, dou
     const double s = from_a.dot(first.e) / first.squared_e;
     return Vec2(s * length_e, (from_a - s * first.e).dot(first.h) / length_h);
   };
+  const std::array<Vec2, 3> projected{planar(second.a), planar(second.a + second.e),
+                                      planar(second.a + second.ca)};
   Polygon polygon;
   polygon.size = 3;
-  polygon.corners[0] = planar(second.a);
-  polygon.corners[1] = planar(second.a + second.e);
-  polygon.corners[2] = planar(second.a + second.ca);
+  std::copy(projected.begin(), projected.end(), polygon.corners.begin());
   if (cross(polygon.corners[1] - polygon.corners[0], polygon.corners[2] - polygon.corners[0]) < 0.0) {
     std::swap(polygon.corners[1], polygon.corners[2]);
   }
@@ -115,7 +123,11 @@ FaceOverFace face_over_face(const FaceFrame& first, const FaceFrame& second, dou
   result.area = whole.area;
   result.centroid_on_first =
       first.a + whole.centroid[0] / length_e * first.e + whole.centroid[1] / length_h * first.h;
-  result.centroid_on_second = second.point(second.weights(result.centroid_on_first));
+  // Two faces that drift apart by rounding only may still be at an angle, where one is tiny: the
+  // perpendicular of the first then meets the second's plane elsewhere than that of the second.
+  FaceFrame::Weights on_second = second.weights(result.centroid_on_first);
+  if (second.is_outside(on_second)) on_second = planar_weights(projected, whole.centroid);
+  result.centroid_on_second = second.point(on_second);
   return result;
 }
 
