@@ -16,16 +16,10 @@
 
 #include <hwy/highway.h>
 
-#ifndef LMDBENCH_SNCH_WIDE_LIFETIME_CONSTANTS
-#define LMDBENCH_SNCH_WIDE_LIFETIME_CONSTANTS
+#ifndef LMDBENCH_SNCH_WIDE_LIFETIME_ONCE
+#define LMDBENCH_SNCH_WIDE_LIFETIME_ONCE
 namespace lmdbench {
 
-/// (lateral - side) bounds how far d is outside the cone only up to this factor.
-inline constexpr float HALF_DIAGONAL = 0.7F;
-/// Losses and lengths are at least this, so that nothing is divided by zero.
-inline constexpr float LEAST = 1e-30F;
-/// Larger than any slack, and than what is lost.
-inline constexpr float NO_CHOICE = 1e30F;
 /// Tests between the one that is made and the one whose node is fetched.
 inline constexpr std::size_t FETCH_DISTANCE = 2;
 
@@ -65,22 +59,11 @@ HWY_INLINE WideLifetimes test_lifetime(const WideNode& node, const WideProbe& pr
   const Lanes f;
   const hn::RebindToUnsigned<Lanes> u;
   const auto squared = [](auto x) HWY_ATTR { return hn::Mul(x, x); };
-  const auto dot = [](auto ax, auto ay, auto az, auto bx, auto by, auto bz) HWY_ATTR {
-    return hn::Add(hn::Add(hn::Mul(ax, bx), hn::Mul(ay, by)), hn::Mul(az, bz));
-  };
   const auto zero = hn::Zero(f);
   const auto one = hn::Set(f, 1.0F);
   const auto least = hn::Set(f, LEAST);
-  const auto rounding = hn::Set(f, limits.rounding);
   const auto cutoff = hn::Set(f, limits.cutoff);
   const auto direction_rounding = hn::Set(f, DIRECTION_ROUNDING);
-  const auto probe_axis_x = hn::Set(f, probe.axis[0]);
-  const auto probe_axis_y = hn::Set(f, probe.axis[1]);
-  const auto probe_axis_z = hn::Set(f, probe.axis[2]);
-  const auto probe_radius = hn::Set(f, probe.radius);
-  const auto probe_thickness = hn::Set(f, probe.thickness);
-  const auto probe_cosine = hn::Set(f, probe.cosine);
-  const auto probe_sine = hn::Set(f, probe.sine);
   const auto share = hn::Set(f, DEVIATION_SHARE);
   const auto rest = hn::Set(f, 1.0F - DEVIATION_SHARE);
   const auto base = hn::Set(f, forecast.base);
@@ -95,19 +78,7 @@ HWY_INLINE WideLifetimes test_lifetime(const WideNode& node, const WideProbe& pr
 
   WideLifetimes result;
   for (std::uint32_t first = 0; first < WIDE_WIDTH; first += static_cast<std::uint32_t>(hn::Lanes(f))) {
-    const auto cx = hn::Load(f, node.centre[0] + first);
-    const auto cy = hn::Load(f, node.centre[1] + first);
-    const auto cz = hn::Load(f, node.centre[2] + first);
-    const auto dx = hn::Sub(cx, hn::Set(f, probe.centre[0]));
-    const auto dy = hn::Sub(cy, hn::Set(f, probe.centre[1]));
-    const auto dz = hn::Sub(cz, hn::Set(f, probe.centre[2]));
-    const auto ux = hn::Load(f, node.axis[0] + first);
-    const auto uy = hn::Load(f, node.axis[1] + first);
-    const auto uz = hn::Load(f, node.axis[2] + first);
-    const auto radius = hn::Load(f, node.radius + first);
-    const auto thickness = hn::Load(f, node.thickness + first);
-    const auto cosine = hn::Load(f, node.cosine + first);
-    const auto sine = hn::Load(f, node.sine + first);
+    const VectorBounds bounds(node, first, probe, limits.rounding);
     // Motion of the lane's centre against the probe's in a frame, and what nothing is known of but its size.
     auto ex = hn::Set(f, -test.probe_velocity[0]);
     auto ey = hn::Set(f, -test.probe_velocity[1]);
@@ -115,43 +86,34 @@ HWY_INLINE WideLifetimes test_lifetime(const WideNode& node, const WideProbe& pr
     auto lever = hn::Set(f, probe.radius + 2.0F * forecast.cutoff);
     if (test.moving_lanes) {
       const auto row = [&](int i) HWY_ATTR {
-        return hn::Add(hn::Add(hn::Add(hn::Mul(hn::Set(f, X.columns[0][i]), cx),
-                                       hn::Mul(hn::Set(f, X.columns[1][i]), cy)),
-                               hn::Mul(hn::Set(f, X.columns[2][i]), cz)),
+        return hn::Add(hn::Add(hn::Add(hn::Mul(hn::Set(f, X.columns[0][i]), bounds.cx),
+                                       hn::Mul(hn::Set(f, X.columns[1][i]), bounds.cy)),
+                               hn::Mul(hn::Set(f, X.columns[2][i]), bounds.cz)),
                        hn::Set(f, X.translation[i]));
       };
       ex = row(0);
       ey = row(1);
       ez = row(2);
-      lever = hn::Add(radius, hn::Set(f, 2.0F * forecast.cutoff));
+      lever = hn::Add(bounds.radius, hn::Set(f, 2.0F * forecast.cutoff));
     }
     const auto extra = hn::Add(hn::Mul(hn::Set(f, forecast.spin), lever), hn::Set(f, forecast.creep));
 
-    const auto squared_distance = dot(dx, dy, dz, dx, dy, dz);
-    const auto z_probe = dot(dx, dy, dz, probe_axis_x, probe_axis_y, probe_axis_z);
-    const auto z_lane = hn::Neg(dot(dx, dy, dz, ux, uy, uz));
-    const auto between = dot(ux, uy, uz, probe_axis_x, probe_axis_y, probe_axis_z);
-    const auto growth = dot(dx, dy, dz, ex, ey, ez);
-    const auto rise_probe = dot(ex, ey, ez, probe_axis_x, probe_axis_y, probe_axis_z);
-    const auto rise_lane = hn::Neg(dot(ex, ey, ez, ux, uy, uz));
-    const auto across =
-        hn::Sqrt(hn::Add(hn::Max(hn::Sub(one, hn::Mul(between, between)), zero), direction_rounding));
-    const auto along = hn::Abs(between);
-    const auto radii = hn::Add(hn::Add(radius, probe_radius), rounding);
-    const auto slab_probe = hn::Add(hn::Add(probe_thickness, rounding),
-                                    hn::Add(hn::Mul(thickness, along), hn::Mul(radius, across)));
-    const auto slab_lane = hn::Add(hn::Add(thickness, rounding),
-                                   hn::Add(hn::Mul(probe_thickness, along), hn::Mul(probe_radius, across)));
-    const auto least_squared_distance = hn::Mul(squared_distance, hn::Set(f, 1.0F - DIRECTION_ROUNDING));
+    const auto z_probe = bounds.z_probe, z_lane = bounds.z_lane;
+    const auto growth = VectorBounds::dot(bounds.dx, bounds.dy, bounds.dz, ex, ey, ez);
+    const auto rise_probe = VectorBounds::dot(ex, ey, ez, bounds.axis_x, bounds.axis_y, bounds.axis_z);
+    const auto rise_lane = hn::Neg(VectorBounds::dot(ex, ey, ez, bounds.ux, bounds.uy, bounds.uz));
+    const auto least_squared_distance =
+        hn::Mul(bounds.squared_distance, hn::Set(f, 1.0F - DIRECTION_ROUNDING));
     const auto distance = hn::Sqrt(least_squared_distance);
-    const auto reach_probe = hn::Add(z_probe, slab_probe);
-    const auto reach_lane = hn::Add(z_lane, slab_lane);
+    const auto reach_probe = hn::Add(z_probe, bounds.slab_probe);
+    const auto reach_lane = hn::Add(z_lane, bounds.slab_lane);
 
     const auto lost = [&](auto loss) HWY_ATTR { return hn::Max(hn::Add(loss, extra), least); };
-    const Criterion apart =
-        make_criterion(hn::Sub(distance, radii), lost(hn::Neg(hn::Div(growth, hn::Max(distance, least)))));
-    const Criterion above_probe = make_criterion(hn::Sub(z_probe, slab_probe), lost(hn::Neg(rise_probe)));
-    const Criterion above_lane = make_criterion(hn::Sub(z_lane, slab_lane), lost(hn::Neg(rise_lane)));
+    const Criterion apart = make_criterion(hn::Sub(distance, bounds.radii),
+                                           lost(hn::Neg(hn::Div(growth, hn::Max(distance, least)))));
+    const Criterion above_probe =
+        make_criterion(hn::Sub(z_probe, bounds.slab_probe), lost(hn::Neg(rise_probe)));
+    const Criterion above_lane = make_criterion(hn::Sub(z_lane, bounds.slab_lane), lost(hn::Neg(rise_lane)));
     const Criterion below_probe = make_criterion(hn::Neg(reach_probe), lost(rise_probe));
     const Criterion below_lane = make_criterion(hn::Neg(reach_lane), lost(rise_lane));
     const Criterion below = better(below_probe, below_lane);
@@ -160,14 +122,15 @@ HWY_INLINE WideLifetimes test_lifetime(const WideNode& node, const WideProbe& pr
       const auto lateral = hn::Sqrt(hn::Max(hn::Sub(least_squared_distance, squared(z)), zero));
       const auto lateral_growth = hn::Div(hn::Sub(growth, hn::Mul(z, rise)), hn::Max(lateral, least));
       const auto limit = hn::Mul(cutoff, cosine_of);
-      const auto side = hn::Add(hn::Mul(radii, cosine_of), hn::Mul(sine_of, hn::Min(reached, limit)));
+      const auto side = hn::Add(hn::Mul(bounds.radii, cosine_of), hn::Mul(sine_of, hn::Min(reached, limit)));
       const auto side_growth = hn::IfThenElseZero(hn::Lt(reached, limit), hn::Mul(sine_of, rise));
       return make_criterion(
           hn::Mul(hn::Sub(hn::Mul(lateral, cosine_of), side), hn::Set(f, HALF_DIAGONAL)),
           lost(hn::Mul(hn::Sub(side_growth, hn::Mul(lateral_growth, cosine_of)), hn::Set(f, HALF_DIAGONAL))));
     };
-    Criterion length = better(beside(z_probe, rise_probe, reach_probe, probe_cosine, probe_sine),
-                              beside(z_lane, rise_lane, reach_lane, cosine, sine));
+    Criterion length =
+        better(beside(z_probe, rise_probe, reach_probe, bounds.probe_cosine, bounds.probe_sine),
+               beside(z_lane, rise_lane, reach_lane, bounds.cosine, bounds.sine));
     length = better(length, below);
     const auto past = [&](const Criterion& criterion, auto limit) HWY_ATTR {
       return make_criterion(hn::Sub(criterion.slack, limit), criterion.loss);
@@ -181,10 +144,11 @@ HWY_INLINE WideLifetimes test_lifetime(const WideNode& node, const WideProbe& pr
                                       better(past(below_probe, touch_limit), past(below_lane, touch_limit)));
 
     const auto g2_cosines = hn::Add(
-        hn::Sub(hn::Sub(hn::Mul(cosine, probe_cosine), hn::Mul(sine, probe_sine)), direction_rounding),
-        between);
+        hn::Sub(hn::Sub(hn::Mul(bounds.cosine, bounds.probe_cosine), hn::Mul(bounds.sine, bounds.probe_sine)),
+                direction_rounding),
+        bounds.between);
     const auto angle_slack =
-        hn::Mul(hn::Div(g2_cosines, hn::IfThenElse(hn::Le(between, zero), across, one)), reach);
+        hn::Mul(hn::Div(g2_cosines, hn::IfThenElse(hn::Le(bounds.between, zero), bounds.across, one)), reach);
 
     // The share of the slack, the base and the drift are left when the loss has used up the rest.
     const auto frames = [&](auto slack, auto loss) HWY_ATTR {
@@ -275,23 +239,6 @@ HWY_AFTER_NAMESPACE();
 
 namespace lmdbench {
 
-namespace {
-
-/// A criterion of one lane, as in the vector form.
-struct LaneCriterion {
-  float slack, loss, value;
-  LaneCriterion(float slack_of, float loss_of)
-      : slack(slack_of),
-        loss(loss_of),
-        value(slack_of > 0.0F ? slack_of - loss_of * CHOICE_FRAMES : slack_of - NO_CHOICE) {}
-};
-
-LaneCriterion better(const LaneCriterion& a, const LaneCriterion& b) {
-  return b.value > a.value ? b : a;
-}
-
-}  // namespace
-
 HWY_EXPORT(TestLifetime);
 HWY_EXPORT(TestBatch);
 
@@ -328,117 +275,6 @@ WideLifetimes test_lanes_lifetime(const WideNode& node, const WideProbe& probe, 
                                   const WideForecast& forecast, const WideLifetimeTest& test) {
   WideLifetimes result;
   HWY_DYNAMIC_DISPATCH(TestLifetime)(node, probe, limits, forecast, test, result);
-  return result;
-}
-
-WideLifetimes test_lanes_lifetime_scalar(const WideNode& node, const WideProbe& probe,
-                                         const WideLimits& limits, const WideForecast& forecast,
-                                         const WideLifetimeTest& test) {
-  WideLifetimes result;
-  const float angle_loss = std::max(forecast.spin * forecast.reach, LEAST);
-  const WideTransform& X = forecast.in_moving;
-  for (std::uint32_t lane = 0; lane < WIDE_WIDTH; ++lane) {
-    if (node.child[lane] == 0) continue;
-    const std::uint32_t bit = 1u << lane;
-    result.used |= bit;
-    const float cx = node.centre[0][lane], cy = node.centre[1][lane], cz = node.centre[2][lane];
-    const float dx = cx - probe.centre[0], dy = cy - probe.centre[1], dz = cz - probe.centre[2];
-    const float ux = node.axis[0][lane], uy = node.axis[1][lane], uz = node.axis[2][lane];
-    const float radius = node.radius[lane], thickness = node.thickness[lane];
-    float ex = -test.probe_velocity[0], ey = -test.probe_velocity[1], ez = -test.probe_velocity[2];
-    float lever = probe.radius + 2.0F * forecast.cutoff;
-    if (test.moving_lanes) {
-      const auto row = [&](int i) {
-        return ((X.columns[0][i] * cx + X.columns[1][i] * cy) + X.columns[2][i] * cz) + X.translation[i];
-      };
-      ex = row(0);
-      ey = row(1);
-      ez = row(2);
-      lever = radius + 2.0F * forecast.cutoff;
-    }
-    const float extra = forecast.spin * lever + forecast.creep;
-
-    const auto dot = [](float ax, float ay, float az, float bx, float by, float bz) {
-      return (ax * bx + ay * by) + az * bz;
-    };
-    const float* const axis = probe.axis;
-    const float squared_distance = dot(dx, dy, dz, dx, dy, dz);
-    const float z_probe = dot(dx, dy, dz, axis[0], axis[1], axis[2]);
-    const float z_lane = -dot(dx, dy, dz, ux, uy, uz);
-    const float between = dot(ux, uy, uz, axis[0], axis[1], axis[2]);
-    const float growth = dot(dx, dy, dz, ex, ey, ez);
-    const float rise_probe = dot(ex, ey, ez, axis[0], axis[1], axis[2]);
-    const float rise_lane = -dot(ex, ey, ez, ux, uy, uz);
-    const float across = std::sqrt(std::max(1.0F - between * between, 0.0F) + DIRECTION_ROUNDING);
-    const float along = std::abs(between);
-    const float radii = (radius + probe.radius) + limits.rounding;
-    const float slab_probe = (probe.thickness + limits.rounding) + (thickness * along + radius * across);
-    const float slab_lane = (thickness + limits.rounding) + (probe.thickness * along + probe.radius * across);
-    const float least_squared_distance = squared_distance * (1.0F - DIRECTION_ROUNDING);
-    const float distance = std::sqrt(least_squared_distance);
-    const float reach_probe = z_probe + slab_probe, reach_lane = z_lane + slab_lane;
-
-    const auto lost = [&](float loss) { return std::max(loss + extra, LEAST); };
-    const LaneCriterion apart(distance - radii, lost(-(growth / std::max(distance, LEAST))));
-    const LaneCriterion above_probe(z_probe - slab_probe, lost(-rise_probe));
-    const LaneCriterion above_lane(z_lane - slab_lane, lost(-rise_lane));
-    const LaneCriterion below_probe(-reach_probe, lost(rise_probe));
-    const LaneCriterion below_lane(-reach_lane, lost(rise_lane));
-    const LaneCriterion below = better(below_probe, below_lane);
-
-    const auto beside = [&](float z, float rise, float reached, float cosine_of, float sine_of) {
-      const float lateral = std::sqrt(std::max(least_squared_distance - z * z, 0.0F));
-      const float lateral_growth = (growth - z * rise) / std::max(lateral, LEAST);
-      const float limit = limits.cutoff * cosine_of;
-      const float side = radii * cosine_of + sine_of * std::min(reached, limit);
-      const float side_growth = reached < limit ? sine_of * rise : 0.0F;
-      return LaneCriterion((lateral * cosine_of - side) * HALF_DIAGONAL,
-                           lost((side_growth - lateral_growth * cosine_of) * HALF_DIAGONAL));
-    };
-    const float cosine = node.cosine[lane], sine = node.sine[lane];
-    LaneCriterion length = better(beside(z_probe, rise_probe, reach_probe, probe.cosine, probe.sine),
-                                  beside(z_lane, rise_lane, reach_lane, cosine, sine));
-    length = better(length, below);
-    const auto past = [](const LaneCriterion& criterion, float limit) {
-      return LaneCriterion(criterion.slack - limit, criterion.loss);
-    };
-    const auto farther_than = [&](float limit) {
-      return better(better(past(apart, limit), past(above_probe, limit)), past(above_lane, limit));
-    };
-    length = better(length, farther_than(limits.cutoff));
-    const LaneCriterion touching = better(
-        farther_than(limits.touch), better(past(below_probe, limits.touch), past(below_lane, limits.touch)));
-
-    const float g2_cosines = ((cosine * probe.cosine - sine * probe.sine) - DIRECTION_ROUNDING) + between;
-    const float angle_slack = (g2_cosines / (between <= 0.0F ? across : 1.0F)) * forecast.reach;
-
-    const auto frames = [&](float slack, float loss) {
-      return (slack * (1.0F - DEVIATION_SHARE) - forecast.base) / (loss + forecast.drift);
-    };
-    const float length_frames = frames(length.slack, length.loss);
-    const float angle_frames = frames(angle_slack, angle_loss);
-    const float touch_frames = frames(touching.slack, touching.loss);
-    const float lmd_frames = std::max(length_frames, angle_frames);
-    const float lmd_slack = length_frames >= angle_frames ? length.slack : angle_slack;
-
-    const auto soon = [&](float slack, float loss) { return slack <= loss * forecast.horizon; };
-    const auto stands = [&](float for_frames, float slack) {
-      result.frames = std::min(result.frames, for_frames);
-      result.allowance =
-          std::min(result.allowance, (slack * DEVIATION_SHARE + forecast.base) + forecast.drift * for_frames);
-    };
-    if (soon(length.slack, length.loss) && soon(angle_slack, angle_loss)) {
-      result.lmd |= bit;
-    } else {
-      stands(lmd_frames, lmd_slack);
-    }
-    if ((test.touch_lanes >> lane & 1u) == 0) continue;
-    if (soon(touching.slack, touching.loss)) {
-      result.touch |= bit;
-    } else {
-      stands(touch_frames, touching.slack);
-    }
-  }
   return result;
 }
 

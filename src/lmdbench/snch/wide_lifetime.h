@@ -57,6 +57,12 @@ struct WideForecast {
 inline constexpr float DEVIATION_SHARE = 0.125F;
 /// Frames for which a lane's best criterion is chosen.
 inline constexpr float CHOICE_FRAMES = 16.0F;
+/// Larger than any slack, and than what is lost: takes criteria that do not reject now out of the choice.
+inline constexpr float NO_CHOICE = 1e30F;
+/// (lateral - side) bounds how far d is outside the cone only up to this factor.
+inline constexpr float HALF_DIAGONAL = 0.7F;
+/// Losses and lengths are at least this, so that nothing is divided by zero.
+inline constexpr float LEAST = 1e-30F;
 
 struct WideLifetimes {
   std::uint32_t used = 0;   ///< Lanes in use.

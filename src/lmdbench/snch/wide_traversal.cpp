@@ -37,70 +37,43 @@ struct VectorTest {
     const hn::RebindToUnsigned<Lanes> u;
     const auto squared = [](auto x) HWY_ATTR { return hn::Mul(x, x); };
     const auto zero = hn::Zero(f);
-    const auto rounding = hn::Set(f, limits.rounding);
     const auto cutoff = hn::Set(f, limits.cutoff);
     const auto touch_limit = hn::Set(f, limits.touch);
     const auto direction_rounding = hn::Set(f, DIRECTION_ROUNDING);
-    const auto probe_axis_x = hn::Set(f, probe.axis[0]);
-    const auto probe_axis_y = hn::Set(f, probe.axis[1]);
-    const auto probe_axis_z = hn::Set(f, probe.axis[2]);
-    const auto probe_radius = hn::Set(f, probe.radius);
-    const auto probe_thickness = hn::Set(f, probe.thickness);
-    const auto probe_cosine = hn::Set(f, probe.cosine);
-    const auto probe_sine = hn::Set(f, probe.sine);
-
     WideMasks masks;
     for (std::uint32_t first = 0; first < WIDE_WIDTH; first += static_cast<std::uint32_t>(hn::Lanes(f))) {
-      const auto dx = hn::Sub(hn::Load(f, node.centre[0] + first), hn::Set(f, probe.centre[0]));
-      const auto dy = hn::Sub(hn::Load(f, node.centre[1] + first), hn::Set(f, probe.centre[1]));
-      const auto dz = hn::Sub(hn::Load(f, node.centre[2] + first), hn::Set(f, probe.centre[2]));
-      const auto ux = hn::Load(f, node.axis[0] + first);
-      const auto uy = hn::Load(f, node.axis[1] + first);
-      const auto uz = hn::Load(f, node.axis[2] + first);
-      const auto squared_distance = hn::Add(hn::Add(hn::Mul(dx, dx), hn::Mul(dy, dy)), hn::Mul(dz, dz));
-      const auto z_probe =
-          hn::Add(hn::Add(hn::Mul(dx, probe_axis_x), hn::Mul(dy, probe_axis_y)), hn::Mul(dz, probe_axis_z));
-      const auto z_lane = hn::Neg(hn::Add(hn::Add(hn::Mul(dx, ux), hn::Mul(dy, uy)), hn::Mul(dz, uz)));
-      const auto between =
-          hn::Add(hn::Add(hn::Mul(ux, probe_axis_x), hn::Mul(uy, probe_axis_y)), hn::Mul(uz, probe_axis_z));
-      const auto across = hn::Sqrt(
-          hn::Add(hn::Max(hn::Sub(hn::Set(f, 1.0F), hn::Mul(between, between)), zero), direction_rounding));
-      const auto along = hn::Abs(between);
-      const auto radius = hn::Load(f, node.radius + first);
-      const auto thickness = hn::Load(f, node.thickness + first);
-      const auto radii = hn::Add(hn::Add(radius, probe_radius), rounding);
-      const auto slab_probe = hn::Add(hn::Add(probe_thickness, rounding),
-                                      hn::Add(hn::Mul(thickness, along), hn::Mul(radius, across)));
-      const auto slab_lane = hn::Add(hn::Add(thickness, rounding),
-                                     hn::Add(hn::Mul(probe_thickness, along), hn::Mul(probe_radius, across)));
+      const VectorBounds bounds(node, first, probe, limits.rounding);
+      const auto touch =
+          hn::And(hn::Le(bounds.squared_distance, squared(hn::Add(touch_limit, bounds.radii))),
+                  hn::And(hn::Le(hn::Abs(bounds.z_probe), hn::Add(touch_limit, bounds.slab_probe)),
+                          hn::Le(hn::Abs(bounds.z_lane), hn::Add(touch_limit, bounds.slab_lane))));
+      const auto near = hn::And(hn::Le(bounds.squared_distance, squared(hn::Add(cutoff, bounds.radii))),
+                                hn::And(hn::Le(bounds.z_probe, hn::Add(cutoff, bounds.slab_probe)),
+                                        hn::Le(bounds.z_lane, hn::Add(cutoff, bounds.slab_lane))));
 
-      const auto touch = hn::And(hn::Le(squared_distance, squared(hn::Add(touch_limit, radii))),
-                                 hn::And(hn::Le(hn::Abs(z_probe), hn::Add(touch_limit, slab_probe)),
-                                         hn::Le(hn::Abs(z_lane), hn::Add(touch_limit, slab_lane))));
-      const auto near = hn::And(
-          hn::Le(squared_distance, squared(hn::Add(cutoff, radii))),
-          hn::And(hn::Le(z_probe, hn::Add(cutoff, slab_probe)), hn::Le(z_lane, hn::Add(cutoff, slab_lane))));
+      const auto collinear =
+          hn::Ge(hn::Neg(bounds.between), hn::Sub(hn::Sub(hn::Mul(bounds.cosine, bounds.probe_cosine),
+                                                          hn::Mul(bounds.sine, bounds.probe_sine)),
+                                                  direction_rounding));
 
-      const auto cosine = hn::Load(f, node.cosine + first);
-      const auto sine = hn::Load(f, node.sine + first);
-      const auto collinear = hn::Ge(
-          hn::Neg(between),
-          hn::Sub(hn::Sub(hn::Mul(cosine, probe_cosine), hn::Mul(sine, probe_sine)), direction_rounding));
-
-      const auto least_squared_distance = hn::Mul(squared_distance, hn::Set(f, 1.0F - DIRECTION_ROUNDING));
-      const auto reach_probe = hn::Add(z_probe, slab_probe);
-      const auto reach_lane = hn::Add(z_lane, slab_lane);
+      const auto least_squared_distance =
+          hn::Mul(bounds.squared_distance, hn::Set(f, 1.0F - DIRECTION_ROUNDING));
+      const auto reach_probe = hn::Add(bounds.z_probe, bounds.slab_probe);
+      const auto reach_lane = hn::Add(bounds.z_lane, bounds.slab_lane);
       const auto side_probe =
-          hn::Add(hn::Mul(radii, probe_cosine),
-                  hn::Mul(probe_sine, hn::Min(reach_probe, hn::Mul(cutoff, probe_cosine))));
+          hn::Add(hn::Mul(bounds.radii, bounds.probe_cosine),
+                  hn::Mul(bounds.probe_sine, hn::Min(reach_probe, hn::Mul(cutoff, bounds.probe_cosine))));
       const auto side_lane =
-          hn::Add(hn::Mul(radii, cosine), hn::Mul(sine, hn::Min(reach_lane, hn::Mul(cutoff, cosine))));
+          hn::Add(hn::Mul(bounds.radii, bounds.cosine),
+                  hn::Mul(bounds.sine, hn::Min(reach_lane, hn::Mul(cutoff, bounds.cosine))));
       const auto directed = hn::And(
           hn::And(hn::Ge(reach_probe, zero), hn::Ge(reach_lane, zero)),
-          hn::And(hn::Le(hn::Mul(hn::Sub(least_squared_distance, squared(z_probe)), squared(probe_cosine)),
-                         squared(side_probe)),
-                  hn::Le(hn::Mul(hn::Sub(least_squared_distance, squared(z_lane)), squared(cosine)),
-                         squared(side_lane))));
+          hn::And(
+              hn::Le(hn::Mul(hn::Sub(least_squared_distance, squared(bounds.z_probe)),
+                             squared(bounds.probe_cosine)),
+                     squared(side_probe)),
+              hn::Le(hn::Mul(hn::Sub(least_squared_distance, squared(bounds.z_lane)), squared(bounds.cosine)),
+                     squared(side_lane))));
 
       const auto used = hn::Ne(hn::Load(u, node.child + first), hn::Zero(u));
       const std::uint32_t used_bits = mask_bits(f, hn::RebindMask(f, used), first);

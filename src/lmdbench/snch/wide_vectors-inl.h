@@ -81,6 +81,60 @@ HWY_INLINE WideProbe make_probe_vector(const WideChild& child, const WideTransfo
   return probe;
 }
 
+/// Some lanes of a node beside a probe: the quantities of wide_node_test.h that every form of the test needs.
+/// The same operations in the same order as LaneBounds.
+struct VectorBounds {
+  using Floats = hn::Vec<Lanes>;
+
+  Floats cx, cy, cz;              ///< Lanes' centres.
+  Floats dx, dy, dz;              ///< D
+  Floats ux, uy, uz;              ///< Lanes' axes.
+  Floats axis_x, axis_y, axis_z;  ///< Probe's axis.
+  Floats radius, cosine, sine;    ///< Lanes'.
+  Floats probe_cosine, probe_sine;
+  Floats squared_distance, z_probe, z_lane, between, across, radii, slab_probe, slab_lane;
+
+  HWY_INLINE VectorBounds(const WideNode& node, std::uint32_t first, const WideProbe& probe, float granted) {
+    const Lanes f;
+    const auto rounding = hn::Set(f, granted);
+    cx = hn::Load(f, node.centre[0] + first);
+    cy = hn::Load(f, node.centre[1] + first);
+    cz = hn::Load(f, node.centre[2] + first);
+    dx = hn::Sub(cx, hn::Set(f, probe.centre[0]));
+    dy = hn::Sub(cy, hn::Set(f, probe.centre[1]));
+    dz = hn::Sub(cz, hn::Set(f, probe.centre[2]));
+    ux = hn::Load(f, node.axis[0] + first);
+    uy = hn::Load(f, node.axis[1] + first);
+    uz = hn::Load(f, node.axis[2] + first);
+    axis_x = hn::Set(f, probe.axis[0]);
+    axis_y = hn::Set(f, probe.axis[1]);
+    axis_z = hn::Set(f, probe.axis[2]);
+    radius = hn::Load(f, node.radius + first);
+    cosine = hn::Load(f, node.cosine + first);
+    sine = hn::Load(f, node.sine + first);
+    probe_cosine = hn::Set(f, probe.cosine);
+    probe_sine = hn::Set(f, probe.sine);
+    squared_distance = dot(dx, dy, dz, dx, dy, dz);
+    z_probe = dot(dx, dy, dz, axis_x, axis_y, axis_z);
+    z_lane = hn::Neg(dot(dx, dy, dz, ux, uy, uz));
+    between = dot(ux, uy, uz, axis_x, axis_y, axis_z);
+    across = hn::Sqrt(hn::Add(hn::Max(hn::Sub(hn::Set(f, 1.0F), hn::Mul(between, between)), hn::Zero(f)),
+                              hn::Set(f, DIRECTION_ROUNDING)));
+    const auto along = hn::Abs(between);
+    const auto thickness = hn::Load(f, node.thickness + first);
+    const auto probe_radius = hn::Set(f, probe.radius), probe_thickness = hn::Set(f, probe.thickness);
+    radii = hn::Add(hn::Add(radius, probe_radius), rounding);
+    slab_probe = hn::Add(hn::Add(probe_thickness, rounding),
+                         hn::Add(hn::Mul(thickness, along), hn::Mul(radius, across)));
+    slab_lane = hn::Add(hn::Add(thickness, rounding),
+                        hn::Add(hn::Mul(probe_thickness, along), hn::Mul(probe_radius, across)));
+  }
+
+  static HWY_INLINE Floats dot(Floats ax, Floats ay, Floats az, Floats bx, Floats by, Floats bz) {
+    return hn::Add(hn::Add(hn::Mul(ax, bx), hn::Mul(ay, by)), hn::Mul(az, bz));
+  }
+};
+
 }  // namespace lmdbench::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
