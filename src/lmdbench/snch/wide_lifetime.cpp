@@ -61,7 +61,7 @@ HWY_INLINE WideLifetimes test_lifetime(const WideNode& node, const WideProbe& pr
   const auto squared = [](auto x) HWY_ATTR { return hn::Mul(x, x); };
   const auto zero = hn::Zero(f);
   const auto one = hn::Set(f, 1.0F);
-  const auto least = hn::Set(f, LEAST);
+  const auto least = hn::Set(f, LEAST_LENGTH);
   const auto cutoff = hn::Set(f, limits.cutoff);
   const auto direction_rounding = hn::Set(f, DIRECTION_ROUNDING);
   const auto share = hn::Set(f, DEVIATION_SHARE);

@@ -62,7 +62,7 @@ inline constexpr float NO_CHOICE = 1e30F;
 /// (lateral - side) bounds how far d is outside the cone only up to this factor.
 inline constexpr float HALF_DIAGONAL = 0.7F;
 /// Losses and lengths are at least this, so that nothing is divided by zero.
-inline constexpr float LEAST = 1e-30F;
+inline constexpr float LEAST_LENGTH = 1e-30F;
 
 struct WideLifetimes {
   std::uint32_t used = 0;   ///< Lanes in use.

@@ -28,7 +28,7 @@ WideLifetimes test_lanes_lifetime_scalar(const WideNode& node, const WideProbe& 
                                          const WideLimits& limits, const WideForecast& forecast,
                                          const WideLifetimeTest& test) {
   WideLifetimes result;
-  const float angle_loss = std::max(forecast.spin * forecast.reach, LEAST);
+  const float angle_loss = std::max(forecast.spin * forecast.reach, LEAST_LENGTH);
   const WideTransform& X = forecast.in_moving;
   for (std::uint32_t lane = 0; lane < WIDE_WIDTH; ++lane) {
     if (node.child[lane] == 0) continue;
@@ -59,8 +59,8 @@ WideLifetimes test_lanes_lifetime_scalar(const WideNode& node, const WideProbe& 
     const float distance = std::sqrt(least_squared_distance);
     const float reach_probe = z_probe + bounds.slab_probe, reach_lane = z_lane + bounds.slab_lane;
 
-    const auto lost = [&](float loss) { return std::max(loss + extra, LEAST); };
-    const LaneCriterion apart(distance - bounds.radii, lost(-(growth / std::max(distance, LEAST))));
+    const auto lost = [&](float loss) { return std::max(loss + extra, LEAST_LENGTH); };
+    const LaneCriterion apart(distance - bounds.radii, lost(-(growth / std::max(distance, LEAST_LENGTH))));
     const LaneCriterion above_probe(z_probe - bounds.slab_probe, lost(-rise_probe));
     const LaneCriterion above_lane(z_lane - bounds.slab_lane, lost(-rise_lane));
     const LaneCriterion below_probe(-reach_probe, lost(rise_probe));
@@ -69,7 +69,7 @@ WideLifetimes test_lanes_lifetime_scalar(const WideNode& node, const WideProbe& 
 
     const auto beside = [&](float z, float rise, float reached, float cosine_of, float sine_of) {
       const float lateral = std::sqrt(std::max(least_squared_distance - z * z, 0.0F));
-      const float lateral_growth = (growth - z * rise) / std::max(lateral, LEAST);
+      const float lateral_growth = (growth - z * rise) / std::max(lateral, LEAST_LENGTH);
       const float limit = limits.cutoff * cosine_of;
       const float side = bounds.radii * cosine_of + sine_of * std::min(reached, limit);
       const float side_growth = reached < limit ? sine_of * rise : 0.0F;
