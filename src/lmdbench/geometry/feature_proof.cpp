@@ -39,26 +39,39 @@ double squared(double x) {
   return x * x;
 }
 
-/// The corner that `way` leads to is behind the plane across d by a clear margin.
-/// @param d from this triangle to the other
-/// @param squared_margin square of the length below which a corner is neither ahead nor behind: it covers the
-///   error of d (a few roundings of the coordinates) and the drift that counts as parallel
-bool is_behind(const Vec3& way, const Vec3& d, double squared_d, double squared_margin) {
-  const double ahead = way.dot(d);
-  return (ahead < 0.0) & (squared(ahead) > squared_margin * (way.squaredNorm() + squared_d));
+/// The pair whose proof is asked for.
+struct Separation {
+  Vec3 d;  ///< from this triangle to the other
+  double squared_d;
+  /// Square of the length below which a corner is neither ahead nor behind: it covers the error of d (a few
+  /// roundings of the coordinates) and the drift that counts as parallel.
+  double squared_margin;
+  double squared_rise;  ///< as in PointsOnSegments; infinite for two corners
+};
+
+/// The corner that `way` leads to is behind the plane across d by a clear margin. So is a point as far on the
+/// way as the pair is from the ends of its features: from such an end the other features may start.
+/// @param squared_scale of the way, which may be given longer than it is
+bool is_behind(const Vec3& way, double squared_scale, const Separation& pair) {
+  const double ahead = way.dot(pair.d);
+  const double squared_ahead = squared(ahead);
+  const double squared_way = way.squaredNorm();
+  const bool is_clear = squared_ahead > pair.squared_margin * (squared_way + squared_scale * pair.squared_d);
+  const bool is_steep =
+      squared_ahead * pair.squared_rise > pair.squared_margin * squared_way * pair.squared_d;
+  return (ahead < 0.0) & is_clear & is_steep;
 }
 
 /// Every corner that does not carry the pair is behind.
-bool are_others_behind(const Triangle& t, const Carriers& carriers, const Vec3& d, double squared_d,
-                       double squared_margin) {
+bool are_others_behind(const Triangle& t, const Carriers& carriers, const Separation& pair) {
   const Vec3& first = t[carriers.corner[0]];
   switch (carriers.count) {
     case 1: {
       const Vec3& second = t[carriers.corner[0] == 2 ? 0 : carriers.corner[0] + 1];
       const Vec3& third = t[carriers.corner[0] == 0 ? 2 : carriers.corner[0] - 1];
       // Both, because which one is not behind is a coin toss for the branch predictor.
-      const bool is_second_behind = is_behind(second - first, d, squared_d, squared_margin);
-      const bool is_third_behind = is_behind(third - first, d, squared_d, squared_margin);
+      const bool is_second_behind = is_behind(second - first, 1.0, pair);
+      const bool is_third_behind = is_behind(third - first, 1.0, pair);
       return is_second_behind & is_third_behind;
     }
     case 2: {
@@ -67,7 +80,7 @@ bool are_others_behind(const Triangle& t, const Carriers& carriers, const Vec3& 
       const Vec3 e = t[carriers.corner[1]] - first;
       const Vec3 way = t[3 - carriers.corner[0] - carriers.corner[1]] - first;
       const double squared_e = e.squaredNorm();
-      return is_behind(squared_e * way - way.dot(e) * e, d, squared(squared_e) * squared_d, squared_margin);
+      return is_behind(squared_e * way - way.dot(e) * e, squared(squared_e), pair);
     }
     default:
       return true;
@@ -248,11 +261,14 @@ struct Attempt {
   }
 
   bool is_proved(const Triangle& a, const Triangle& b, double squared_margin) const {
+    const bool two_corners = carriers_a.count + carriers_b.count == 2;
     const Vec3 d = pair.point_b - pair.point_a;
-    const double margin = squared_margin * pair.widening;
-    return are_others_behind(a, carriers_a, d, pair.squared_distance, margin) &&
-           are_others_behind(b, carriers_b, -d, pair.squared_distance, margin) &&
-           (carriers_a.count + carriers_b.count == 2 || is_clear_minimum(pair, squared_margin));
+    Separation separation{d, pair.squared_distance, squared_margin * pair.widening,
+                          two_corners ? std::numeric_limits<double>::infinity() : pair.squared_rise};
+    if (!are_others_behind(a, carriers_a, separation)) return false;
+    separation.d = -d;
+    return are_others_behind(b, carriers_b, separation) &&
+           (two_corners || is_clear_minimum(pair, squared_margin));
   }
 
   /// Solves, and stores the result if it is proved.

@@ -87,11 +87,17 @@ struct Found {
   Real squared_rise;  ///< as in PointsOnSegments; infinite for two corners
 };
 
-/// The corner is behind the plane through p across d by the margin.
-HWY_INLINE Mask is_behind(const Vector& way, const Vector& d, Real squared_d, Real squared_margin) {
+/// The corner is behind the plane through p across d by the margin, and so is a point as far on the way as p
+/// is from the ends of its features, as in feature_proof.cpp.
+HWY_INLINE Mask is_behind(const Vector& way, const Vector& d, Real squared_d, Real squared_margin,
+                          Real squared_rise) {
   const Real ahead = dot(way, d);
-  return hn::And(hn::Lt(ahead, zero()),
-                 hn::Gt(squared(ahead), hn::Mul(squared_margin, hn::Add(dot(way, way), squared_d))));
+  const Real squared_ahead = squared(ahead);
+  const Real squared_way = dot(way, way);
+  const Mask is_clear = hn::Gt(squared_ahead, hn::Mul(squared_margin, hn::Add(squared_way, squared_d)));
+  const Mask is_steep =
+      hn::Gt(hn::Mul(squared_ahead, squared_rise), hn::Mul(squared_margin, hn::Mul(squared_way, squared_d)));
+  return hn::And(hn::Lt(ahead, zero()), hn::And(is_clear, is_steep));
 }
 
 /// Lanes where the found pair is proved to be the one nearest pair.
@@ -104,8 +110,9 @@ HWY_INLINE Mask proved(const Three<Vector>& a, const Three<Vector>& b, const Fou
   Mask result = hn::And(hn::Ge(magnitude, constant(SMALLEST_COORDINATE)),
                         hn::Le(magnitude, constant(LARGEST_COORDINATE)));
   for (int k = 0; k < 3; ++k) {
-    const Mask behind_a = is_behind(a.v[k] - found.point_a, d, squared_d, squared_margin);
-    const Mask behind_b = is_behind(b.v[k] - found.point_b, minus_d, squared_d, squared_margin);
+    const Mask behind_a = is_behind(a.v[k] - found.point_a, d, squared_d, squared_margin, found.squared_rise);
+    const Mask behind_b =
+        is_behind(b.v[k] - found.point_b, minus_d, squared_d, squared_margin, found.squared_rise);
     result = hn::And(result, hn::Or(behind_a, hn::Gt(found.weights_a.v[k], zero())));
     result = hn::And(result, hn::Or(behind_b, hn::Gt(found.weights_b.v[k], zero())));
   }
