@@ -7,6 +7,7 @@
 #include <lmdbench/geometry/segment_kernel.h>
 #include <lmdbench/geometry/sorted_triangle.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
@@ -41,7 +42,8 @@ double squared(double x) {
 
 /// The pair whose proof is asked for.
 struct Separation {
-  Vec3 d;  ///< from this triangle to the other
+  Vec3 point;  ///< of this triangle
+  Vec3 d;      ///< to the other's
   double squared_d;
   /// Square of the length below which a corner is neither ahead nor behind: it covers the error of d (a few
   /// roundings of the coordinates) and the drift that counts as parallel.
@@ -76,11 +78,17 @@ bool are_others_behind(const Triangle& t, const Carriers& carriers, const Separa
     }
     case 2: {
       // The way to the third corner across the edge: along the edge d says nothing but rounding. Times |e|^2,
-      // which saves the division.
+      // which saves the division. The neighbouring edges come as near to the point as it is to their common
+      // corner, in parts of the edge: so far on the way must be clear, too.
       const Vec3 e = t[carriers.corner[1]] - first;
       const Vec3 way = t[3 - carriers.corner[0] - carriers.corner[1]] - first;
       const double squared_e = e.squaredNorm();
-      return is_behind(squared_e * way - way.dot(e) * e, squared(squared_e), pair);
+      const Vec3 across = squared_e * way - way.dot(e) * e;
+      const double to_end =
+          std::min((pair.point - first).squaredNorm(), (pair.point - t[carriers.corner[1]]).squaredNorm());
+      const bool is_wide = squared(across.dot(pair.d)) * to_end >
+                           pair.squared_margin * squared(squared_e) * squared_e * pair.squared_d;
+      return is_wide & is_behind(across, squared(squared_e), pair);
     }
     default:
       return true;
@@ -263,9 +271,10 @@ struct Attempt {
   bool is_proved(const Triangle& a, const Triangle& b, double squared_margin) const {
     const bool two_corners = carriers_a.count + carriers_b.count == 2;
     const Vec3 d = pair.point_b - pair.point_a;
-    Separation separation{d, pair.squared_distance, squared_margin * pair.widening,
+    Separation separation{pair.point_a, d, pair.squared_distance, squared_margin * pair.widening,
                           two_corners ? std::numeric_limits<double>::infinity() : pair.squared_rise};
     if (!are_others_behind(a, carriers_a, separation)) return false;
+    separation.point = pair.point_b;
     separation.d = -d;
     return are_others_behind(b, carriers_b, separation) &&
            (two_corners || is_clear_minimum(pair, squared_margin));

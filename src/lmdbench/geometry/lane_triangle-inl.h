@@ -87,17 +87,27 @@ struct Found {
   Real squared_rise;  ///< as in PointsOnSegments; infinite for two corners
 };
 
-/// The corner is behind the plane through p across d by the margin, and so is a point as far on the way as p
-/// is from the ends of its features, as in feature_proof.cpp.
+/// The least weight of a carrier.
+HWY_INLINE Real least_weight(const Three<Real>& weights) {
+  Real least = constant(1.0);
+  for (const Real& weight : weights.v) {
+    least = hn::Min(least, select(hn::Gt(weight, zero()), weight, constant(1.0)));
+  }
+  return least;
+}
+
+/// The corner is behind the plane through p across d by the margin, and so are the points on the way that are
+/// as far as p is from the ends of its features, in length and in parts, as in feature_proof.cpp.
 HWY_INLINE Mask is_behind(const Vector& way, const Vector& d, Real squared_d, Real squared_margin,
-                          Real squared_rise) {
+                          Real squared_rise, Real part) {
   const Real ahead = dot(way, d);
   const Real squared_ahead = squared(ahead);
   const Real squared_way = dot(way, way);
   const Mask is_clear = hn::Gt(squared_ahead, hn::Mul(squared_margin, hn::Add(squared_way, squared_d)));
   const Mask is_steep =
       hn::Gt(hn::Mul(squared_ahead, squared_rise), hn::Mul(squared_margin, hn::Mul(squared_way, squared_d)));
-  return hn::And(hn::Lt(ahead, zero()), hn::And(is_clear, is_steep));
+  const Mask is_wide = hn::Gt(squared(hn::Mul(ahead, part)), hn::Mul(squared_margin, squared_d));
+  return hn::And(hn::And(hn::Lt(ahead, zero()), is_wide), hn::And(is_clear, is_steep));
 }
 
 /// Lanes where the found pair is proved to be the one nearest pair.
@@ -107,12 +117,14 @@ HWY_INLINE Mask proved(const Three<Vector>& a, const Three<Vector>& b, const Fou
   const Real squared_d = dot(d, d);
   const Real magnitude = largest_coordinate(a, b);
   const Real squared_margin = squared(hn::Mul(constant(MARGIN), magnitude));
+  const Real part_a = least_weight(found.weights_a), part_b = least_weight(found.weights_b);
   Mask result = hn::And(hn::Ge(magnitude, constant(SMALLEST_COORDINATE)),
                         hn::Le(magnitude, constant(LARGEST_COORDINATE)));
   for (int k = 0; k < 3; ++k) {
-    const Mask behind_a = is_behind(a.v[k] - found.point_a, d, squared_d, squared_margin, found.squared_rise);
+    const Mask behind_a =
+        is_behind(a.v[k] - found.point_a, d, squared_d, squared_margin, found.squared_rise, part_a);
     const Mask behind_b =
-        is_behind(b.v[k] - found.point_b, minus_d, squared_d, squared_margin, found.squared_rise);
+        is_behind(b.v[k] - found.point_b, minus_d, squared_d, squared_margin, found.squared_rise, part_b);
     result = hn::And(result, hn::Or(behind_a, hn::Gt(found.weights_a.v[k], zero())));
     result = hn::And(result, hn::Or(behind_b, hn::Gt(found.weights_b.v[k], zero())));
   }
