@@ -48,17 +48,17 @@ bool settle(PairAnswer& answer, const PairAnswer& condition) {
 /// One of the two meshes with its pose.
 struct Side {
   const Surface& surface;
-  const RigidTransform& X;
+  const RigidTransform& X_WM;
   bool is_moving;
 
   const Vec3& vertex_S(std::int32_t vertex) const {
     return surface.mesh.vertices[static_cast<std::size_t>(vertex)];
   }
   Vec3 vertex_W(std::int32_t vertex) const {
-    return is_moving ? X.point(vertex_S(vertex)) : vertex_S(vertex);
+    return is_moving ? X_WM.point(vertex_S(vertex)) : vertex_S(vertex);
   }
-  Vec3 to_surface(const Vec3& d_W) const { return is_moving ? Vec3(X.rotation.transpose() * d_W) : d_W; }
-  Vec3 to_world(const Vec3& d_S) const { return is_moving ? X.direction(d_S) : d_S; }
+  Vec3 to_surface(const Vec3& d_W) const { return is_moving ? Vec3(X_WM.rotation.transpose() * d_W) : d_W; }
+  Vec3 to_world(const Vec3& d_S) const { return is_moving ? X_WM.direction(d_S) : d_S; }
   /// By how much a point of this mesh moves against the other for a displacement of 1.
   double sign() const { return is_moving ? 1.0 : -1.0; }
 };

@@ -21,7 +21,7 @@ ClearGap gap_to_plane(const Triangle& a, const Triangle& b, const Vec3& normal_b
 
 ClearGap clear_gap(const Triangle& a, const Vec3& normal_a, const Triangle& b, const Vec3& normal_b,
                    double margin) {
-  const ClearGap over_b = gap_to_plane(a, b, normal_b);
+  ClearGap over_b = gap_to_plane(a, b, normal_b);
   if (over_b.gap > margin) return over_b;
   const ClearGap over_a = gap_to_plane(b, a, normal_a);
   if (over_a.gap > margin) return {over_a.gap, -over_a.axis};

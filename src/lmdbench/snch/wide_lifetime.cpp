@@ -186,15 +186,15 @@ HWY_INLINE WideLifetimes test_lifetime(const WideNode& node, const WideProbe& pr
   return result;
 }
 
-void TestLifetime(const WideNode& node, const WideProbe& probe, const WideLimits& limits,
-                  const WideForecast& forecast, const WideLifetimeTest& test, WideLifetimes& result) {
+void lifetime_on_target(const WideNode& node, const WideProbe& probe, const WideLimits& limits,
+                        const WideForecast& forecast, const WideLifetimeTest& test, WideLifetimes& result) {
   result = test_lifetime(node, probe, limits, forecast, test);
 }
 
 /// Nothing here depends on an earlier test, so that a processor works on several at once.
-void TestBatch(const WideHierarchy& a, const WideHierarchy& b, const WideQuery& query,
-               const WideForecast& forecast, const WideKeptPair* pairs, std::span<const std::uint32_t> due,
-               WideKeptTest* tests) {
+void batch_on_target(const WideHierarchy& a, const WideHierarchy& b, const WideQuery& query,
+                     const WideForecast& forecast, const WideKeptPair* pairs,
+                     std::span<const std::uint32_t> due, WideKeptTest* tests) {
   for (std::size_t i = 0; i < due.size(); ++i) {
     if (i + 2 * FETCH_DISTANCE < due.size()) __builtin_prefetch(&pairs[due[i + 2 * FETCH_DISTANCE]]);
     if (i + FETCH_DISTANCE < due.size()) {
@@ -239,8 +239,8 @@ HWY_AFTER_NAMESPACE();
 
 namespace lmdbench {
 
-HWY_EXPORT(TestLifetime);
-HWY_EXPORT(TestBatch);
+HWY_EXPORT(lifetime_on_target);
+HWY_EXPORT(batch_on_target);
 
 WideForecast::WideForecast(const MotionForecast& motion, const RigidTransform& X_FM, double cutoff_of_levers)
     : in_fixed(motion.turn(), motion.origin_velocity()),
@@ -268,13 +268,13 @@ void test_batch(const WideHierarchy& a, const WideHierarchy& b, const WideQuery&
                 const WideForecast& forecast, std::span<const WideKeptPair> pairs,
                 std::span<const std::uint32_t> due, std::vector<WideKeptTest>& tests) {
   tests.resize(due.size());
-  HWY_DYNAMIC_DISPATCH(TestBatch)(a, b, query, forecast, pairs.data(), due, tests.data());
+  HWY_DYNAMIC_DISPATCH(batch_on_target)(a, b, query, forecast, pairs.data(), due, tests.data());
 }
 
 WideLifetimes test_lanes_lifetime(const WideNode& node, const WideProbe& probe, const WideLimits& limits,
                                   const WideForecast& forecast, const WideLifetimeTest& test) {
   WideLifetimes result;
-  HWY_DYNAMIC_DISPATCH(TestLifetime)(node, probe, limits, forecast, test, result);
+  HWY_DYNAMIC_DISPATCH(lifetime_on_target)(node, probe, limits, forecast, test, result);
   return result;
 }
 

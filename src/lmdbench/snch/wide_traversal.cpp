@@ -171,21 +171,21 @@ void descend(const WideHierarchy& a, const WideHierarchy& b, const WideQuery& qu
   counters = count;
 }
 
-void DescendVector(const WideHierarchy& a, const WideHierarchy& b, const WideQuery& query,
-                   WideScratch& scratch, WideCounters& counters) {
+void descend_vector(const WideHierarchy& a, const WideHierarchy& b, const WideQuery& query,
+                    WideScratch& scratch, WideCounters& counters) {
   descend<VectorTest>(a, b, query, scratch, counters);
 }
 
-void DescendScalar(const WideHierarchy& a, const WideHierarchy& b, const WideQuery& query,
-                   WideScratch& scratch, WideCounters& counters) {
+void descend_scalar(const WideHierarchy& a, const WideHierarchy& b, const WideQuery& query,
+                    WideScratch& scratch, WideCounters& counters) {
   descend<ScalarTest>(a, b, query, scratch, counters);
 }
 
-void TestVector(const WideNode& node, const WideProbe& probe, const WideLimits& limits, WideMasks& masks) {
+void test_vector(const WideNode& node, const WideProbe& probe, const WideLimits& limits, WideMasks& masks) {
   masks = VectorTest{}(node, probe, limits);
 }
 
-const char* TargetName() {
+const char* target_name() {
   return hwy::TargetName(HWY_TARGET);
 }
 
@@ -196,10 +196,10 @@ HWY_AFTER_NAMESPACE();
 
 namespace lmdbench {
 
-HWY_EXPORT(DescendVector);
-HWY_EXPORT(DescendScalar);
-HWY_EXPORT(TestVector);
-HWY_EXPORT(TargetName);
+HWY_EXPORT(descend_vector);
+HWY_EXPORT(descend_scalar);
+HWY_EXPORT(test_vector);
+HWY_EXPORT(target_name);
 
 WideQuery::WideQuery(const WideHierarchy& a, const WideHierarchy& b, const RigidTransform& X_BA,
                      double cutoff, double touch) {
@@ -225,20 +225,20 @@ void find_wide_pairs(const WideHierarchy& a, const WideHierarchy& b, const WideQ
   scratch.touch_pairs.clear();
   if (!query.possible) return;
   if (kernel == WideKernel::VECTOR) {
-    HWY_DYNAMIC_DISPATCH(DescendVector)(a, b, query, scratch, counters);
+    HWY_DYNAMIC_DISPATCH(descend_vector)(a, b, query, scratch, counters);
   } else {
-    HWY_DYNAMIC_DISPATCH(DescendScalar)(a, b, query, scratch, counters);
+    HWY_DYNAMIC_DISPATCH(descend_scalar)(a, b, query, scratch, counters);
   }
 }
 
 WideMasks test_lanes_vector(const WideNode& node, const WideProbe& probe, const WideLimits& limits) {
   WideMasks masks;
-  HWY_DYNAMIC_DISPATCH(TestVector)(node, probe, limits, masks);
+  HWY_DYNAMIC_DISPATCH(test_vector)(node, probe, limits, masks);
   return masks;
 }
 
 std::string_view wide_kernel_target() {
-  return HWY_DYNAMIC_DISPATCH(TargetName)();
+  return HWY_DYNAMIC_DISPATCH(target_name)();
 }
 
 }  // namespace lmdbench
