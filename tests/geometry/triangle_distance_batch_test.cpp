@@ -2,11 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/geometry/triangle_distance_batch.h>
 
-#include "geometry/triangle_families.h"
+#include "geometry/every_family.h"
 #include <gtest/gtest.h>
 #include <hwy/targets.h>
 
-#include <cctype>
 #include <cmath>
 #include <string>
 #include <vector>
@@ -81,16 +80,7 @@ TEST_P(TriangleBatch, GivesTheSameBitsInEveryInstructionSet) {
   EXPECT_GE(sets, 1);
 }
 
-INSTANTIATE_TEST_SUITE_P(All, TriangleBatch,
-                         ::testing::ValuesIn(testing::triangle_families().begin(),
-                                             testing::triangle_families().end()),
-                         [](const auto& parameter) {
-                           std::string name;
-                           for (const char c : parameter.param.name) {
-                             if (std::isalnum(static_cast<unsigned char>(c))) name += c;
-                           }
-                           return name;
-                         });
+INSTANTIATE_TEST_SUITE_P(All, TriangleBatch, testing::every_family(), testing::family_test_name);
 
 TEST(TriangleDistanceBatch, TakesEveryCount) {
   for (std::size_t count = 0; count < 40; ++count) {

@@ -253,6 +253,15 @@ TEST(TriangleDistance, KnowsThePublishedFailuresOfOthers) {
   const auto pair = triangle_distance(s, t);
   EXPECT_NEAR(std::sqrt(pair.squared_distance), 1.819e-12, 1e-12);
   EXPECT_FALSE(pair.intersecting);
+
+  // ifc-lite pull request 2815: an edge that pierces a slanted face; the minimum over corners and edges alone
+  // is not zero.
+  const Triangle slanted{Vec3(0, 0, 0), Vec3(10, 0, 2), Vec3(0, 10, 3)};
+  const Triangle piercing{Vec3(2, 2, -5), Vec3(3, 3, 5), Vec3(5, 1, 5)};
+  for (const auto& pierced : {triangle_distance(slanted, piercing), triangle_distance(piercing, slanted)}) {
+    EXPECT_TRUE(pierced.intersecting);
+    EXPECT_EQ(pierced.squared_distance, 0.0);
+  }
 }
 
 TEST(TriangleDistance, NonFiniteInputIsNotANumber) {

@@ -1,13 +1,12 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "geometry/triangle_families.h"
-
 #include <lmdbench/geometry/all_candidates.h>
 #include <lmdbench/geometry/feature_proof.h>
 #include <lmdbench/geometry/tolerance.h>
 #include <lmdbench/geometry/triangle_distance.h>
 
 #include "geometry/brute_force_distance.h"
+#include "geometry/every_family.h"
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -129,16 +128,7 @@ TEST_P(TriangleFamilies, TheProofAndTheExaminationOfAllCandidatesAgree) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(All, TriangleFamilies,
-                         ::testing::ValuesIn(testing::triangle_families().begin(),
-                                             testing::triangle_families().end()),
-                         [](const auto& parameter) {
-                           std::string name;
-                           for (const char c : parameter.param.name) {
-                             if (std::isalnum(static_cast<unsigned char>(c))) name += c;
-                           }
-                           return name;
-                         });
+INSTANTIATE_TEST_SUITE_P(All, TriangleFamilies, testing::every_family(), testing::family_test_name);
 
 }  // namespace
 }  // namespace lmdbench

@@ -4,12 +4,11 @@
 #include <lmdbench/geometry/triangle_distance.h>
 
 #include "geometry/brute_force_distance.h"
-#include "geometry/triangle_families.h"
+#include "geometry/every_family.h"
 #include "oracle/distance_bracket.h"
 #include "oracle/exact_distance.h"
 #include <gtest/gtest.h>
 
-#include <cctype>
 #include <cmath>
 #include <iomanip>
 #include <limits>
@@ -87,16 +86,7 @@ TEST_P(TriangleOracle, AgreesWithTheQuickJudges) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(All, TriangleOracle,
-                         ::testing::ValuesIn(testing::triangle_families().begin(),
-                                             testing::triangle_families().end()),
-                         [](const auto& parameter) {
-                           std::string name;
-                           for (const char c : parameter.param.name) {
-                             if (std::isalnum(static_cast<unsigned char>(c))) name += c;
-                           }
-                           return name;
-                         });
+INSTANTIATE_TEST_SUITE_P(All, TriangleOracle, testing::every_family(), testing::family_test_name);
 
 }  // namespace
 }  // namespace lmdbench
