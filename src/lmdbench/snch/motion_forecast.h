@@ -18,10 +18,12 @@ namespace lmdbench {
 ///
 ///   tau (W c + v) + tau^2 / 2 Q c
 ///
-/// with v the last frame's motion of the origin, and W and Q those of a steady turn. What really happens
-/// differs from it by no more than `deviation`, at any point and, times the reach, in any direction:
+/// with v the last frame's motion of the origin, and W and Q those of a steady turn. The deviation
 ///
 ///   |o_t - o_e - tau v| + |R_t - R_e - tau W - tau^2 / 2 Q| * reach        (Frobenius norm)
+///
+/// bounds how far any point of the mesh is from its forecast, and leaves room for the angle that the mesh has
+/// turned beyond it, times a lever of the mesh's radius and two cutoffs: reach = 2 (radius + cutoff).
 ///
 /// So everything that is planned by the forecast and stands that deviation is safe, whatever the motion; a
 /// bad forecast costs time, nothing else. New epochs start every few frames.
@@ -51,8 +53,8 @@ class MotionForecast {
   /// What plans of this frame have deviated by already.
   double deviation_at_start() const { return started_ ? 0.0 : deviations_[epoch_]; }
 
-  /// How forecasts have deviated lately: base + drift tau^2 / 2 after tau frames. A guess, in metres and
-  /// metres a frame squared, and not a bound.
+  /// How forecasts have deviated lately: about base + drift * tau after tau frames. A guess, not a bound;
+  /// metres and metres a frame.
   double base() const { return base_; }
   double drift() const { return drift_; }
 

@@ -49,7 +49,8 @@ struct WideForecast {
   float horizon = 0.0F;  ///< Lanes that would be rejected for no longer than this survive [frames].
 
   WideForecast() = default;
-  /// @param X_FM rotation of the moving mesh at this frame in the fixed mesh's frame
+  /// @param X_FM   the moving mesh at this frame in the fixed mesh's frame; only its rotation matters
+  /// @param cutoff distance of what is looked for [m]
   WideForecast(const MotionForecast& forecast, const RigidTransform& X_FM, double cutoff);
 };
 
@@ -64,24 +65,22 @@ inline constexpr float HALF_DIAGONAL = 0.7F;
 /// Losses and lengths are at least this, so that nothing is divided by zero.
 inline constexpr float LEAST_LENGTH = 1e-30F;
 
+/// Lanes that survive, as bit masks, and for how long the others stay rejected.
 struct WideLifetimes {
   std::uint32_t used = 0;   ///< Lanes in use.
   std::uint32_t lmd = 0;    ///< Survive as LMDs, or are rejected for no longer than the horizon.
-  std::uint32_t touch = 0;  ///< Survive as touching.
-  /// What did not survive stays rejected for so many frames of the forecast; perhaps not for the next if
-  /// below 1,
+  std::uint32_t touch = 0;  ///< Survive as touching, likewise.
+  /// The others stay rejected for so many frames of the forecast (below 1: perhaps not for the next one) ...
   float frames = std::numeric_limits<float>::infinity();
-  /// if the motion deviates from it by no more than this [m].
+  /// ... if the motion deviates from it by no more than this [m].
   float allowance = std::numeric_limits<float>::infinity();
 };
 
-/// @param moving_lanes the lanes are the moving mesh's, the probe the fixed one's
-/// @param probe_velocity of the probe's centre in the lanes' frame where the probe moves, metres a frame
-/// @param touch_lanes  lanes for which touching matters
+/// What a test needs to know beyond its node and probe.
 struct WideLifetimeTest {
-  bool moving_lanes;
-  float probe_velocity[3];
-  std::uint32_t touch_lanes;
+  bool moving_lanes;          ///< The lanes are the moving mesh's, the probe the fixed one's.
+  float probe_velocity[3];    ///< Of a moving probe's centre, in the lanes' frame; metres a frame.
+  std::uint32_t touch_lanes;  ///< Lanes for which touching matters.
 };
 
 WideLifetimes test_lanes_lifetime(const WideNode& node, const WideProbe& probe, const WideLimits& limits,
