@@ -11,7 +11,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <tuple>
 
 namespace lmdbench {
 
@@ -138,20 +137,13 @@ bool Certified::evaluate(const PairFilter& filter, std::int32_t body, const Tria
   const Triangle a = filter.X_WM.triangle(filter.moving.mesh.triangle(pair.moving));
   const TrianglePairDistance nearest = triangle_distance(a, filter.fixed.mesh.triangle(pair.fixed));
   ++counters[Counter::TRIANGLE_DISTANCES];
-  minimum = LocalMinimum{};
-  minimum.lmd = lmd_of_triangle_pair(filter.moving, filter.fixed, body, pair.moving, pair.fixed, nearest);
+  minimum = minimum_of_triangle_pair(filter.moving, filter.fixed, body, pair.moving, pair.fixed, nearest);
   if (!(nearest.squared_distance <= scene_.cutoff * scene_.cutoff)) {
     ++counters[Counter::REJECTED_CUTOFF];
     return false;
   }
-  if (minimum.lmd.distance > 0.0)
-    minimum.lmd.direction = (nearest.point_b - nearest.point_a) / minimum.lmd.distance;
-  minimum.dimension = nearest.minimiser_dimension;
-  minimum.measure = nearest.minimiser_measure;
   ++counters[Counter::FIRST_ORDER_TESTS];
-  minimum.strict = is_local_minimum(filter.moving, filter.X_WM, filter.fixed, minimum.lmd);
-  return minimum.strict ||
-         is_local_minimum(filter.moving, filter.X_WM, filter.fixed, minimum.lmd, PLATEAU_PIECE_TOLERANCE);
+  return meets_first_order(filter.moving, filter.X_WM, filter.fixed, minimum);
 }
 
 /// Settles a candidate or leaves its triangle pairs to decide_pending; returns what WideFrontier asks for.
@@ -211,22 +203,8 @@ void Certified::decide_pending(const PairFilter& filter, std::int32_t body, Work
 }
 
 void Certified::report(double coordinates, LmdSet& lmds) {
-  // One entry a feature pair, as merge_plateaus keeps it: a pair may come from its own candidate and from
-  // that of a neighbour that was close to a tie.
-  std::sort(minima_.begin(), minima_.end(), [](const LocalMinimum& a, const LocalMinimum& b) {
-    return std::tie(a.lmd.fixed_body, a.lmd.feature_moving, a.lmd.feature_fixed, a.lmd.distance, b.measure,
-                    a.lmd.triangle_moving, a.lmd.triangle_fixed) <
-           std::tie(b.lmd.fixed_body, b.lmd.feature_moving, b.lmd.feature_fixed, b.lmd.distance, a.measure,
-                    b.lmd.triangle_moving, b.lmd.triangle_fixed);
-  });
-  // What is erased leaves its strictness to the one that stays, as in merge_plateaus.
-  for (std::size_t i = minima_.size(); i-- > 1;)
-    if (same_feature_pair(minima_[i - 1].lmd, minima_[i].lmd)) minima_[i - 1].strict |= minima_[i].strict;
-  minima_.erase(std::unique(minima_.begin(), minima_.end(),
-                            [](const LocalMinimum& a, const LocalMinimum& b) {
-                              return same_feature_pair(a.lmd, b.lmd);
-                            }),
-                minima_.end());
+  // A pair may come from its own candidate and from that of a neighbour that was close to a tie.
+  keep_one_a_feature_pair(minima_);
   // Plateaus are rare, and have equal distances.
   for (std::size_t i = 0; i < minima_.size(); ++i) {
     for (std::size_t j = i + 1; j < minima_.size(); ++j) {

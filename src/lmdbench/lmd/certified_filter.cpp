@@ -155,17 +155,13 @@ struct Test {
     if (squared_length <= filter.tiny * filter.tiny)
       return near(to_end.squaredNorm(), to_end).verdict == PairVerdict::NO_LMD ? NO_LMD_NOW : CLOSE;
     const double parameter = (p - e0).dot(u) / squared_length;
-    PairAnswer answer = HOLDS;
     const double beyond = std::max(-parameter, parameter - 1.0);
-    if (beyond > -filter.margin) {
-      if (!(beyond > filter.margin)) {
-        answer = CLOSE;
-      } else {
-        const double length = std::sqrt(squared_length);
-        const double inwards = parameter < 0.0 ? of_vertex.sign() : -of_vertex.sign();
-        return no_lmd_within(beyond * length, inwards / length * u);
-      }
+    if (beyond > filter.margin) {
+      const double length = std::sqrt(squared_length);
+      const double inwards = parameter < 0.0 ? of_vertex.sign() : -of_vertex.sign();
+      return no_lmd_within(beyond * length, inwards / length * u);
     }
+    PairAnswer answer = beyond < -filter.margin ? HOLDS : CLOSE;
     const Vec3 d = e0 + parameter * u - p;
     if (settle(answer, near(d.squaredNorm(), of_vertex.sign() * d))) return answer;
     if (!settle(answer, in_vertex_cone(of_vertex, vertex, d, 0.0)))

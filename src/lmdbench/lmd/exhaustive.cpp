@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/geometry/triangle_distance.h>
 #include <lmdbench/lmd/exhaustive.h>
-#include <lmdbench/lmd/first_order.h>
 #include <lmdbench/lmd/triangle_pair.h>
 
 #include <utility>
@@ -34,18 +33,10 @@ void Exhaustive::search(const Pose& X_WM, LmdSet& lmds, WorkCounters& counters) 
           ++counters[Counter::REJECTED_CUTOFF];
           return;
         }
-        LocalMinimum minimum;
-        minimum.lmd =
-            lmd_of_triangle_pair(moving, fixed, static_cast<std::int32_t>(body), t_moving, t_fixed, pair);
-        if (minimum.lmd.distance > 0.0)
-          minimum.lmd.direction = (pair.point_b - pair.point_a) / minimum.lmd.distance;
-        minimum.dimension = pair.minimiser_dimension;
-        minimum.measure = pair.minimiser_measure;
+        LocalMinimum minimum =
+            minimum_of_triangle_pair(moving, fixed, static_cast<std::int32_t>(body), t_moving, t_fixed, pair);
         ++counters[Counter::FIRST_ORDER_TESTS];
-        minimum.strict = is_local_minimum(moving, transform, fixed, minimum.lmd);
-        if (minimum.strict ||
-            is_local_minimum(moving, transform, fixed, minimum.lmd, PLATEAU_PIECE_TOLERANCE))
-          minima_.push_back(minimum);
+        if (meets_first_order(moving, transform, fixed, minimum)) minima_.push_back(minimum);
       });
     }
   }

@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/lmd/first_order.h>
 #include <lmdbench/lmd/plateau.h>
+#include <lmdbench/mesh/feature_corners.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numeric>
 #include <span>
@@ -13,28 +13,6 @@
 namespace lmdbench {
 
 namespace {
-
-/// Vertices of the closed feature: two cells of a mesh touch when these share one.
-struct FeatureVertices {
-  std::array<std::int32_t, 3> items{};
-  std::size_t count = 0;
-
-  FeatureVertices(const Surface& surface, const FeatureId& feature) {
-    const auto index = static_cast<std::size_t>(feature.index);
-    switch (feature.kind) {
-      case FeatureKind::VERTEX:
-        items[count++] = feature.index;
-        break;
-      case FeatureKind::EDGE:
-        for (const std::int32_t vertex : surface.adjacency.edges[index]) items[count++] = vertex;
-        break;
-      case FeatureKind::FACE:
-        for (const std::int32_t vertex : surface.mesh.triangles[index]) items[count++] = vertex;
-        break;
-    }
-  }
-  std::span<const std::int32_t> view() const { return {items.data(), count}; }
-};
 
 /// A vertex pair that a local minimum touches.
 struct Touch {
@@ -108,8 +86,7 @@ Lmd representative(std::span<const LocalMinimum> minima, std::span<const std::si
 
 }  // namespace
 
-void merge_plateaus(const Scene& scene, std::vector<LocalMinimum>& minima, LmdSet& lmds) {
-  lmds.clear();
+void keep_one_a_feature_pair(std::vector<LocalMinimum>& minima) {
   std::sort(minima.begin(), minima.end(), [](const LocalMinimum& a, const LocalMinimum& b) {
     if (feature_pair_less(a.lmd, b.lmd) || feature_pair_less(b.lmd, a.lmd))
       return feature_pair_less(a.lmd, b.lmd);
@@ -126,13 +103,19 @@ void merge_plateaus(const Scene& scene, std::vector<LocalMinimum>& minima, LmdSe
                              return same_feature_pair(a.lmd, b.lmd);
                            }),
                minima.end());
+}
+
+void merge_plateaus(const Scene& scene, std::vector<LocalMinimum>& minima, LmdSet& lmds) {
+  lmds.clear();
+  keep_one_a_feature_pair(minima);
 
   std::vector<Touch> touches;
   for (std::size_t i = 0; i < minima.size(); ++i) {
     const Lmd& lmd = minima[i].lmd;
-    const FeatureVertices on_moving(scene.moving->surface(), lmd.feature_moving);
-    const FeatureVertices on_fixed(scene.fixed[static_cast<std::size_t>(lmd.fixed_body)]->surface(),
-                                   lmd.feature_fixed);
+    const FeatureCorners on_moving(scene.moving->surface(), lmd.feature_moving);
+    const FeatureCorners on_fixed(scene.fixed[static_cast<std::size_t>(lmd.fixed_body)]->surface(),
+                                  lmd.feature_fixed);
+    // Two cells of a mesh touch when they share a corner.
     for (const std::int32_t m : on_moving.view())
       for (const std::int32_t f : on_fixed.view()) touches.push_back({lmd.fixed_body, m, f, i});
   }

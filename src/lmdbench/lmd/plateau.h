@@ -24,6 +24,10 @@ struct LocalMinimum {
 /// plateau.
 inline constexpr double PLATEAU_TOLERANCE = 1e-9;
 
+/// Leaves one entry a feature pair, sorted by body and features: the nearest, of those the one with the
+/// largest measure; strict if any of them is.
+void keep_one_a_feature_pair(std::vector<LocalMinimum>& minima);
+
 /// Makes the LMD set out of local minima: one entry a feature pair, and one entry a plateau. Parallel edges
 /// or faces have a whole segment or polygon of minimisers that spreads over many feature pairs; neighbouring
 /// pairs of equal distance and direction are joined, and the plateau is represented by the centroid of its

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/geometry/cone.h>
+#include <lmdbench/mesh/feature_corners.h>
 #include <lmdbench/snch/wide_items.h>
 
 #include <tbb/parallel_for.h>

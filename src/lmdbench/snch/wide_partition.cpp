@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/mesh/feature_corners.h>
 #include <lmdbench/snch/wide_partition.h>
 
 #include <Eigen/Core>
