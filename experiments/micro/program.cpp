@@ -17,10 +17,14 @@ void add_mesh_options(CLI::App& app, SceneChoice& scene) {
   app.add_option("--fixed", scene.fixed, "Fixed mesh")->capture_default_str();
 }
 
+void add_scene_options(CLI::App& app, SceneChoice& scene) {
+  app.add_option("--meshes", scene.meshes, "Folder of built meshes")->capture_default_str();
+  app.add_option("--diagonal", scene.diagonal, "Diagonal of both meshes [m]")->capture_default_str();
+  app.add_option("--gap", scene.gap, "Gap, share of the diagonal")->capture_default_str();
+}
+
 void add_study_options(CLI::App& app, StudyChoice& choice) {
-  app.add_option("--meshes", choice.scene.meshes, "Folder of built meshes")->capture_default_str();
-  app.add_option("--diagonal", choice.scene.diagonal, "Diagonal of both meshes [m]")->capture_default_str();
-  app.add_option("--gap", choice.scene.gap, "Gap, share of the diagonal")->capture_default_str();
+  add_scene_options(app, choice.scene);
   app.add_option("--cutoff", choice.cutoffs, "Cutoffs, shares of the diagonal")->capture_default_str();
   app.add_option("--poses", choice.poses, "How many poses")->capture_default_str();
   app.add_option("--seed", choice.seed, "Seed of the poses")->capture_default_str();

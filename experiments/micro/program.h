@@ -30,7 +30,10 @@ struct StudyChoice {
 /// --moving and --fixed.
 void add_mesh_options(CLI::App& app, SceneChoice& scene);
 
-/// --meshes, --diagonal, --gap, --cutoff, --poses, --seed and --json. `choice` holds the defaults.
+/// --meshes, --diagonal and --gap.
+void add_scene_options(CLI::App& app, SceneChoice& scene);
+
+/// Those of a scene, --cutoff, --poses, --seed and --json. `choice` holds the defaults.
 void add_study_options(CLI::App& app, StudyChoice& choice);
 
 /// Tells errors on standard error.

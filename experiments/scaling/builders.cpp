@@ -122,9 +122,7 @@ int main(int argc, char** argv) {
   scaling::Choice choice;
   CLI::App app("Builders of the wide hierarchy, by the work that their trees leave to a search");
   micro::add_mesh_options(app, choice.scene);
-  app.add_option("--meshes", choice.scene.meshes, "Folder of built meshes")->capture_default_str();
-  app.add_option("--diagonal", choice.scene.diagonal, "Diagonal of both meshes [m]")->capture_default_str();
-  app.add_option("--gap", choice.scene.gap, "Gap, share of the diagonal")->capture_default_str();
+  micro::add_scene_options(app, choice.scene);
   app.add_option("--poses", choice.poses, "Random poses")->capture_default_str()->check(CLI::PositiveNumber);
   app.add_option("--seed", choice.seed, "Seed of the poses")->capture_default_str();
   return micro::run_program(app, argc, argv, [&] { return scaling::run(choice); });

@@ -20,6 +20,8 @@
 namespace lmdbench {
 namespace {
 
+using testing::expect_same_pairs;
+using testing::for_each_random_node_test;
 using testing::LaneSample;
 using testing::random_direction;
 using testing::random_transform;
@@ -237,26 +239,17 @@ TEST(WideHierarchy, OfAnEmptyMeshIsEmpty) {
 TEST(WideNodeTest, VectorAndScalarAgreeBitForBit) {
   std::mt19937_64 random(1);
   std::size_t alive = 0;
-  for (const TriangleMesh& mesh : shapes()) {
-    const WideHierarchy hierarchy = build_wide_hierarchy(build_surface(mesh));
-    for (int i = 0; i < 2000; ++i) {
-      const WideQuery query(hierarchy, hierarchy, random_transform(uniform(random), random),
-                            0.3 * uniform(random), 1e-9);
-      const auto& node = hierarchy.nodes[random() % hierarchy.nodes.size()];
-      const auto& home = hierarchy.nodes[random() % hierarchy.nodes.size()];
-      const auto lane = static_cast<std::uint32_t>(random() % WIDE_WIDTH);
-      if (!query.possible || home.child[lane] == 0) continue;
-      const WideProbe probe = make_probe(WideChild(home, lane), query.a_in_b);
-      const WideMasks scalar = test_lanes_scalar(node, probe, query.limits);
-      const WideMasks vector = test_lanes_vector(node, probe, query.limits);
-      ASSERT_EQ(scalar.lmd, vector.lmd);
-      ASSERT_EQ(scalar.touch, vector.touch);
-      ASSERT_EQ(scalar.used, vector.used);
-      ASSERT_EQ(scalar.beyond, vector.beyond);
-      ASSERT_EQ(scalar.not_collinear, vector.not_collinear);
-      if (scalar.lmd != 0) ++alive;
-    }
-  }
+  for_each_random_node_test(random,
+                            [&](const WideQuery& query, const WideNode& node, const WideProbe& probe) {
+                              const WideMasks scalar = test_lanes_scalar(node, probe, query.limits);
+                              const WideMasks vector = test_lanes_vector(node, probe, query.limits);
+                              ASSERT_EQ(scalar.lmd, vector.lmd);
+                              ASSERT_EQ(scalar.touch, vector.touch);
+                              ASSERT_EQ(scalar.used, vector.used);
+                              ASSERT_EQ(scalar.beyond, vector.beyond);
+                              ASSERT_EQ(scalar.not_collinear, vector.not_collinear);
+                              if (scalar.lmd != 0) ++alive;
+                            });
   EXPECT_GT(alive, 100u);
 }
 
@@ -309,16 +302,7 @@ TEST(WideTraversal, VectorAndScalarFindTheSamePairs) {
       WideCounters of_vector, of_scalar;
       find_wide_pairs(hierarchy, hierarchy, query, WideKernel::VECTOR, vector, of_vector);
       find_wide_pairs(hierarchy, hierarchy, query, WideKernel::SCALAR, scalar, of_scalar);
-      ASSERT_EQ(vector.lmd_pairs.size(), scalar.lmd_pairs.size());
-      for (std::size_t k = 0; k < vector.lmd_pairs.size(); ++k) {
-        ASSERT_EQ(vector.lmd_pairs[k].a, scalar.lmd_pairs[k].a);
-        ASSERT_EQ(vector.lmd_pairs[k].b, scalar.lmd_pairs[k].b);
-      }
-      EXPECT_EQ(vector.touch_pairs.size(), scalar.touch_pairs.size());
-      EXPECT_EQ(of_vector.node_pairs, of_scalar.node_pairs);
-      EXPECT_EQ(of_vector.rejected_g1, of_scalar.rejected_g1);
-      EXPECT_EQ(of_vector.rejected_g2, of_scalar.rejected_g2);
-      EXPECT_EQ(of_vector.rejected_g3, of_scalar.rejected_g3);
+      ASSERT_NO_FATAL_FAILURE(expect_same_pairs(vector, of_vector, scalar, of_scalar));
       pairs += vector.lmd_pairs.size();
       std::set<std::pair<std::uint32_t, std::uint32_t>> unique;
       for (const WidePair& pair : vector.lmd_pairs) unique.emplace(pair.a.bits(), pair.b.bits());

@@ -10,10 +10,10 @@
 namespace lmdbench {
 namespace {
 
+using testing::expect_same_lifetimes;
+using testing::for_each_random_node_test;
 using testing::LaneSample;
 using testing::random_direction;
-using testing::random_transform;
-using testing::shapes;
 using testing::uniform;
 
 float random_float(double largest, std::mt19937_64& random) {
@@ -23,40 +23,29 @@ float random_float(double largest, std::mt19937_64& random) {
 TEST(WideLifetime, VectorAndScalarAgreeBitForBit) {
   std::mt19937_64 random(4);
   std::size_t alive = 0, dead = 0;
-  for (const TriangleMesh& mesh : shapes()) {
-    const WideHierarchy hierarchy = build_wide_hierarchy(build_surface(mesh));
-    for (int i = 0; i < 2000; ++i) {
-      const WideQuery query(hierarchy, hierarchy, random_transform(uniform(random), random),
-                            0.3 * uniform(random), 1e-9);
-      const auto& node = hierarchy.nodes[random() % hierarchy.nodes.size()];
-      const auto& home = hierarchy.nodes[random() % hierarchy.nodes.size()];
-      const auto lane = static_cast<std::uint32_t>(random() % WIDE_WIDTH);
-      if (!query.possible || home.child[lane] == 0) continue;
-      const WideProbe probe = make_probe(WideChild(home, lane), query.a_in_b);
-      WideForecast forecast;
-      forecast.in_moving = WideTransform(0.01 * testing::random_rotation(random).toRotationMatrix(),
-                                         0.01 * random_direction(random));
-      forecast.creep = random_float(1e-3, random);
-      forecast.spin = random_float(1e-2, random);
-      forecast.cutoff = query.limits.cutoff;
-      forecast.base = random_float(1e-3, random);
-      forecast.drift = random_float(1e-3, random);
-      forecast.reach = 3.0F;
-      const WideLifetimeTest test{
-          i % 2 == 0,
-          {random_float(0.01, random), random_float(0.01, random), -random_float(0.01, random)},
-          static_cast<std::uint32_t>(random() & 0xFFu)};
-      forecast.horizon = random_float(4.0, random);
-      const WideLifetimes scalar = test_lanes_lifetime_scalar(node, probe, query.limits, forecast, test);
-      const WideLifetimes vector = test_lanes_lifetime(node, probe, query.limits, forecast, test);
-      ASSERT_EQ(scalar.used, vector.used);
-      ASSERT_EQ(scalar.lmd, vector.lmd);
-      ASSERT_EQ(scalar.touch, vector.touch);
-      ASSERT_EQ(scalar.frames, vector.frames);
-      ASSERT_EQ(scalar.allowance, vector.allowance);
-      ++(scalar.lmd != 0 ? alive : dead);
-    }
-  }
+  bool moving_lanes = false;
+  for_each_random_node_test(
+      random, [&](const WideQuery& query, const WideNode& node, const WideProbe& probe) {
+        moving_lanes = !moving_lanes;
+        WideForecast forecast;
+        forecast.in_moving = WideTransform(0.01 * testing::random_rotation(random).toRotationMatrix(),
+                                           0.01 * random_direction(random));
+        forecast.creep = random_float(1e-3, random);
+        forecast.spin = random_float(1e-2, random);
+        forecast.cutoff = query.limits.cutoff;
+        forecast.base = random_float(1e-3, random);
+        forecast.drift = random_float(1e-3, random);
+        forecast.reach = 3.0F;
+        const WideLifetimeTest test{
+            moving_lanes,
+            {random_float(0.01, random), random_float(0.01, random), -random_float(0.01, random)},
+            static_cast<std::uint32_t>(random() & 0xFFu)};
+        forecast.horizon = random_float(4.0, random);
+        const WideLifetimes scalar = test_lanes_lifetime_scalar(node, probe, query.limits, forecast, test);
+        const WideLifetimes vector = test_lanes_lifetime(node, probe, query.limits, forecast, test);
+        ASSERT_NO_FATAL_FAILURE(expect_same_lifetimes(vector, scalar));
+        ++(scalar.lmd != 0 ? alive : dead);
+      });
   EXPECT_GT(alive, 100u);
   EXPECT_GT(dead, 100u);
 }

@@ -4,7 +4,10 @@
 
 #include <lmdbench/mesh/shapes.h>
 #include <lmdbench/snch/wide_hierarchy.h>
+#include <lmdbench/snch/wide_lifetime.h>
+#include <lmdbench/snch/wide_traversal.h>
 
+#include <gtest/gtest.h>
 #include <support/scenes.h>
 
 #include <algorithm>
@@ -67,5 +70,46 @@ struct LaneSample {
     node.child[lane] = 1;
   }
 };
+
+/// Calls visit(query, node, probe) for random nodes and children of every shape's hierarchy, against itself.
+template <class Visit>
+void for_each_random_node_test(std::mt19937_64& random, Visit&& visit) {
+  for (const TriangleMesh& mesh : shapes()) {
+    const WideHierarchy hierarchy = build_wide_hierarchy(build_surface(mesh));
+    for (int i = 0; i < 2000; ++i) {
+      const WideQuery query(hierarchy, hierarchy, random_transform(uniform(random), random),
+                            0.3 * uniform(random), 1e-9);
+      const auto& node = hierarchy.nodes[random() % hierarchy.nodes.size()];
+      const auto& home = hierarchy.nodes[random() % hierarchy.nodes.size()];
+      const auto lane = static_cast<std::uint32_t>(random() % WIDE_WIDTH);
+      if (!query.possible || home.child[lane] == 0) continue;
+      visit(query, node, make_probe(WideChild(home, lane), query.a_in_b));
+      if (::testing::Test::HasFatalFailure()) return;
+    }
+  }
+}
+
+/// Two forms of a traversal found the same, in the same order and with the same work.
+inline void expect_same_pairs(const WideScratch& a, const WideCounters& of_a, const WideScratch& b,
+                              const WideCounters& of_b) {
+  ASSERT_EQ(a.lmd_pairs.size(), b.lmd_pairs.size());
+  for (std::size_t k = 0; k < a.lmd_pairs.size(); ++k) {
+    ASSERT_EQ(a.lmd_pairs[k].a, b.lmd_pairs[k].a);
+    ASSERT_EQ(a.lmd_pairs[k].b, b.lmd_pairs[k].b);
+  }
+  ASSERT_EQ(a.touch_pairs.size(), b.touch_pairs.size());
+  ASSERT_EQ(of_a.node_pairs, of_b.node_pairs);
+  ASSERT_EQ(of_a.rejected_g1, of_b.rejected_g1);
+  ASSERT_EQ(of_a.rejected_g2, of_b.rejected_g2);
+  ASSERT_EQ(of_a.rejected_g3, of_b.rejected_g3);
+}
+
+inline void expect_same_lifetimes(const WideLifetimes& a, const WideLifetimes& b) {
+  ASSERT_EQ(a.used, b.used);
+  ASSERT_EQ(a.lmd, b.lmd);
+  ASSERT_EQ(a.touch, b.touch);
+  ASSERT_EQ(a.frames, b.frames);
+  ASSERT_EQ(a.allowance, b.allowance);
+}
 
 }  // namespace lmdbench::testing

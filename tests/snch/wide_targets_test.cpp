@@ -3,6 +3,7 @@
 #include <lmdbench/snch/wide_lifetime.h>
 #include <lmdbench/snch/wide_traversal.h>
 
+#include "snch/wide_samples.h"
 #include <gtest/gtest.h>
 #include <hwy/targets.h>
 #include <support/scenes.h>
@@ -47,16 +48,8 @@ TEST(WideTargets, EveryInstructionSetFindsTheSamePairsWithTheSameCounters) {
       WideScratch scratch;
       WideCounters counters;
       find_wide_pairs(a, b, query, WideKernel::VECTOR, scratch, counters);
-      ASSERT_EQ(scratch.lmd_pairs.size(), reference.lmd_pairs.size()) << wide_kernel_target();
-      for (std::size_t k = 0; k < scratch.lmd_pairs.size(); ++k) {
-        ASSERT_EQ(scratch.lmd_pairs[k].a, reference.lmd_pairs[k].a);
-        ASSERT_EQ(scratch.lmd_pairs[k].b, reference.lmd_pairs[k].b);
-      }
-      ASSERT_EQ(scratch.touch_pairs.size(), reference.touch_pairs.size());
-      ASSERT_EQ(counters.node_pairs, of_reference.node_pairs);
-      ASSERT_EQ(counters.rejected_g1, of_reference.rejected_g1);
-      ASSERT_EQ(counters.rejected_g2, of_reference.rejected_g2);
-      ASSERT_EQ(counters.rejected_g3, of_reference.rejected_g3);
+      SCOPED_TRACE(wide_kernel_target());
+      ASSERT_NO_FATAL_FAILURE(testing::expect_same_pairs(scratch, counters, reference, of_reference));
 
       const WideProbe probe = make_probe(WideChild(a.nodes[0], 0), query.a_in_b);
       MotionForecast motion;
@@ -69,10 +62,7 @@ TEST(WideTargets, EveryInstructionSetFindsTheSamePairsWithTheSameCounters) {
       for (const WideNode& node : b.nodes) {
         const WideLifetimes vector = test_lanes_lifetime(node, probe, query.limits, forecast, test);
         const WideLifetimes scalar = test_lanes_lifetime_scalar(node, probe, query.limits, forecast, test);
-        ASSERT_EQ(vector.lmd, scalar.lmd);
-        ASSERT_EQ(vector.touch, scalar.touch);
-        ASSERT_EQ(vector.frames, scalar.frames);
-        ASSERT_EQ(vector.allowance, scalar.allowance);
+        ASSERT_NO_FATAL_FAILURE(testing::expect_same_lifetimes(vector, scalar));
       }
     }
   }
