@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/experiment/experiment.h>
 #include <lmdbench/experiment/prepare.h>
-#include <lmdbench/lmd/certified.h>
+#include <lmdbench/methods/certified/certified.h>
 #include <lmdbench/motion/tum_file.h>
 
 #include <completeness/study.h>

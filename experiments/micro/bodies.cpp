@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include <lmdbench/mesh/manifest.h>
+#include <lmdbench/catalogue/manifest.h>
 #include <lmdbench/mesh/placement.h>
 
 #include <micro/bodies.h>

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include <lmdbench/error.h>
+#include <lmdbench/base/error.h>
 #include <lmdbench/experiment/prepare.h>
-#include <lmdbench/lmd/registry.h>
+#include <lmdbench/methods/registry.h>
 
 #include <fmt/core.h>
 #include <micro/frame_loop.h>

@@ -30,10 +30,10 @@ Pose grazing_pose(const Body& moving, const Body& fixed, double gap, Random& ran
   const Vec3 centre_W = bounding_box_centre(fixed_mesh) - apart * towards_W;
   X_WM.translation = centre_W - X_WM.rotation * bounding_box_centre(moving_mesh);
   for (int i = 0; i < MAXIMUM_STEPS; ++i) {
-    const double left =
-        nearest_pair(moving.surface(), moving.hierarchy(), fixed.surface(), fixed.hierarchy(), X_WM)
-            .distance -
-        gap;
+    const double left = nearest_pair(moving.surface(), moving.prepared<Hierarchy>(), fixed.surface(),
+                                     fixed.prepared<Hierarchy>(), X_WM)
+                            .distance -
+                        gap;
     if (left <= GAP_TOLERANCE * gap) return X_WM;
     X_WM.translation += left * towards_W;
   }

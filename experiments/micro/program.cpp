@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include <lmdbench/error.h>
-#include <lmdbench/mesh/atomic_file.h>
+#include <lmdbench/base/atomic_file.h>
+#include <lmdbench/base/error.h>
 
 #include <CLI/CLI.hpp>
 #include <micro/program.h>

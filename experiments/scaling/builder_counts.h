@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <lmdbench/snch/wide_hierarchy.h>
-#include <lmdbench/snch/wide_traversal.h>
+#include <lmdbench/methods/certified/hierarchy/wide_hierarchy.h>
+#include <lmdbench/methods/certified/hierarchy/wide_traversal.h>
 
 #include <cstddef>
 #include <cstdint>

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include <lmdbench/error.h>
+#include <lmdbench/base/error.h>
+#include <lmdbench/catalogue/manifest.h>
 #include <lmdbench/lmd/body.h>
-#include <lmdbench/mesh/manifest.h>
 #include <lmdbench/mesh/placement.h>
 
 #include <CLI/CLI.hpp>

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/lmd/first_order.h>
-#include <lmdbench/lmd/registry.h>
+#include <lmdbench/methods/registry.h>
 #include <lmdbench/snch/minimum_distance.h>
 
 #include <fmt/format.h>
@@ -69,8 +69,8 @@ std::string minimum_objection(double minimum, const MeasureChoice& choice, doubl
 bool nearest_pair_is_lmd(const Scene& scene, const Pose& X_WM) {
   const Surface& moving = scene.moving->surface();
   const Surface& fixed = scene.fixed.at(0)->surface();
-  const NearestPair nearest =
-      nearest_pair(moving, scene.moving->hierarchy(), fixed, scene.fixed[0]->hierarchy(), X_WM);
+  const NearestPair nearest = nearest_pair(moving, scene.moving->prepared<Hierarchy>(), fixed,
+                                           scene.fixed[0]->prepared<Hierarchy>(), X_WM);
   Lmd lmd;
   lmd.distance = nearest.distance;
   lmd.point_moving = nearest.pair.point_a;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/experiment/query.h>
-#include <lmdbench/lmd/registry.h>
+#include <lmdbench/methods/registry.h>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>

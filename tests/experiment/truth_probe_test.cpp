@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/experiment/fcl_probe.h>
 #include <lmdbench/experiment/truth_probe.h>
-#include <lmdbench/lmd/registry.h>
+#include <lmdbench/methods/registry.h>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/catalogue/shapes.h>
 #include <lmdbench/mesh/adjacency.h>
-#include <lmdbench/mesh/shapes.h>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

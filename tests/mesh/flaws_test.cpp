@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/catalogue/shapes.h>
 #include <lmdbench/mesh/flaws.h>
-#include <lmdbench/mesh/shapes.h>
 #include <lmdbench/mesh/surface.h>
 #include <lmdbench/mesh/validity.h>
 

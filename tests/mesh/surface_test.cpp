@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include <lmdbench/mesh/shapes.h>
+#include <lmdbench/catalogue/shapes.h>
 #include <lmdbench/mesh/surface.h>
 #include <lmdbench/mesh/triangle_normal.h>
 #include <lmdbench/mesh/vertex_neighbours.h>

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/catalogue/shapes.h>
 #include <lmdbench/mesh/placement.h>
-#include <lmdbench/mesh/shapes.h>
 #include <lmdbench/motion/interpolate.h>
 #include <lmdbench/motion/mesh_scene.h>
 #include <lmdbench/motion/rotation_vector.h>

@@ -4,7 +4,7 @@
 
 #include <lmdbench/experiment/experiment.h>
 #include <lmdbench/experiment/prepare.h>
-#include <lmdbench/lmd/registry.h>
+#include <lmdbench/methods/registry.h>
 
 #include "oracle/exact_scene.h"
 #include <fmt/format.h>

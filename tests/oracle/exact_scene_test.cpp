@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "oracle/exact_scene.h"
 
-#include <lmdbench/lmd/registry.h>
-#include <lmdbench/mesh/shapes.h>
+#include <lmdbench/catalogue/shapes.h>
+#include <lmdbench/methods/registry.h>
 
 #include "oracle/exact_scene_judgement.h"
 #include <gtest/gtest.h>

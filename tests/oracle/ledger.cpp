@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "oracle/ledger.h"
 
+#include <lmdbench/base/error.h>
 #include <lmdbench/crosscheck/fcl_crosscheck.h>
 #include <lmdbench/crosscheck/fcl_triangle_distance.h>
-#include <lmdbench/error.h>
 #include <lmdbench/experiment/experiment.h>
 #include <lmdbench/experiment/prepare.h>
 #include <lmdbench/snch/minimum_distance.h>
@@ -102,8 +102,8 @@ class Court {
     NearestExact best;
     for (std::size_t body = 0; body < surfaces_.size(); ++body) {
       const Body& fixed = *run_.scene.fixed[body];
-      const NearestPair pair =
-          nearest_pair(moving(), run_.scene.moving->hierarchy(), fixed.surface(), fixed.hierarchy(), X_WM);
+      const NearestPair pair = nearest_pair(moving(), run_.scene.moving->prepared<Hierarchy>(),
+                                            fixed.surface(), fixed.prepared<Hierarchy>(), X_WM);
       const double distance =
           testing::exact_distance(transform.triangle(moving().mesh.triangle(pair.triangle_moving)),
                                   fixed.surface().mesh.triangle(pair.triangle_fixed));

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "oracle/ledger.h"
 
-#include <lmdbench/error.h>
+#include <lmdbench/base/error.h>
 #include <lmdbench/experiment/experiment.h>
 #include <lmdbench/experiment/run.h>
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include <lmdbench/lmd/exhaustive.h>
+#include <lmdbench/methods/exhaustive/exhaustive.h>
 #include <lmdbench/snch/hierarchy.h>
 #include <lmdbench/snch/node_tests.h>
 
@@ -43,7 +43,7 @@ void for_each_node(const Hierarchy& hierarchy,
 TEST(Hierarchy, EveryTriangleIsOneLeafInsideTheSpheresAboveIt) {
   for (const TriangleMesh& mesh : shapes()) {
     const Surface surface = build_surface(mesh);
-    const Hierarchy hierarchy = build_hierarchy(surface);
+    const Hierarchy hierarchy = Hierarchy::of(surface);
     ASSERT_EQ(hierarchy.nodes.size(), 2 * mesh.triangles.size() - 1);
     std::vector<int> seen(mesh.triangles.size(), 0);
     for_each_node(hierarchy, [&](const std::vector<const HierarchyNode*>& chain) {
@@ -60,7 +60,7 @@ TEST(Hierarchy, EveryTriangleIsOneLeafInsideTheSpheresAboveIt) {
 TEST(Hierarchy, ConesHoldTheNormalsRoundEveryLeafBelow) {
   for (const TriangleMesh& mesh : shapes()) {
     const Surface surface = build_surface(mesh);
-    for_each_node(build_hierarchy(surface), [&](const std::vector<const HierarchyNode*>& chain) {
+    for_each_node(Hierarchy::of(surface), [&](const std::vector<const HierarchyNode*>& chain) {
       if (!chain.back()->is_leaf()) return;
       for (const std::int32_t corner : mesh.triangles[static_cast<std::size_t>(chain.back()->triangle)])
         for (const std::int32_t t : surface.adjacency.vertex_triangles[corner])
@@ -74,7 +74,7 @@ TEST(Hierarchy, ConesHoldTheNormalsRoundEveryLeafBelow) {
 TEST(Hierarchy, LeafConesOfABoundaryAreAllDirections) {
   const Surface surface = build_surface(make_patch(0.1, 4, 0.0));
   int all_directions = 0, narrow = 0;
-  for (const HierarchyNode& node : build_hierarchy(surface).nodes) {
+  for (const HierarchyNode& node : Hierarchy::of(surface).nodes) {
     if (!node.is_leaf()) continue;
     const auto& corners = surface.mesh.triangles[static_cast<std::size_t>(node.triangle)];
     const bool at_boundary = std::any_of(corners.begin(), corners.end(), [&](std::int32_t v) {
@@ -89,7 +89,7 @@ TEST(Hierarchy, LeafConesOfABoundaryAreAllDirections) {
 
 TEST(Hierarchy, IsTheSameEachTime) {
   const Surface surface = build_surface(make_blob(0.05, 0.01, 3));
-  const Hierarchy first = build_hierarchy(surface), second = build_hierarchy(surface);
+  const Hierarchy first = Hierarchy::of(surface), second = Hierarchy::of(surface);
   ASSERT_EQ(first.nodes.size(), second.nodes.size());
   for (std::size_t i = 0; i < first.nodes.size(); ++i) {
     EXPECT_EQ(first.nodes[i].centre, second.nodes[i].centre);
@@ -117,8 +117,8 @@ TEST(NodeTests, KeepEveryTrueLmd) {
     // Far enough apart for the leaves' spheres not to overlap: overlapping ones pass G3 whatever its reading.
     const Scene scene = make_scene(make_blob(0.04, 0.008, 3), mesh, 0.04);
     Exhaustive exhaustive(scene);
-    const auto chains_moving = chains_to_leaves(scene.moving->hierarchy());
-    const auto chains_fixed = chains_to_leaves(scene.fixed[0]->hierarchy());
+    const auto chains_moving = chains_to_leaves(scene.moving->prepared<Hierarchy>());
+    const auto chains_fixed = chains_to_leaves(scene.fixed[0]->prepared<Hierarchy>());
     for (int sample = 0; sample < 12; ++sample) {
       const Pose pose = grazing_pose(scene, 0.02, random);
       const RigidTransform transform(pose);

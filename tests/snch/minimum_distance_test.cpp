@@ -27,8 +27,8 @@ TEST(NearestPair, EqualsBruteForce) {
   for (int i = 0; i < 20; ++i) {
     Pose pose{0.2 * testing::uniform(random) * testing::random_direction(random),
               testing::random_rotation(random)};
-    const NearestPair nearest =
-        nearest_pair(moving.surface(), moving.hierarchy(), fixed.surface(), fixed.hierarchy(), pose);
+    const NearestPair nearest = nearest_pair(moving.surface(), moving.prepared<Hierarchy>(), fixed.surface(),
+                                             fixed.prepared<Hierarchy>(), pose);
     EXPECT_EQ(nearest.distance, brute_force_distance(moving.surface().mesh, fixed.surface().mesh, pose));
   }
 }
@@ -39,8 +39,8 @@ TEST(NearestPair, FindsNothingBeyondTheBound) {
   Pose pose;
   pose.translation = {2.0, 0.0, 0.0};
   const auto query = [&](double bound) {
-    return nearest_pair(moving.surface(), moving.hierarchy(), fixed.surface(), fixed.hierarchy(), pose,
-                        bound);
+    return nearest_pair(moving.surface(), moving.prepared<Hierarchy>(), fixed.surface(),
+                        fixed.prepared<Hierarchy>(), pose, bound);
   };
   EXPECT_EQ(query(0.9).triangle_moving, -1);
   EXPECT_GE(query(1.2).triangle_moving, 0);
@@ -52,9 +52,10 @@ TEST(NearestPair, IsZeroInContact) {
   const Body &moving = *scene.moving, &fixed = *scene.fixed[0];
   Pose pose;
   pose.translation = {0.9, 0.01, 0.02};
-  EXPECT_EQ(
-      nearest_pair(moving.surface(), moving.hierarchy(), fixed.surface(), fixed.hierarchy(), pose).distance,
-      0.0);
+  EXPECT_EQ(nearest_pair(moving.surface(), moving.prepared<Hierarchy>(), fixed.surface(),
+                         fixed.prepared<Hierarchy>(), pose)
+                .distance,
+            0.0);
 }
 
 }  // namespace

@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <lmdbench/catalogue/shapes.h>
 #include <lmdbench/geometry/pose.h>
 #include <lmdbench/lmd/scene.h>
-#include <lmdbench/mesh/shapes.h>
 #include <lmdbench/mesh/surface.h>
 #include <lmdbench/snch/minimum_distance.h>
 
@@ -60,8 +60,9 @@ inline Pose grazing_pose(const Scene& scene, double gap, std::mt19937_64& random
       gap;
   pose.translation = -reach * inward;
   for (int step = 0; step < 200; ++step) {
-    const double distance =
-        nearest_pair(moving.surface(), moving.hierarchy(), fixed.surface(), fixed.hierarchy(), pose).distance;
+    const double distance = nearest_pair(moving.surface(), moving.prepared<Hierarchy>(), fixed.surface(),
+                                         fixed.prepared<Hierarchy>(), pose)
+                                .distance;
     if (distance - gap <= 1e-9 * gap) break;
     pose.translation += (distance - gap) * inward;
     if (pose.translation.dot(inward) > reach) return grazing_pose(scene, gap, random);  // flew past

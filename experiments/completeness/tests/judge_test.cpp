@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include <lmdbench/mesh/shapes.h>
+#include <lmdbench/catalogue/shapes.h>
 
 #include <completeness/judge.h>
 #include <gmock/gmock.h>

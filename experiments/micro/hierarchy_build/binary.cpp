@@ -11,11 +11,11 @@ namespace {
 class BinaryBuild : public HierarchyBuild {
  public:
   explicit BinaryBuild(const Surface& surface) : surface_(surface) {}
-  void build() override { hierarchy_ = build_hierarchy(surface_); }
+  void build() override { hierarchy_ = Hierarchy::of(surface_); }
   void clear() override { hierarchy_ = {}; }
   double error_at(const BuildProbe& probe) override {
     const Surface other = build_surface(probe.box);
-    const NearestPair nearest = nearest_pair(surface_, hierarchy_, other, build_hierarchy(other), Pose());
+    const NearestPair nearest = nearest_pair(surface_, hierarchy_, other, Hierarchy::of(other), Pose());
     return relative_error(nearest.distance, probe.distance_from_box);
   }
 

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/catalogue/shapes.h>
 #include <lmdbench/geometry/point_triangle.h>
 #include <lmdbench/geometry/triangle_distance.h>
-#include <lmdbench/mesh/shapes.h>
 
 #include <fmt/core.h>
 #include <micro/hierarchy_build/implementation.h>

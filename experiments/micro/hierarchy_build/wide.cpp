@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/geometry/triangle_distance.h>
-#include <lmdbench/snch/wide_traversal.h>
+#include <lmdbench/methods/certified/hierarchy/wide_traversal.h>
 
 #include <micro/hierarchy_build/implementation.h>
 

@@ -28,8 +28,8 @@ template <DirectionTest TEST>
 class BinaryNodeTest : public NodeTest {
  public:
   explicit BinaryNodeTest(const Setting& setting) : scene_(setting.scene) {
-    const Hierarchy& moving = scene_.moving->hierarchy();
-    const Hierarchy& fixed = scene_.fixed.at(0)->hierarchy();
+    const Hierarchy& moving = scene_.moving->prepared<Hierarchy>();
+    const Hierarchy& fixed = scene_.fixed.at(0)->prepared<Hierarchy>();
     const auto moving_paths = paths_to_triangles(moving), fixed_paths = paths_to_triangles(fixed);
     for (std::size_t i = 0; i < setting.poses.size(); ++i) {
       above_lmds_.clear();

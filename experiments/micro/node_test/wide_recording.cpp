@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include <lmdbench/snch/wide_traversal.h>
+#include <lmdbench/methods/certified/hierarchy/wide_traversal.h>
 
 #include <micro/node_test/wide_recording.h>
 
@@ -101,8 +101,8 @@ void record_pose(const WideHierarchy& a, const WideHierarchy& b, const WideQuery
 }  // namespace
 
 std::vector<WideTest> record_wide_tests(const Setting& setting) {
-  const WideHierarchy& moving = setting.scene.moving->wide_hierarchy();
-  const WideHierarchy& fixed = setting.scene.fixed.at(0)->wide_hierarchy();
+  const WideHierarchy& moving = setting.scene.moving->prepared<WideHierarchy>();
+  const WideHierarchy& fixed = setting.scene.fixed.at(0)->prepared<WideHierarchy>();
   const WidePaths moving_paths(moving), fixed_paths(fixed);
   std::vector<WideTest> tests;
   for (std::size_t i = 0; i < setting.poses.size(); ++i) {

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <lmdbench/snch/wide_lifetime.h>
+#include <lmdbench/methods/certified/coherence/wide_lifetime.h>
 
 #include <micro/node_test/implementation.h>
 

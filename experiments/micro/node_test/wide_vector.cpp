@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include <lmdbench/snch/wide_traversal.h>
+#include <lmdbench/methods/certified/hierarchy/wide_traversal.h>
 
 #include <micro/node_test/wide_recording.h>
 

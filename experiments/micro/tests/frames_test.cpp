@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/experiment/lockstep.h>
-#include <lmdbench/lmd/registry.h>
+#include <lmdbench/methods/registry.h>
 #include <lmdbench/phantom/device.h>
 
 #include <gtest/gtest.h>

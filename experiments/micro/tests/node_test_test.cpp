@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/methods/certified/hierarchy/wide_traversal.h>
 #include <lmdbench/snch/traversal.h>
-#include <lmdbench/snch/wide_traversal.h>
 
 #include <gtest/gtest.h>
 #include <micro/node_test/wide_recording.h>
@@ -47,14 +47,14 @@ TEST(NodeTests, AreThoseOfTheSearches) {
   for (const Pose& pose : setting.poses) {
     const RigidTransform X_WM(pose);
     WideCounters counters;
-    find_wide_pairs(
-        moving.wide_hierarchy(), fixed.wide_hierarchy(),
-        WideQuery(moving.wide_hierarchy(), fixed.wide_hierarchy(), X_WM, setting.scene.cutoff, 0.0),
-        WideKernel::VECTOR, scratch, counters);
+    find_wide_pairs(moving.prepared<WideHierarchy>(), fixed.prepared<WideHierarchy>(),
+                    WideQuery(moving.prepared<WideHierarchy>(), fixed.prepared<WideHierarchy>(), X_WM,
+                              setting.scene.cutoff, 0.0),
+                    WideKernel::VECTOR, scratch, counters);
     wide += counters.node_pairs;
     binary += traversal
-                  .run<DirectionTest::RAY>(moving.hierarchy(), fixed.hierarchy(), X_WM, setting.scene.cutoff,
-                                           [](std::int32_t, std::int32_t) {})
+                  .run<DirectionTest::RAY>(moving.prepared<Hierarchy>(), fixed.prepared<Hierarchy>(), X_WM,
+                                           setting.scene.cutoff, [](std::int32_t, std::int32_t) {})
                   .node_pairs;
   }
   EXPECT_EQ(wide_vector_test().make(setting)->pair_count(), wide);

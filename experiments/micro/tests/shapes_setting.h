@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <lmdbench/mesh/shapes.h>
+#include <lmdbench/catalogue/shapes.h>
 
 #include <micro/poses.h>
 #include <micro/setting.h>

@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/base/error.h>
 #include <lmdbench/cli/commands.h>
 #include <lmdbench/cli/mesh_command.h>
 #include <lmdbench/cli/path_command.h>
 #include <lmdbench/cli/talk.h>
-#include <lmdbench/error.h>
 #include <lmdbench/record/provenance.h>
 
 #include <CLI/CLI.hpp>

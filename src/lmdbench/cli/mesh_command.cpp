@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/base/error.h>
+#include <lmdbench/catalogue/build_mesh.h>
+#include <lmdbench/catalogue/manifest.h>
 #include <lmdbench/cli/mesh_command.h>
-#include <lmdbench/error.h>
-#include <lmdbench/mesh/build_mesh.h>
-#include <lmdbench/mesh/manifest.h>
 #include <lmdbench/mesh/surface.h>
 #include <lmdbench/mesh/validity.h>
 

@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/base/atomic_file.h>
+#include <lmdbench/base/error.h>
+#include <lmdbench/catalogue/manifest.h>
 #include <lmdbench/cli/path_command.h>
 #include <lmdbench/cli/progress_bar.h>
 #include <lmdbench/cli/talk.h>
-#include <lmdbench/error.h>
-#include <lmdbench/mesh/atomic_file.h>
-#include <lmdbench/mesh/manifest.h>
 #include <lmdbench/mesh/placement.h>
 #include <lmdbench/motion/generate.h>
 #include <lmdbench/motion/interpolate.h>

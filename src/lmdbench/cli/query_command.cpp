@@ -1,12 +1,12 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/base/error.h>
+#include <lmdbench/catalogue/manifest.h>
 #include <lmdbench/cli/commands.h>
-#include <lmdbench/error.h>
 #include <lmdbench/experiment/query.h>
-#include <lmdbench/lmd/registry.h>
-#include <lmdbench/mesh/manifest.h>
 #include <lmdbench/mesh/surface.h>
 #include <lmdbench/mesh/validity.h>
+#include <lmdbench/methods/registry.h>
 #include <lmdbench/motion/tum_file.h>
 
 #include <CLI/CLI.hpp>

@@ -17,8 +17,8 @@ namespace {
 double exact_minimum(const Scene& scene, const Pose& X_WM) {
   double least = std::numeric_limits<double>::infinity();
   for (const auto& fixed : scene.fixed) {
-    const NearestPair pair = nearest_pair(scene.moving->surface(), scene.moving->hierarchy(),
-                                          fixed->surface(), fixed->hierarchy(), X_WM, least);
+    const NearestPair pair = nearest_pair(scene.moving->surface(), scene.moving->prepared<Hierarchy>(),
+                                          fixed->surface(), fixed->prepared<Hierarchy>(), X_WM, least);
     if (pair.triangle_moving >= 0) least = std::min(least, pair.distance);
   }
   return least;

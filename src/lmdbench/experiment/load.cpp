@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include <lmdbench/error.h>
+#include <lmdbench/base/error.h>
+#include <lmdbench/base/json_schema.h>
+#include <lmdbench/base/json_text.h>
 #include <lmdbench/experiment/experiment.h>
-#include <lmdbench/experiment/json_schema.h>
-#include <lmdbench/experiment/json_text.h>
-#include <lmdbench/lmd/registry.h>
+#include <lmdbench/methods/registry.h>
 #include <lmdbench/motion/tum_file.h>
 
 #include <fmt/format.h>

@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include <lmdbench/error.h>
+#include <lmdbench/base/error.h>
+#include <lmdbench/catalogue/manifest.h>
 #include <lmdbench/experiment/prepare.h>
-#include <lmdbench/lmd/registry.h>
-#include <lmdbench/mesh/manifest.h>
 #include <lmdbench/mesh/placement.h>
 #include <lmdbench/mesh/surface.h>
+#include <lmdbench/methods/registry.h>
 #include <lmdbench/motion/interpolate.h>
 #include <lmdbench/motion/tum_file.h>
 #include <lmdbench/phantom/device.h>
@@ -72,8 +72,8 @@ ForceProfile profile_for(const Experiment& experiment, double moving_diagonal) {
 
 bool touches(const Scene& scene, const Pose& X_WM) {
   for (const auto& fixed : scene.fixed) {
-    const NearestPair pair = nearest_pair(scene.moving->surface(), scene.moving->hierarchy(),
-                                          fixed->surface(), fixed->hierarchy(), X_WM, scene.cutoff);
+    const NearestPair pair = nearest_pair(scene.moving->surface(), scene.moving->prepared<Hierarchy>(),
+                                          fixed->surface(), fixed->prepared<Hierarchy>(), X_WM, scene.cutoff);
     if (pair.triangle_moving >= 0 && pair.distance == 0.0) return true;
   }
   return false;

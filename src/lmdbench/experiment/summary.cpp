@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include <lmdbench/experiment/statistics.h>
+#include <lmdbench/base/statistics.h>
 #include <lmdbench/experiment/summary.h>
 
 #include <fmt/format.h>

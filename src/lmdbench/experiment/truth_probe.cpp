@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/experiment/truth_probe.h>
 #include <lmdbench/force/aggregate.h>
-#include <lmdbench/lmd/registry.h>
+#include <lmdbench/methods/registry.h>
 
 #include <cmath>
 #include <cstddef>

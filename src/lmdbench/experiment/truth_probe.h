@@ -3,9 +3,9 @@
 #pragma once
 
 #include <lmdbench/experiment/lockstep.h>
-#include <lmdbench/experiment/matching.h>
 #include <lmdbench/experiment/records.h>
 #include <lmdbench/force/force_law.h>
+#include <lmdbench/lmd/matching.h>
 #include <lmdbench/lmd/scene.h>
 
 #include <array>

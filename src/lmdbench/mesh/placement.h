@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <lmdbench/error.h>
+#include <lmdbench/base/error.h>
 #include <lmdbench/mesh/triangle_mesh.h>
 
 #include <cmath>

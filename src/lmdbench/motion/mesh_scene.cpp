@@ -19,8 +19,8 @@ class MeshPair {
   MeshPair(TriangleMesh moving, TriangleMesh fixed)
       : moving_(build_surface(std::move(moving))),
         fixed_(build_surface(std::move(fixed))),
-        moving_hierarchy_(build_hierarchy(moving_)),
-        fixed_hierarchy_(build_hierarchy(fixed_)) {}
+        moving_hierarchy_(Hierarchy::of(moving_)),
+        fixed_hierarchy_(Hierarchy::of(fixed_)) {}
 
   double distance(const Pose& X_WM) {
     const double bound = distance_of_last_pair(X_WM);

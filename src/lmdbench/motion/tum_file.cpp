@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include <lmdbench/error.h>
-#include <lmdbench/mesh/atomic_file.h>
+#include <lmdbench/base/atomic_file.h>
+#include <lmdbench/base/error.h>
 #include <lmdbench/motion/tum_file.h>
 
 #include <fmt/format.h>

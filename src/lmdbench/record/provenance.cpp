@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include <lmdbench/mesh/file_hash.h>
+#include <lmdbench/base/file_hash.h>
 #include <lmdbench/record/build_info.h>
 #include <lmdbench/record/machine_info.h>
 #include <lmdbench/record/provenance.h>

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include <lmdbench/error.h>
+#include <lmdbench/base/error.h>
+#include <lmdbench/base/part_file.h>
 #include <lmdbench/record/hdf5_handle.h>
-#include <lmdbench/record/part_file.h>
 #include <lmdbench/record/result_writer.h>
 
 #include <fmt/format.h>

@@ -140,7 +140,7 @@ class Builder {
 
 }  // namespace
 
-Hierarchy build_hierarchy(const Surface& surface) {
+Hierarchy Hierarchy::of(const Surface& surface) {
   return Builder(surface).build();
 }
 

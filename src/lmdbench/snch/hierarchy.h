@@ -29,9 +29,9 @@ struct HierarchyNode {
 /// triangles.
 struct Hierarchy {
   std::vector<HierarchyNode> nodes;
-};
 
-/// Top-down builder, deterministic.
-Hierarchy build_hierarchy(const Surface& surface);
+  /// Top-down builder, deterministic.
+  static Hierarchy of(const Surface& surface);
+};
 
 }  // namespace lmdbench

@@ -1,0 +1,138 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/base/error.h>
+#include <lmdbench/base/part_file.h>
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <system_error>
+#include <utility>
+
+namespace lmdbench {
+
+namespace {
+
+std::string error_text(int error) {
+  return std::generic_category().message(error);
+}
+
+std::string remedy_for(int error) {
+  switch (error) {
+    case EACCES:
+    case EPERM:
+    case EROFS:
+      return "choose a place that you may write to with --out";
+    case ENOSPC:
+    case EDQUOT:
+      return "free disk space or choose another place with --out";
+    default:
+      return "choose another place with --out";
+  }
+}
+
+[[noreturn]] void fail(const std::filesystem::path& file, const std::string& what, int error) {
+  throw EnvironmentError(file.string(), "", what + ": " + error_text(error), remedy_for(error));
+}
+
+/// The directory that holds a file; "." for a bare name.
+std::filesystem::path directory_of(const std::filesystem::path& file) {
+  return file.has_parent_path() ? file.parent_path() : std::filesystem::path(".");
+}
+
+void refuse_directory(const std::filesystem::path& file) {
+  std::error_code ignored;
+  if (std::filesystem::is_directory(file, ignored)) {
+    throw EnvironmentError(file.string(), "", "is a directory, not a result file",
+                           "name a file in it, for example " + (file / "result.h5").string());
+  }
+}
+
+/// False when another process holds the lock. A file system without locks counts as locked: the run goes on
+/// without. An open-file-description lock, because HDF5 takes a `flock` of its own on the same file.
+bool lock_whole_file(int descriptor) {
+  struct flock lock {};
+  lock.l_type = F_WRLCK;
+  lock.l_whence = SEEK_SET;
+  return ::fcntl(descriptor, F_OFD_SETLK, &lock) == 0 || (errno != EAGAIN && errno != EACCES);
+}
+
+}  // namespace
+
+PartFile::PartFile(std::filesystem::path final_name) : final_name_(std::move(final_name)) {
+  if (!final_name_.has_filename()) {
+    throw EnvironmentError(final_name_.string(), "", "names no file", "end --out with a file name");
+  }
+  refuse_directory(final_name_);
+  part_name_ = final_name_;
+  part_name_ += ".part";
+  refuse_directory(part_name_);
+  std::error_code error;
+  std::filesystem::create_directories(directory_of(final_name_), error);
+  if (error) fail(directory_of(final_name_), "the directory of the result cannot be made", error.value());
+  open_and_lock();
+}
+
+PartFile::~PartFile() {
+  if (descriptor_ >= 0) ::close(descriptor_);
+}
+
+void PartFile::open_and_lock() {
+  // A run that commits between our open and our lock renames the file that we hold: then open the new one.
+  while (true) {
+    descriptor_ = ::open(part_name_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
+    if (descriptor_ < 0) fail(part_name_, "the result cannot be written", errno);
+    if (!lock_whole_file(descriptor_)) {
+      ::close(std::exchange(descriptor_, -1));
+      throw EnvironmentError(part_name_.string(), "", "another run is writing this result",
+                             "wait for it or choose another file with --out");
+    }
+    struct stat ours {};
+    struct stat named {};
+    if (::fstat(descriptor_, &ours) != 0) {
+      const int error = errno;
+      ::close(std::exchange(descriptor_, -1));
+      fail(part_name_, "the result cannot be written", error);
+    }
+    if (::stat(part_name_.c_str(), &named) == 0 && ours.st_ino == named.st_ino && ours.st_dev == named.st_dev)
+      return;
+    ::close(std::exchange(descriptor_, -1));
+  }
+}
+
+void PartFile::write(std::span<const std::byte> content) {
+  while (!content.empty()) {
+    const ssize_t written = ::write(descriptor_, content.data(), content.size());
+    if (written < 0 && errno == EINTR) continue;
+    if (written < 0) {
+      const int error = errno;
+      // What was written so far is of no use to anybody and fills the disk.
+      if (::ftruncate(descriptor_, 0) == 0) ::lseek(descriptor_, 0, SEEK_SET);
+      fail(part_name_, "the result cannot be written", error);
+    }
+    content = content.subspan(static_cast<std::size_t>(written));
+  }
+}
+
+void PartFile::publish(std::span<const std::byte> content) {
+  refuse_directory(final_name_);
+  if (::ftruncate(descriptor_, 0) != 0 || ::lseek(descriptor_, 0, SEEK_SET) != 0) {
+    fail(part_name_, "the result cannot be written", errno);
+  }
+  write(content);
+  if (::fsync(descriptor_) != 0) fail(part_name_, "the result cannot be brought to the disk", errno);
+  std::error_code error;
+  std::filesystem::rename(part_name_, final_name_, error);
+  if (error) fail(part_name_, "the result cannot be renamed to " + final_name_.string(), error.value());
+  // The rename itself is durable only when its directory is on the disk. Some file systems refuse this; the
+  // result is complete and named by then, so that is not an error.
+  const int directory = ::open(directory_of(final_name_).c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (directory >= 0) {
+    static_cast<void>(::fsync(directory));
+    ::close(directory);
+  }
+}
+
+}  // namespace lmdbench

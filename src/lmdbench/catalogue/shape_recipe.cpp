@@ -1,0 +1,157 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/base/error.h>
+#include <lmdbench/catalogue/shape_recipe.h>
+#include <lmdbench/catalogue/shapes.h>
+#include <lmdbench/mesh/flaws.h>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <nlohmann/json.hpp>
+
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <map>
+#include <set>
+
+namespace lmdbench {
+
+namespace {
+
+// Reads a recipe's keys, each within its range, and knows which of them nobody asked for.
+class Recipe {
+ public:
+  Recipe(const nlohmann::json& json, const std::string& file, const std::string& pointer)
+      : json_(json), file_(file), pointer_(pointer) {}
+
+  double number(const char* key, double least, double below = std::numeric_limits<double>::infinity()) {
+    const nlohmann::json& value = at(key);
+    if (!value.is_number()) fail(key, "is not a number", "write a number");
+    const double result = value.get<double>();
+    if (!(result >= least && result < below))
+      fail(key, fmt::format("is {}", result), fmt::format("give at least {} and less than {}", least, below));
+    return result;
+  }
+  double length(const char* key) {
+    const double result = number(key, 0.0);
+    if (!(result > 0.0)) fail(key, "is not positive", "give a length in metres");
+    return result;
+  }
+  int integer(const char* key, int least, int most) {
+    const nlohmann::json& value = at(key);
+    const bool in_range =
+        value.is_number_integer() && value.get<std::int64_t>() >= least && value.get<std::int64_t>() <= most;
+    if (!in_range)
+      fail(key, fmt::format("is {}", value.dump()),
+           fmt::format("give an integer from {} to {}", least, most));
+    return value.get<int>();
+  }
+  Vec3 lengths(const char* key) {
+    const nlohmann::json& value = at(key);
+    Vec3 result = Vec3::Zero();
+    const bool sound = value.is_array() && value.size() == 3;
+    for (int i = 0; sound && i < 3; ++i)
+      result[i] = value[static_cast<std::size_t>(i)].is_number()
+                      ? value[static_cast<std::size_t>(i)].get<double>()
+                      : 0.0;
+    if (!sound || !(result.minCoeff() > 0.0))
+      fail(key, "is not three positive lengths", "write [x, y, z] in metres");
+    return result;
+  }
+  /// A recipe within this one.
+  TriangleMesh shape(const char* key) { return make_shape(at(key), file_, pointer_ + "/" + key); }
+  void finish() const {
+    for (const auto& [key, value] : json_.items())
+      if (key != "kind" && !used_.contains(key))
+        fail(key, "is not a parameter of this shape", fmt::format("it has {}", fmt::join(used_, ", ")));
+  }
+
+ private:
+  const nlohmann::json& at(const char* key) {
+    used_.insert(key);
+    if (!json_.contains(key)) fail(key, "is missing", "the shape needs it");
+    return json_.at(key);
+  }
+  [[noreturn]] void fail(const std::string& key, const std::string& problem,
+                         const std::string& remedy) const {
+    throw InputError(file_, pointer_ + "/" + key, problem, remedy);
+  }
+
+  const nlohmann::json& json_;
+  std::string file_, pointer_;
+  std::set<std::string> used_;
+};
+
+using Maker = std::function<TriangleMesh(Recipe&)>;
+
+// Upper limits keep a slip of the pen from filling the memory: about five million triangles.
+const std::map<std::string, Maker>& makers() {
+  static const std::map<std::string, Maker> table{
+      {"sphere", [](Recipe& r) { return make_sphere(r.length("radius"), r.integer("subdivisions", 0, 9)); }},
+      {"box", [](Recipe& r) { return make_box(r.lengths("size"), r.integer("cells", 1, 600)); }},
+      {"torus",
+       [](Recipe& r) {
+         const double ring_radius = r.length("ring_radius");
+         return make_torus(ring_radius,
+                           r.number("tube_radius", std::numeric_limits<double>::min(), ring_radius),
+                           r.integer("ring_cells", 3, 2000), r.integer("tube_cells", 3, 1000));
+       }},
+      {"blob",
+       [](Recipe& r) {
+         const double radius = r.length("radius");
+         return make_blob(radius, r.number("bump_height", 0.0, radius), r.integer("subdivisions", 0, 9));
+       }},
+      {"unequal",
+       [](Recipe& r) {
+         return make_unequal(r.length("radius"), r.integer("cells", 2, 600), r.number("ratio", 1.001, 1e6));
+       }},
+      {"needles",
+       [](Recipe& r) {
+         return make_needles(r.length("radius"), r.length("height"), r.integer("count", 3, 100000),
+                             r.number("groove", 0.0, 1.0));
+       }},
+      {"caps",
+       [](Recipe& r) {
+         return make_caps(r.length("radius"), r.length("height"), r.integer("count", 3, 100000));
+       }},
+      {"patch",
+       [](Recipe& r) {
+         return make_patch(r.length("size"), r.integer("cells", 1, 1500), r.number("wave_height", 0.0));
+       }},
+      {"wedge",
+       [](Recipe& r) { return make_wedge(r.length("width"), r.length("length"), r.length("height")); }},
+      {"l-block", [](Recipe& r) { return make_l_block(r.length("size")); }},
+      {"two-boxes", [](Recipe& r) { return make_two_boxes(r.lengths("size"), r.length("gap")); }},
+      {"holes", [](Recipe& r) { return with_holes(r.shape("of"), r.integer("every", 2, 1000000)); }},
+      {"duplicates",
+       [](Recipe& r) { return with_duplicates(r.shape("of"), r.integer("every", 1, 1000000)); }},
+      {"flips", [](Recipe& r) { return with_flips(r.shape("of"), r.integer("every", 1, 1000000)); }},
+      {"fins",
+       [](Recipe& r) {
+         return with_fins(r.shape("of"), r.integer("every", 1, 1000000), r.length("height"));
+       }},
+      {"zero-areas",
+       [](Recipe& r) { return with_zero_areas(r.shape("of"), r.integer("every", 1, 1000000)); }}};
+  return table;
+}
+
+}  // namespace
+
+TriangleMesh make_shape(const nlohmann::json& recipe, const std::string& file, const std::string& pointer) {
+  const std::string kind = recipe.is_object() ? recipe.value("kind", std::string{}) : std::string{};
+  const auto maker = makers().find(kind);
+  if (maker == makers().end()) {
+    std::vector<std::string> kinds;
+    for (const auto& [name, unused] : makers()) kinds.push_back(name);
+    throw InputError(file, pointer + "/kind", fmt::format("there is no shape '{}'", kind),
+                     fmt::format("choose one of {}", fmt::join(kinds, ", ")));
+  }
+  Recipe reader(recipe, file, pointer);
+  // Order of evaluation of a call's arguments is open, so a bad recipe may be told by any of its bad keys.
+  TriangleMesh mesh = maker->second(reader);
+  reader.finish();
+  return mesh;
+}
+
+}  // namespace lmdbench

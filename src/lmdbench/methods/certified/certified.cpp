@@ -1,0 +1,299 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/geometry/point_triangle.h>
+#include <lmdbench/geometry/segment_distance.h>
+#include <lmdbench/geometry/triangle_distance.h>
+#include <lmdbench/lmd/first_order.h>
+#include <lmdbench/lmd/triangle_pair.h>
+#include <lmdbench/methods/certified/certified.h>
+#include <lmdbench/methods/certified/touch.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace lmdbench {
+
+namespace {
+
+/// Distance, relative to the coordinates, at or below which a direction is dominated by the rounding of the
+/// points.
+constexpr double RELATIVE_TOUCH = 1e-9;
+/// PairFilter::margin: above the error of a direction at half the touch distance (4 * 2.2e-16 / 5e-10).
+constexpr double FILTER_MARGIN = 1e-5;
+/// PairFilter::tiny relative to the coordinates: roundings of such a length's ends are well under the margin.
+constexpr double RELATIVE_TINY = 1e-8;
+/// Motions of a frame that are larger than this many cutoffs are jumps: next to nothing would be kept.
+constexpr double LARGEST_PACE = 1.0;
+/// Two minima whose distances differ by more than this part of them cannot be on one plateau (its tolerance
+/// is 1e-9).
+constexpr double APART = 1e-6;
+
+/// Pairs between the one that is decided and the one whose data is fetched; twice that for the indices,
+/// without which the rest is not known.
+constexpr std::size_t FETCH_DISTANCE = 4;
+
+/// Brings a feature's indices near; a mesh that does not fit into a processor's cache is slow to follow
+/// otherwise.
+void fetch_indices(const Surface& surface, const FeatureId& feature) {
+  const auto index = static_cast<std::size_t>(feature.index);
+  switch (feature.kind) {
+    case FeatureKind::VERTEX:
+      __builtin_prefetch(&surface.mesh.vertices[index]);
+      break;
+    case FeatureKind::EDGE:
+      __builtin_prefetch(&surface.adjacency.edges[index]);
+      break;
+    case FeatureKind::FACE:
+      __builtin_prefetch(&surface.mesh.triangles[index]);
+      __builtin_prefetch(&surface.face_normals[index]);
+      break;
+  }
+}
+
+/// Brings its vertices near, or those round it.
+void fetch_vertices(const Surface& surface, const FeatureId& feature) {
+  const auto index = static_cast<std::size_t>(feature.index);
+  const auto fetch = [&](std::int32_t vertex) {
+    __builtin_prefetch(&surface.mesh.vertices[static_cast<std::size_t>(vertex)]);
+  };
+  switch (feature.kind) {
+    case FeatureKind::VERTEX:
+      __builtin_prefetch(surface.adjacency.vertex_triangles[feature.index].data());
+      break;
+    case FeatureKind::EDGE:
+      for (const std::int32_t vertex : surface.adjacency.edges[index]) fetch(vertex);
+      break;
+    case FeatureKind::FACE:
+      for (const std::int32_t vertex : surface.mesh.triangles[index]) fetch(vertex);
+      break;
+  }
+}
+
+/// Points of a strict minimum: what the exact kernel finds on any triangle pair that holds both features,
+/// without looking at the other features. False when a foot is not inside its feature after all.
+bool strict_points(const PairFilter& filter, const FeatureId& on_moving, const FeatureId& on_fixed, Vec3& p,
+                   Vec3& q) {
+  const auto a = static_cast<std::size_t>(on_moving.index), b = static_cast<std::size_t>(on_fixed.index);
+  const auto vertex_moving = [&](std::int32_t vertex) {
+    return filter.X_WM.point(filter.moving.mesh.vertices[static_cast<std::size_t>(vertex)]);
+  };
+  const auto vertex_fixed = [&](std::int32_t vertex) -> const Vec3& {
+    return filter.fixed.mesh.vertices[static_cast<std::size_t>(vertex)];
+  };
+  const auto edge_moving = [&] {
+    const auto& ends = filter.moving.adjacency.edges[a];
+    return Segment{vertex_moving(ends[0]), vertex_moving(ends[1])};
+  };
+  const auto edge_fixed = [&] {
+    const auto& ends = filter.fixed.adjacency.edges[b];
+    return Segment{vertex_fixed(ends[0]), vertex_fixed(ends[1])};
+  };
+  const auto on_segment = [](const Vec3& point, const Segment& segment, Vec3& foot) {
+    const PointSegmentDistance nearest = point_segment_distance(point, segment);
+    foot = nearest.point;
+    return nearest.feature == SegmentFeature::EDGE;
+  };
+  const auto on_triangle = [](const Vec3& point, const Triangle& triangle, Vec3& foot) {
+    const PointTriangleDistance nearest = point_triangle_distance(point, triangle);
+    foot = nearest.point;
+    return is_face(nearest.feature);
+  };
+
+  if (on_moving.kind == FeatureKind::VERTEX) {
+    p = vertex_moving(on_moving.index);
+    if (on_fixed.kind == FeatureKind::EDGE) return on_segment(p, edge_fixed(), q);
+    if (on_fixed.kind == FeatureKind::FACE)
+      return on_triangle(p, filter.fixed.mesh.triangle(on_fixed.index), q);
+    q = vertex_fixed(on_fixed.index);
+    return true;
+  }
+  if (on_fixed.kind == FeatureKind::VERTEX) {
+    q = vertex_fixed(on_fixed.index);
+    if (on_moving.kind == FeatureKind::EDGE) return on_segment(q, edge_moving(), p);
+    return on_triangle(q, filter.X_WM.triangle(filter.moving.mesh.triangle(on_moving.index)), p);
+  }
+  if (on_moving.kind != FeatureKind::EDGE || on_fixed.kind != FeatureKind::EDGE) return false;
+  const SegmentPairDistance nearest = segment_distance(edge_moving(), edge_fixed());
+  p = nearest.point_a;
+  q = nearest.point_b;
+  return nearest.feature_a == SegmentFeature::EDGE && nearest.feature_b == SegmentFeature::EDGE &&
+         nearest.minimiser_dimension == 0;
+}
+
+}  // namespace
+
+Certified::Certified(Scene scene, const MethodOptions& options, WideKernel kernel)
+    : scene_(std::move(scene)), coherent_(options.frame_coherence), kernel_(kernel) {
+  double extent = scene_.moving->prepared<WideHierarchy>().radius;
+  for (const auto& body : scene_.fixed) extent = std::max(extent, body->prepared<WideHierarchy>().radius);
+  // Without a cutoff that means something there is nothing to save, and levers would be without bound.
+  coherent_ = coherent_ && scene_.cutoff <= 10.0 * extent;
+  kept_.resize(scene_.fixed.size());
+}
+
+bool Certified::evaluate(const PairFilter& filter, std::int32_t body, const TrianglePair& pair,
+                         LocalMinimum& minimum, WorkCounters& counters) const {
+  const Triangle a = filter.X_WM.triangle(filter.moving.mesh.triangle(pair.moving));
+  const TrianglePairDistance nearest = triangle_distance(a, filter.fixed.mesh.triangle(pair.fixed));
+  ++counters[Counter::TRIANGLE_DISTANCES];
+  minimum = minimum_of_triangle_pair(filter.moving, filter.fixed, body, pair.moving, pair.fixed, nearest);
+  if (!(nearest.squared_distance <= scene_.cutoff * scene_.cutoff)) {
+    ++counters[Counter::REJECTED_CUTOFF];
+    return false;
+  }
+  ++counters[Counter::FIRST_ORDER_TESTS];
+  return meets_first_order(filter.moving, filter.X_WM, filter.fixed, minimum);
+}
+
+/// Settles a candidate or leaves its triangle pairs to decide_pending; returns what WideFrontier asks for.
+PairStanding Certified::decide(const PairFilter& filter, std::int32_t body, const WidePair& candidate,
+                               double lever, WorkCounters& counters) {
+  const FeatureId on_moving = candidate.a.feature_id(), on_fixed = candidate.b.feature_id();
+  const PairAnswer answer = filter(on_moving, on_fixed, lever);
+  if (answer.verdict == PairVerdict::NO_LMD) return answer.standing;
+  const auto triangles_moving = filter.moving.incident_triangles(on_moving);
+  const auto triangles_fixed = filter.fixed.incident_triangles(on_fixed);
+  Lmd lmd;
+  if (answer.verdict == PairVerdict::LMD &&
+      strict_points(filter, on_moving, on_fixed, lmd.point_moving, lmd.point_fixed)) {
+    const Vec3 d = lmd.point_fixed - lmd.point_moving;
+    lmd.distance = std::sqrt(d.squaredNorm());
+    lmd.direction = d / lmd.distance;
+    lmd.feature_moving = on_moving;
+    lmd.feature_fixed = on_fixed;
+    lmd.triangle_moving = triangles_moving.front();
+    lmd.triangle_fixed = triangles_fixed.front();
+    lmd.fixed_body = body;
+    ++counters[Counter::FIRST_ORDER_TESTS];
+    if (is_local_minimum(filter.moving, filter.X_WM, filter.fixed, lmd)) {
+      minima_.push_back({lmd, 0, 0.0});
+      return {};
+    }
+  }
+  // Close to a tie, or the exact test sees the pair otherwise: leave nothing to the closed form.
+  for (const std::int32_t t_moving : triangles_moving)
+    for (const std::int32_t t_fixed : triangles_fixed) pending_.push_back({t_moving, t_fixed});
+  return {};
+}
+
+PairStanding Certified::decide_touching(const PairFilter& filter, std::int32_t body,
+                                        const WidePair& candidate, double lever, WorkCounters& counters) {
+  const TrianglePair pair{candidate.a.feature_id().index, candidate.b.feature_id().index};
+  const Triangle a = filter.X_WM.triangle(filter.moving.mesh.triangle(pair.moving));
+  const Triangle b = filter.fixed.mesh.triangle(pair.fixed);
+  const Vec3 normal_a =
+      filter.X_WM.direction(filter.moving.face_normals[static_cast<std::size_t>(pair.moving)]);
+  const Vec3& normal_b = filter.fixed.face_normals[static_cast<std::size_t>(pair.fixed)];
+  const double margin = 2.0 * filter.touch;
+  const ClearGap clear = clear_gap(a, normal_a, b, normal_b, margin);
+  if (clear.gap > 0.0) return {clear.gap - margin, clear.axis, 0.0, lever};
+  LocalMinimum minimum;
+  if (evaluate(filter, body, pair, minimum, counters)) minima_.push_back(minimum);
+  return {minimum.lmd.distance - margin, minimum.lmd.direction, 0.0, lever};
+}
+
+void Certified::decide_pending(const PairFilter& filter, std::int32_t body, WorkCounters& counters) {
+  std::sort(pending_.begin(), pending_.end());
+  pending_.erase(std::unique(pending_.begin(), pending_.end()), pending_.end());
+  LocalMinimum minimum;
+  for (const TrianglePair& pair : pending_)
+    if (evaluate(filter, body, pair, minimum, counters)) minima_.push_back(minimum);
+  pending_.clear();
+}
+
+void Certified::report(double coordinates, LmdSet& lmds) {
+  // A pair may come from its own candidate and from that of a neighbour that was close to a tie.
+  keep_one_a_feature_pair(minima_);
+  // Plateaus are rare, and have equal distances.
+  for (std::size_t i = 0; i < minima_.size(); ++i) {
+    for (std::size_t j = i + 1; j < minima_.size(); ++j) {
+      const double a = minima_[i].lmd.distance, b = minima_[j].lmd.distance;
+      if (std::abs(a - b) > APART * std::max(a, b) + RELATIVE_TOUCH * coordinates) continue;
+      merge_plateaus(scene_, minima_, lmds);
+      return;
+    }
+  }
+  lmds.clear();
+  for (const LocalMinimum& minimum : minima_)
+    if (minimum.strict) lmds.push_back(minimum.lmd);
+  std::sort(lmds.begin(), lmds.end(), lmd_less);
+}
+
+void Certified::search(const Pose& X_WM, LmdSet& lmds, WorkCounters& counters) {
+  const RigidTransform transform(X_WM);
+  const WideHierarchy& moving = scene_.moving->prepared<WideHierarchy>();
+  minima_.clear();
+  double coordinates = transform.point(moving.origin).cwiseAbs().maxCoeff() + moving.radius;
+  for (const auto& body : scene_.fixed) {
+    const WideHierarchy& fixed = body->prepared<WideHierarchy>();
+    coordinates = std::max(coordinates, fixed.origin.cwiseAbs().maxCoeff() + fixed.radius);
+  }
+  // The same in neighbouring frames, so that what was kept with it stays valid.
+  const double touch = RELATIVE_TOUCH * std::exp2(std::ceil(std::log2(coordinates)));
+  const double longest = std::max(scene_.cutoff, touch);  // distance of what is looked for
+  RigidTransform X_WH = transform;
+  X_WH.translation = transform.point(moving.origin);
+  bool keep = false;
+  if (coherent_) {
+    if (has_last_ && touch == touch_) {
+      motion_.advance(X_WH, 1e-3 * touch);
+      keep = motion_.motion() <= LARGEST_PACE * scene_.cutoff;
+    }
+    // A jump must not be taken for a motion that goes on.
+    if (!keep) motion_.reset(X_WH, moving.radius, longest);
+    has_last_ = true;
+    touch_ = touch;
+  }
+
+  for (std::size_t i = 0; i < scene_.fixed.size(); ++i) {
+    const auto body = static_cast<std::int32_t>(i);
+    const WideHierarchy& fixed = scene_.fixed[i]->prepared<WideHierarchy>();
+    const PairFilter filter{scene_.moving->surface(),
+                            transform,
+                            scene_.fixed[i]->surface(),
+                            scene_.cutoff,
+                            touch,
+                            FILTER_MARGIN,
+                            RELATIVE_TINY * coordinates};
+    const WideQuery query(moving, fixed, transform, scene_.cutoff, touch);
+    WideCounters work;
+    const auto decide_pair = [&](const WidePair& pair, bool touches, double lever) {
+      ++counters[Counter::LEAF_PAIRS];
+      return touches ? decide_touching(filter, body, pair, lever, counters)
+                     : decide(filter, body, pair, lever, counters);
+    };
+    WideFrontier& frontier = kept_[i].frontier;
+    if (keep && query.possible && kept_[i].gauge.keep()) {
+      if (frontier.empty()) {
+        frontier.start(moving, fixed, query, motion_, transform, longest, work);
+      } else {
+        frontier.advance(moving, fixed, query, motion_, transform, longest, work);
+        kept_[i].gauge.note(work.node_tests, frontier.test_count());
+      }
+      frontier.for_each_due(moving, motion_, longest, decide_pair);
+    } else {
+      frontier.clear();
+      find_wide_pairs(moving, fixed, query, kernel_, scratch_, work);
+      const auto fetch = [&](std::size_t k, const auto& fetch_part) {
+        if (k >= scratch_.lmd_pairs.size()) return;
+        fetch_part(filter.moving, scratch_.lmd_pairs[k].a.feature_id());
+        fetch_part(filter.fixed, scratch_.lmd_pairs[k].b.feature_id());
+      };
+      for (std::size_t k = 0; k < scratch_.lmd_pairs.size(); ++k) {
+        fetch(k + 2 * FETCH_DISTANCE, fetch_indices);
+        fetch(k + FETCH_DISTANCE, fetch_vertices);
+        decide_pair(scratch_.lmd_pairs[k], false, 1.0);
+      }
+      for (const WidePair& pair : scratch_.touch_pairs) decide_pair(pair, true, 1.0);
+    }
+    decide_pending(filter, body, counters);
+    counters[Counter::NODE_PAIRS] += work.node_pairs;
+    counters[Counter::REJECTED_G1] += work.rejected_g1;
+    counters[Counter::REJECTED_G2] += work.rejected_g2;
+    counters[Counter::REJECTED_G3] += work.rejected_g3;
+  }
+  report(coordinates, lmds);
+}
+
+}  // namespace lmdbench

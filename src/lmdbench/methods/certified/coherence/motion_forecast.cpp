@@ -1,0 +1,115 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/methods/certified/coherence/motion_forecast.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace lmdbench {
+
+namespace {
+
+constexpr double UNKNOWN = std::numeric_limits<double>::infinity();
+/// Deviations are learnt from forecasts that are no older than this [frames], with room.
+constexpr std::uint32_t JUDGED_FRAMES = 20;
+constexpr double ROOM = 1.25;
+/// Share of what was learnt that is left after a frame: one bad forecast is not held against the next for
+/// long.
+constexpr double MEMORY = 0.9;
+/// Largest norm of the rotation's change since an epoch's start. Between two frames of an epoch it is then at
+/// most twice that, for which the angle is the norm over sqrt(2) to within ANGLE_ROUNDING: the angle is 2
+/// asin(norm / sqrt(8)), and asin(x) <= 1.01 x for x <= 0.23.
+constexpr double LARGEST_TURN = 0.32;
+constexpr double ANGLE_ROUNDING = 1.01;
+/// Speeds are at least this where something is divided by them.
+constexpr double LEAST = 1e-30;
+/// What a test has let through is kept until its plan ends: over motions of more cutoffs than this, too much
+/// of it would be kept for nothing.
+constexpr double PLAN_CUTOFFS = 8.0;
+/// A horizon saves repeated tests, but keeps more of them: the best of a few tried on recorded paths. Frames,
+/// cutoffs, radians.
+constexpr double LARGEST_HORIZON = 4.0, HORIZON_CUTOFFS = 1.0, HORIZON_TURN = 0.01;
+/// Relative rounding of the quantities below, generously, and of what is computed from them in single
+/// precision.
+constexpr double ROUNDING = 1e-12;
+constexpr double SINGLE_ROUNDING = 1e-5;
+
+}  // namespace
+
+void MotionForecast::reset(const RigidTransform& X_WH, double radius, double cutoff) {
+  radius_ = radius;
+  cutoff_ = cutoff;
+  reach_ = 2.0 * (radius + cutoff);
+  frame_ = 0;
+  epoch_ = EPOCHS - 1;
+  started_ = false;
+  epoch_count_ = 0;
+  deviations_.fill(UNKNOWN);
+  last_ = X_WH;
+  motion_ = early_ = base_ = drift_ = 0.0;
+}
+
+double MotionForecast::deviation_of(const Epoch& epoch, const RigidTransform& X_WH) const {
+  const double tau = frame_ - epoch.start;
+  const Mat3 turned = X_WH.rotation - epoch.X_WH.rotation;
+  const double rest = (turned - tau * (epoch.turn + 0.5 * tau * epoch.curve)).norm();
+  if (!(turned.norm() <= LARGEST_TURN)) return UNKNOWN;
+  return (X_WH.translation - epoch.X_WH.translation - tau * epoch.velocity).norm() + rest * reach_;
+}
+
+void MotionForecast::start_epoch(const RigidTransform& X_WH) {
+  epoch_ = (epoch_ + 1) % EPOCHS;
+  epoch_count_ = std::min(epoch_count_ + 1, EPOCHS);
+  started_ = true;
+  Epoch& epoch = epochs_[epoch_];
+  const Mat3 last_turn = X_WH.rotation - last_.rotation;
+  epoch.start = frame_;
+  epoch.X_WH = X_WH;
+  epoch.velocity = X_WH.translation - last_.translation;
+  epoch.curve = last_turn * X_WH.rotation.transpose() * last_turn;
+  // A difference that looks back lags half a frame.
+  epoch.turn = last_turn + 0.5 * epoch.curve;
+  // What was planned in the epoch that had this index cannot be judged any more.
+  deviations_[epoch_] = UNKNOWN;
+
+  const double turn = epoch.turn.norm(), curve = epoch.curve.norm();
+  const double speed = epoch.velocity.norm() + turn * radius_;
+  // With half of LARGEST_TURN for what deviates.
+  longest_plan_ =
+      std::min({static_cast<double>(LONGEST_PLAN), PLAN_CUTOFFS * cutoff_ / std::max(speed, LEAST),
+                0.5 * LARGEST_TURN / std::max(turn + LONGEST_PLAN * curve, LEAST)});
+  // A plan from frame s to frame t of an epoch: (t^2 - s^2) / 2 = (t - s) (t + s) / 2.
+  const double frames = EPOCH_FRAMES + 0.5 * longest_plan_;
+  creep_ = frames * curve * radius_ + SINGLE_ROUNDING * speed;
+  spin_ = ANGLE_ROUNDING / std::numbers::sqrt2 * (turn + frames * curve) * (1.0 + SINGLE_ROUNDING);
+  horizon_ = std::min({LARGEST_HORIZON, HORIZON_CUTOFFS * cutoff_ / std::max(speed, LEAST),
+                       HORIZON_TURN / std::max(spin_, LEAST)});
+}
+
+void MotionForecast::advance(const RigidTransform& X_WH, double rounding) {
+  ++frame_;
+  started_ = false;
+  early_ *= MEMORY;
+  drift_ *= MEMORY;
+  for (std::size_t i = 0; i < epoch_count_; ++i) {
+    const std::size_t index = (epoch_ + EPOCHS - i) % EPOCHS;
+    const double deviation = deviation_of(epochs_[index], X_WH) * (1.0 + ROUNDING) + rounding;
+    deviations_[index] = deviation;
+    const std::uint32_t age = frame_ - epochs_[index].start;
+    if (age > JUDGED_FRAMES || !(deviation < UNKNOWN)) continue;
+    if (age <= EPOCH_FRAMES) {
+      early_ = std::max(early_, ROOM * deviation);
+    } else {
+      drift_ = std::max(drift_, ROOM * deviation / age);
+    }
+  }
+  // Plans start with what their epoch has deviated by, and count it twice.
+  base_ = 2.0 * early_;
+  motion_ = (X_WH.translation - last_.translation).norm() + (X_WH.rotation - last_.rotation).norm() * radius_;
+  if (epoch_count_ == 0 || frame_ - epochs_[epoch_].start >= EPOCH_FRAMES) start_epoch(X_WH);
+  last_ = X_WH;
+}
+
+}  // namespace lmdbench

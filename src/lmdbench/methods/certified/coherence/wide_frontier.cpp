@@ -1,0 +1,185 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/methods/certified/coherence/wide_frontier.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+namespace lmdbench {
+
+namespace {
+
+/// Losses are at least this, so that nothing is divided by zero [m].
+constexpr double LEAST_LOSS = 1e-30;
+
+Vec3 centre_of(const WideNode& node, std::uint32_t lane) {
+  return {node.centre[0][lane], node.centre[1][lane], node.centre[2][lane]};
+}
+
+}  // namespace
+
+void WideFrontier::clear() {
+  pairs_.clear();
+  records_.clear();
+  record_timers_.clear();
+  leaves_.clear();
+  leaf_timers_.clear();
+  requested_.clear();
+}
+
+std::uint32_t WideFrontier::add_record(const Work& work, std::uint32_t slot_a, std::uint32_t slot_b) {
+  const std::uint32_t index = record_timers_.add();
+  const WideKeptPair pair(work.a, work.b, slot_a, slot_b);
+  if (index == records_.size()) {
+    pairs_.push_back(pair);
+    records_.emplace_back();
+  } else {
+    pairs_[index] = pair;
+    records_[index] = Record{};
+  }
+  records_[index].in_use = true;
+  requested_.push_back(index);
+  return index;
+}
+
+std::uint32_t WideFrontier::add_leaf(const Work& work, std::uint32_t slot_a, const WidePair& pair,
+                                     bool touches) {
+  const std::uint32_t index = leaf_timers_.add();
+  if (index == leaves_.size()) leaves_.emplace_back();
+  leaves_[index] = {pair, slot_a, touches};
+  leaf_timers_.plan_now(index, work.motion);
+  return index;
+}
+
+double WideFrontier::lever_of(const WideHierarchy& a, const Leaf& leaf, double cutoff) {
+  return static_cast<double>(a.nodes[leaf.slot_a / WIDE_WIDTH].radius[leaf.slot_a % WIDE_WIDTH]) +
+         2.0 * cutoff;
+}
+
+void WideFrontier::plan_leaf(const WideHierarchy& a, const MotionForecast& motion, std::uint32_t index,
+                             const PairStanding& standing) {
+  if (!(standing.slack > 0.0 && standing.turn > 0.0)) {
+    leaf_timers_.plan(index, 0.0, 0.0, motion);
+    return;
+  }
+  const Leaf& leaf = leaves_[index];
+  const Vec3 c = centre_of(a.nodes[leaf.slot_a / WIDE_WIDTH], leaf.slot_a % WIDE_WIDTH);
+  const Vec3 velocity = motion.turn() * c + motion.origin_velocity();
+  const double loss = standing.gradient.dot(velocity) + standing.spread * velocity.norm() +
+                      standing.lever * motion.spin() + (1.0 + standing.spread) * motion.creep();
+  // As the node test does it. A deviation of t + a * reach (MotionForecast::deviation) displaces the centre
+  // by t + a * radius at most and turns by 0.72 a; for levers above half the reach that is not all, and the
+  // spread counts it again: `weight` makes up for both.
+  const double share = static_cast<double>(DEVIATION_SHARE);
+  const double weight = (1.0 + standing.spread) * std::max(1.0, 2.0 * standing.lever / motion.reach());
+  const auto frames_of = [&](double slack, double loss_a_frame) {
+    return (slack * (1.0 - share) - motion.base()) / (std::max(loss_a_frame, LEAST_LOSS) + motion.drift());
+  };
+  const double slack = standing.slack / weight, turn = standing.turn * motion.reach();
+  const double frames =
+      std::min({frames_of(slack, loss / weight), frames_of(turn, motion.spin() * motion.reach()),
+                static_cast<double>(MotionForecast::LONGEST_PLAN)});
+  const double allowance = share * std::min(slack, turn) + motion.base() + motion.drift() * frames;
+  leaf_timers_.plan(index, frames, allowance, motion);
+}
+
+void WideFrontier::drop_record(std::uint32_t record) {
+  dropping_.push_back(record);
+  while (!dropping_.empty()) {
+    const std::uint32_t index = dropping_.back();
+    dropping_.pop_back();
+    const Record& dropped = records_[index];
+    for (std::uint32_t left = dropped.opened_lanes; left != 0; left &= left - 1)
+      dropping_.push_back(dropped.below[static_cast<std::size_t>(std::countr_zero(left))]);
+    for (std::uint32_t left = dropped.lmd_lanes; left != 0; left &= left - 1)
+      leaf_timers_.drop(dropped.below[static_cast<std::size_t>(std::countr_zero(left))]);
+    for (std::uint32_t left = dropped.touch_lanes; left != 0; left &= left - 1)
+      leaf_timers_.drop(dropped.touching[static_cast<std::size_t>(std::countr_zero(left))]);
+    records_[index].in_use = false;
+    record_timers_.drop(index);
+  }
+}
+
+void WideFrontier::apply(const Work& work, const WideKeptTest& test) {
+  // Records move in memory when one is added: by index, and nothing kept across.
+  const std::uint32_t index = test.pair;
+  record_timers_.plan(index, static_cast<double>(test.frames), static_cast<double>(test.allowance),
+                      work.motion);
+  ++work.counters.node_tests;
+  work.counters.node_pairs += static_cast<std::uint64_t>(std::popcount(test.used));
+
+  if (test.opened == records_[index].opened_lanes && test.lmd == records_[index].lmd_lanes &&
+      test.touch == records_[index].touch_lanes)
+    return;
+  const Record before = records_[index];
+  const WideKeptPair pair = pairs_[index];
+  const std::uint32_t first_slot = pair.node * WIDE_WIDTH;
+  const auto slot_a_of = [&](std::uint32_t lane) { return pair.open_a ? first_slot + lane : pair.slot_a; };
+  const auto slot_b_of = [&](std::uint32_t lane) { return pair.open_a ? pair.slot_b : first_slot + lane; };
+  const auto ref = [](const WideHierarchy& hierarchy, std::uint32_t slot) {
+    return WideRef::from_bits(hierarchy.nodes[slot / WIDE_WIDTH].child[slot % WIDE_WIDTH]);
+  };
+  const auto pair_of = [&](std::uint32_t lane) {
+    return WidePair{ref(work.a, slot_a_of(lane)), ref(work.b, slot_b_of(lane))};
+  };
+  for (std::uint32_t change = test.opened ^ before.opened_lanes; change != 0; change &= change - 1) {
+    const auto lane = static_cast<std::uint32_t>(std::countr_zero(change));
+    if ((test.opened >> lane & 1u) == 0) {
+      drop_record(before.below[lane]);
+    } else {
+      const std::uint32_t added = add_record(work, slot_a_of(lane), slot_b_of(lane));
+      records_[index].below[lane] = added;
+    }
+  }
+  for (std::uint32_t change = test.lmd ^ before.lmd_lanes; change != 0; change &= change - 1) {
+    const auto lane = static_cast<std::uint32_t>(std::countr_zero(change));
+    if ((test.lmd >> lane & 1u) == 0) {
+      leaf_timers_.drop(before.below[lane]);
+    } else {
+      records_[index].below[lane] = add_leaf(work, slot_a_of(lane), pair_of(lane), false);
+    }
+  }
+  for (std::uint32_t change = test.touch ^ before.touch_lanes; change != 0; change &= change - 1) {
+    const auto lane = static_cast<std::uint32_t>(std::countr_zero(change));
+    if ((test.touch >> lane & 1u) == 0) {
+      leaf_timers_.drop(before.touching[lane]);
+    } else {
+      records_[index].touching[lane] = add_leaf(work, slot_a_of(lane), pair_of(lane), true);
+    }
+  }
+  records_[index].opened_lanes = test.opened;
+  records_[index].lmd_lanes = test.lmd;
+  records_[index].touch_lanes = test.touch;
+}
+
+void WideFrontier::make_requested_tests(const Work& work) {
+  while (!requested_.empty()) {
+    test_batch(work.a, work.b, work.query, work.forecast, pairs_, requested_, tests_);
+    requested_.clear();
+    for (const WideKeptTest& test : tests_) {
+      // An earlier test of this batch may have dropped the pair, and given its place to another.
+      const WideKeptPair& pair = pairs_[test.pair];
+      if (records_[test.pair].in_use && pair.slot_a == test.slot_a && pair.slot_b == test.slot_b)
+        apply(work, test);
+    }
+  }
+}
+
+void WideFrontier::start(const WideHierarchy& a, const WideHierarchy& b, const WideQuery& query,
+                         const MotionForecast& motion, const RigidTransform& X_BA, double cutoff,
+                         WideCounters& counters) {
+  clear();
+  const Work work{a, b, query, motion, WideForecast(motion, X_BA, cutoff), counters};
+  add_record(work, 0, 0);
+  make_requested_tests(work);
+}
+
+void WideFrontier::advance(const WideHierarchy& a, const WideHierarchy& b, const WideQuery& query,
+                           const MotionForecast& motion, const RigidTransform& X_BA, double cutoff,
+                           WideCounters& counters) {
+  record_timers_.collect(motion, requested_);
+  make_requested_tests({a, b, query, motion, WideForecast(motion, X_BA, cutoff), counters});
+}
+
+}  // namespace lmdbench

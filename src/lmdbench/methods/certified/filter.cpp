@@ -1,0 +1,333 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/mesh/vertex_neighbours.h>
+#include <lmdbench/methods/certified/filter.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+namespace lmdbench {
+
+namespace {
+
+/// Squared sine of the angle below which edges count as parallel: beyond it the feet of the common
+/// perpendicular are exact to about 2e-16 / 1e-8 of the edges, well within the margin.
+constexpr double PARALLEL_SQUARED_SINE = 1e-8;
+/// Half width, as a sine, of the band of directions in which a nearly parallel edge or face pair is
+/// borderline.
+constexpr double PARALLEL_BAND = 2e-4;
+
+/// Distances that differ from the cutoff by less than this part of it are left to the exact kernel.
+constexpr double CUTOFF_MARGIN = 1e-9;
+
+/// (pi / 3) of the turn of a common perpendicular, rounded up.
+constexpr double TURN_FACTOR = 1.05;
+/// Turns of two edges, as a share of the sine between them, beyond which nothing is said: with TURN_FACTOR
+/// the common perpendicular turns by no more than SPREAD.
+constexpr double LARGEST_TURN = 0.05;
+constexpr double SPREAD = TURN_FACTOR * LARGEST_TURN;
+
+/// Answers combine: one NO_LMD decides, else one BORDERLINE.
+PairAnswer no_lmd(const PairStanding& standing) {
+  return {PairVerdict::NO_LMD, standing};
+}
+const PairAnswer HOLDS{PairVerdict::LMD, {}};
+const PairAnswer CLOSE{PairVerdict::BORDERLINE, {}};
+const PairAnswer NEVER = no_lmd(PairStanding::turned(std::numeric_limits<double>::infinity()));
+/// Without a word on what it stands.
+const PairAnswer NO_LMD_NOW = no_lmd({});
+
+/// Adds one condition; true when it decides.
+bool settle(PairAnswer& answer, const PairAnswer& condition) {
+  if (condition.verdict != PairVerdict::LMD) answer = condition;
+  return condition.verdict == PairVerdict::NO_LMD;
+}
+
+/// One of the two meshes with its pose.
+struct Side {
+  const Surface& surface;
+  const RigidTransform& X_WM;
+  bool is_moving;
+
+  const Vec3& vertex_S(std::int32_t vertex) const {
+    return surface.mesh.vertices[static_cast<std::size_t>(vertex)];
+  }
+  Vec3 vertex_W(std::int32_t vertex) const {
+    return is_moving ? X_WM.point(vertex_S(vertex)) : vertex_S(vertex);
+  }
+  Vec3 to_surface(const Vec3& d_W) const { return is_moving ? Vec3(X_WM.rotation.transpose() * d_W) : d_W; }
+  Vec3 to_world(const Vec3& d_S) const { return is_moving ? X_WM.direction(d_S) : d_S; }
+  /// By how much a point of this mesh moves against the other for a displacement of 1.
+  double sign() const { return is_moving ? 1.0 : -1.0; }
+};
+
+struct Test {
+  const PairFilter& filter;
+  double lever;
+  Side moving, fixed;
+
+  Test(const PairFilter& f, double lever_of_motions)
+      : filter(f), lever(lever_of_motions), moving{f.moving, f.X_WM, true}, fixed{f.fixed, f.X_WM, false} {}
+
+  /// What is left of a length that must fall to zero before anything changes, less what rounding and the
+  /// truth's tolerances take. It loses `gradient` times the displacement.
+  PairAnswer no_lmd_within(double length, const Vec3& gradient) const {
+    return no_lmd({length - 2.0 * filter.touch, gradient, 0.0, lever});
+  }
+
+  /// @param d_W between the points, from the moving mesh to the fixed one
+  PairAnswer near(double squared_distance, const Vec3& d_W) const {
+    const double above = filter.cutoff * (1.0 + CUTOFF_MARGIN), below = filter.cutoff * (1.0 - CUTOFF_MARGIN);
+    if (squared_distance > above * above) {
+      const double distance = std::sqrt(squared_distance);
+      return no_lmd_within(distance - filter.cutoff, d_W / distance);
+    }
+    if (squared_distance < 0.25 * filter.touch * filter.touch) return NO_LMD_NOW;
+    return squared_distance < below * below ? HOLDS : CLOSE;
+  }
+
+  /// Whether d moves away from a corner.
+  /// @param turn_share angle that a unit of sine stands, for a d that only turns; 0 where d changes like a
+  /// point
+  PairAnswer away_from(const Side& side, const Vec3& d_S, double squared_d, const Vec3& to_corner,
+                       double turn_share) const {
+    const double along = d_S.dot(to_corner);
+    const double squared_length = to_corner.squaredNorm();
+    if (squared_length <= filter.tiny * filter.tiny) return CLOSE;
+    if (along * along <= filter.margin * filter.margin * squared_d * squared_length) return CLOSE;
+    if (along < 0.0) return HOLDS;
+    const double length = std::sqrt(squared_length), component = along / length;
+    if (turn_share > 0.0)
+      return no_lmd(PairStanding::turned(turn_share * (component / std::sqrt(squared_d) - filter.margin)));
+    return no_lmd_within(component, side.sign() / length * side.to_world(to_corner));
+  }
+
+  PairAnswer in_vertex_cone(const Side& side, std::int32_t vertex, const Vec3& d_W, double turn_share) const {
+    const Vec3 d_S = side.to_surface(d_W);
+    const double squared_d = d_S.squaredNorm();
+    const Vec3& p = side.vertex_S(vertex);
+    PairAnswer answer = HOLDS;
+    for_each_neighbour(side.surface, vertex, [&](std::int32_t neighbour) {
+      return !settle(answer, away_from(side, d_S, squared_d, side.vertex_S(neighbour) - p, turn_share));
+    });
+    return answer;
+  }
+
+  /// @param parameter of the foot on the edge, 0 at its first end
+  PairAnswer in_edge_cone(const Side& side, std::int32_t edge, double parameter, const Vec3& d_W,
+                          double turn_share) const {
+    const Surface& surface = side.surface;
+    const auto& ends = surface.adjacency.edges[static_cast<std::size_t>(edge)];
+    const Vec3 d_S = side.to_surface(d_W);
+    const double squared_d = d_S.squaredNorm();
+    const Vec3& p0 = side.vertex_S(ends[0]);
+    const Vec3 p = p0 + parameter * (side.vertex_S(ends[1]) - p0);
+    PairAnswer answer = HOLDS;
+    for (const std::int32_t triangle : surface.adjacency.edge_triangles[edge]) {
+      for (const std::int32_t corner : surface.mesh.triangles[static_cast<std::size_t>(triangle)]) {
+        if (corner == ends[0] || corner == ends[1]) continue;
+        if (settle(answer, away_from(side, d_S, squared_d, side.vertex_S(corner) - p, turn_share)))
+          return answer;
+      }
+    }
+    return answer;
+  }
+
+  PairAnswer vertex_vertex(std::int32_t a, std::int32_t b) const {
+    const Vec3 d = fixed.vertex_W(b) - moving.vertex_W(a);
+    PairAnswer answer = HOLDS;
+    if (settle(answer, near(d.squaredNorm(), d))) return answer;
+    if (settle(answer, in_vertex_cone(moving, a, d, 0.0))) return answer;
+    settle(answer, in_vertex_cone(fixed, b, -d, 0.0));
+    return answer;
+  }
+
+  PairAnswer vertex_edge(const Side& of_vertex, std::int32_t vertex, const Side& of_edge,
+                         std::int32_t edge) const {
+    const auto& ends = of_edge.surface.adjacency.edges[static_cast<std::size_t>(edge)];
+    const Vec3 p = of_vertex.vertex_W(vertex);
+    const Vec3 e0 = of_edge.vertex_W(ends[0]);
+    const Vec3 u = of_edge.vertex_W(ends[1]) - e0;
+    const double squared_length = u.squaredNorm();
+    const Vec3 to_end = of_vertex.sign() * (e0 - p);
+    if (squared_length <= filter.tiny * filter.tiny)
+      return near(to_end.squaredNorm(), to_end).verdict == PairVerdict::NO_LMD ? NO_LMD_NOW : CLOSE;
+    const double parameter = (p - e0).dot(u) / squared_length;
+    const double beyond = std::max(-parameter, parameter - 1.0);
+    if (beyond > filter.margin) {
+      const double length = std::sqrt(squared_length);
+      const double inwards = parameter < 0.0 ? of_vertex.sign() : -of_vertex.sign();
+      return no_lmd_within(beyond * length, inwards / length * u);
+    }
+    PairAnswer answer = beyond < -filter.margin ? HOLDS : CLOSE;
+    const Vec3 d = e0 + parameter * u - p;
+    if (settle(answer, near(d.squaredNorm(), of_vertex.sign() * d))) return answer;
+    if (!settle(answer, in_vertex_cone(of_vertex, vertex, d, 0.0)))
+      settle(answer, in_edge_cone(of_edge, edge, parameter, -d, 0.0));
+    // d stays square to the edge.
+    answer.standing.gradient -= answer.standing.gradient.dot(u) / squared_length * u;
+    return answer;
+  }
+
+  PairAnswer vertex_face(const Side& of_vertex, std::int32_t vertex, const Side& of_face,
+                         std::int32_t face) const {
+    const Vec3& normal_S = of_face.surface.face_normals[static_cast<std::size_t>(face)];
+    if (normal_S.isZero(0.0)) return NEVER;
+    const auto& corners = of_face.surface.mesh.triangles[static_cast<std::size_t>(face)];
+    const Vec3 p = of_vertex.vertex_W(vertex);
+    const Vec3 n = of_face.to_world(normal_S);
+    const std::array<Vec3, 3> x{of_face.vertex_W(corners[0]), of_face.vertex_W(corners[1]),
+                                of_face.vertex_W(corners[2])};
+    const double height = n.dot(p - x[0]);
+    const Vec3 rise = of_vertex.sign() * n;  // of the height, for a displacement
+    if (height < 0.0) return no_lmd_within(-height, rise);
+    PairAnswer answer = HOLDS;
+    if (settle(answer, near(height * height, -height * rise))) return answer;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Vec3 side = x[(k + 1) % 3] - x[k];
+      const double squared_side = side.squaredNorm();
+      const double squared_rise = (x[(k + 2) % 3] - x[k]).squaredNorm();
+      if (squared_side <= filter.tiny * filter.tiny) return CLOSE;
+      // Distance from the side times its length, against that of a right angle.
+      const double distance = side.cross(p - x[k]).dot(n);
+      const double allowed = filter.margin * std::sqrt(squared_side * squared_rise);
+      if (distance < -allowed) {
+        const double length = std::sqrt(squared_side);
+        return no_lmd_within(-distance / length, rise.cross(side) / length);
+      }
+      if (!(distance > allowed)) answer = CLOSE;
+    }
+    settle(answer, in_vertex_cone(of_vertex, vertex, -height * n, 1.0));
+    return answer;
+  }
+
+  PairAnswer edge_edge(std::int32_t a, std::int32_t b) const {
+    const auto& ends_a = moving.surface.adjacency.edges[static_cast<std::size_t>(a)];
+    const auto& ends_b = fixed.surface.adjacency.edges[static_cast<std::size_t>(b)];
+    const Vec3 p0 = moving.vertex_W(ends_a[0]);
+    const Vec3 u = moving.vertex_W(ends_a[1]) - p0;
+    const Vec3 q0 = fixed.vertex_W(ends_b[0]);
+    const Vec3 v = fixed.vertex_W(ends_b[1]) - q0;
+    const Vec3 r = p0 - q0;
+    const double uu = u.squaredNorm(), vv = v.squaredNorm(), uv = u.dot(v), ur = u.dot(r), vr = v.dot(r);
+    const double determinant = uu * vv - uv * uv;
+    const double squared_tiny = filter.tiny * filter.tiny;
+    if (uu <= squared_tiny || vv <= squared_tiny || determinant <= PARALLEL_SQUARED_SINE * uu * vv) {
+      // Nearly parallel: each must come within reach of the other somewhere.
+      const double reach = filter.cutoff + PARALLEL_BAND * (std::sqrt(uu) + std::sqrt(vv));
+      const Vec3 across = uu >= vv ? Vec3(r - ur / uu * u) : Vec3(r - vr / vv * v);
+      return across.squaredNorm() <= reach * reach ? CLOSE : NO_LMD_NOW;
+    }
+    const double s = (uv * vr - vv * ur) / determinant;
+    const double t = (uu * vr - uv * ur) / determinant;
+    if (outside(s) || outside(t)) {
+      // The end beyond the other edge's plane through the common perpendicular, and how fast that plane can
+      // turn.
+      const double sine = std::sqrt(determinant / (uu * vv));
+      const Vec3 d = r + s * u - t * v;
+      const double length_u = std::sqrt(uu), length_v = std::sqrt(vv);
+      const double beyond_s = std::max(-s, s - 1.0) * length_u, beyond_t = std::max(-t, t - 1.0) * length_v;
+      // Inwards: along the edge that is left behind, square to the other.
+      const Vec3 gradient = beyond_s > beyond_t
+                                ? Vec3((s < 0.0 ? -1.0 : 1.0) / (length_u * sine) * (u - uv / vv * v))
+                                : Vec3((t < 0.0 ? 1.0 : -1.0) / (length_v * sine) * (v - uv / uu * u));
+      const double beyond = std::max(beyond_s, beyond_t);
+      // Every point of the edge must stay on its side, so the farthest one is the lever arm.
+      const double arm = beyond + d.norm() + std::max(length_u, length_v);
+      return no_lmd({beyond * sine - 2.0 * filter.touch, gradient, SPREAD,
+                     (1.0 + SPREAD) * lever + TURN_FACTOR * arm / sine, LARGEST_TURN * sine});
+    }
+    PairAnswer answer = HOLDS;
+    if (!strictly_inside(s) || !strictly_inside(t)) answer = CLOSE;
+    const Vec3 d = -(r + s * u - t * v);
+    const double squared_d = d.squaredNorm();
+    if (settle(answer, near(squared_d, d))) return answer;
+    const double sine = std::sqrt(determinant / (uu * vv));
+    if (settle(answer, in_edge_cone(moving, a, s, d, sine / TURN_FACTOR)) ||
+        settle(answer, in_edge_cone(fixed, b, t, -d, sine / TURN_FACTOR))) {
+      // d turns smoothly as long as the edges do not pass through each other.
+      const double distance = std::sqrt(squared_d);
+      answer.standing = {(1.0 - SPREAD) * distance - 2.0 * filter.touch, d / distance, SPREAD,
+                         (1.0 + SPREAD) * lever, std::min(answer.standing.turn, LARGEST_TURN * sine)};
+    }
+    return answer;
+  }
+
+  bool outside(double parameter) const {
+    return parameter < -filter.margin || parameter > 1.0 + filter.margin;
+  }
+  bool strictly_inside(double parameter) const {
+    return parameter > filter.margin && parameter < 1.0 - filter.margin;
+  }
+
+  PairAnswer edge_face(const Side& of_edge, std::int32_t edge, const Side& of_face, std::int32_t face) const {
+    const Vec3& normal_S = of_face.surface.face_normals[static_cast<std::size_t>(face)];
+    if (normal_S.isZero(0.0)) return NEVER;
+    const auto& ends = of_edge.surface.adjacency.edges[static_cast<std::size_t>(edge)];
+    const Vec3 e0 = of_edge.vertex_W(ends[0]);
+    const Vec3 u = of_edge.vertex_W(ends[1]) - e0;
+    const Vec3 n = of_face.to_world(normal_S);
+    const double length = u.norm();
+    const double band = PARALLEL_BAND * length;
+    const double rise = std::abs(u.dot(n));
+    if (length > filter.tiny && rise > band)
+      return no_lmd(PairStanding::turned(rise / length - 0.5 * PARALLEL_BAND));
+    const auto& corners = of_face.surface.mesh.triangles[static_cast<std::size_t>(face)];
+    const double height = n.dot(e0 - of_face.vertex_W(corners[0]));
+    const Vec3 outwards = of_edge.sign() * n;
+    if (height < -band) return no_lmd_within(-height, outwards);
+    return height > filter.cutoff + band ? no_lmd_within(height - filter.cutoff, -outwards) : CLOSE;
+  }
+
+  PairAnswer face_face(std::int32_t a, std::int32_t b) const {
+    const Vec3& normal_a = moving.surface.face_normals[static_cast<std::size_t>(a)];
+    const Vec3& normal_b = fixed.surface.face_normals[static_cast<std::size_t>(b)];
+    if (normal_a.isZero(0.0) || normal_b.isZero(0.0)) return NEVER;
+    const double apart = (moving.to_world(normal_a) + normal_b).norm();
+    return apart > PARALLEL_BAND ? no_lmd(PairStanding::turned(apart - 0.5 * PARALLEL_BAND)) : CLOSE;
+  }
+};
+
+}  // namespace
+
+PairAnswer PairFilter::operator()(const FeatureId& on_moving, const FeatureId& on_fixed, double lever) const {
+  const Test test(*this, lever);
+  const std::int32_t a = on_moving.index, b = on_fixed.index;
+  switch (on_moving.kind) {
+    case FeatureKind::VERTEX:
+      switch (on_fixed.kind) {
+        case FeatureKind::VERTEX:
+          return test.vertex_vertex(a, b);
+        case FeatureKind::EDGE:
+          return test.vertex_edge(test.moving, a, test.fixed, b);
+        case FeatureKind::FACE:
+          return test.vertex_face(test.moving, a, test.fixed, b);
+      }
+      break;
+    case FeatureKind::EDGE:
+      switch (on_fixed.kind) {
+        case FeatureKind::VERTEX:
+          return test.vertex_edge(test.fixed, b, test.moving, a);
+        case FeatureKind::EDGE:
+          return test.edge_edge(a, b);
+        case FeatureKind::FACE:
+          return test.edge_face(test.moving, a, test.fixed, b);
+      }
+      break;
+    case FeatureKind::FACE:
+      switch (on_fixed.kind) {
+        case FeatureKind::VERTEX:
+          return test.vertex_face(test.fixed, b, test.moving, a);
+        case FeatureKind::EDGE:
+          return test.edge_face(test.fixed, b, test.moving, a);
+        case FeatureKind::FACE:
+          return test.face_face(a, b);
+      }
+      break;
+  }
+  return {};
+}
+
+}  // namespace lmdbench

@@ -1,0 +1,59 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <lmdbench/geometry/pose.h>
+#include <lmdbench/mesh/surface.h>
+#include <lmdbench/methods/certified/coherence/pair_standing.h>
+
+#include <cstdint>
+
+namespace lmdbench {
+
+/// What the closed-form test of a feature pair says.
+enum class PairVerdict : std::uint8_t {
+  NO_LMD,     ///< Some condition fails by more than the margin.
+  LMD,        ///< Every condition holds by more than the margin: any incident triangle pair gives the LMD.
+  BORDERLINE  ///< Some condition is within the margin (ties, parallel features): all incident triangle pairs
+              ///< decide.
+};
+
+/// What a test answers, and what that stands.
+struct PairAnswer {
+  PairVerdict verdict = PairVerdict::BORDERLINE;
+  PairStanding standing;  ///< Of NO_LMD.
+};
+
+/// Quantities that a query fixes.
+struct PairFilter {
+  const Surface& moving;
+  const RigidTransform& X_WM;
+  const Surface& fixed;
+  double cutoff;  ///< metres
+  double touch;   ///< metres; pairs nearer than half of it are not this filter's: see Certified
+  double margin;  ///< Relative to the lengths compared, or a sine. Far above rounding, far below geometry.
+  double tiny;    ///< metres; a feature shorter than this is rounding in its size and always borderline
+  /// Decides by the one candidate point pair that the two features have: two vertices; a vertex and its
+  /// projection on an edge or face; the feet of the common perpendicular of two edges. The conditions are
+  /// those of the ground truth's first-order test (first_order.h) with `margin` in place of its tolerance:
+  /// feet inside their features, distance within the cutoff, direction in both polar cones (the outer side,
+  /// which the caps of the hierarchy have settled for nearly all, is left to the final test). Edges that are
+  /// parallel to an edge or a face within 1e-4, and faces that are parallel, have no single candidate and are
+  /// borderline where they can be near.
+  ///
+  /// What the rejection stands (wide_lifetime.h) follows from what rejected the pair:
+  /// - too far, or on the inner side of a face: distances of points, lines and planes are convex in a
+  ///   displacement, and their gradient is the unit vector between the nearest points;
+  /// - a foot beyond an end or side by h: the distance from the plane through the end or side, square to the
+  ///   edge or face, is linear. Two edges at the angle alpha: the plane through one edge and the common
+  ///   perpendicular n also turns, by no more than n; n turns by phi <= (pi / 3) theta / sin(alpha) while
+  ///   theta <= sin(alpha) / 2, which is a lever of its own, and phi |Delta| is a spread;
+  /// - d leaves a cone by d . e > 0 for a unit e: linear where d is the difference of two points, or of a
+  ///   point and its foot on an edge; where d is along a face's normal or n, it changes by |d| times the
+  ///   angle.
+  ///
+  /// @param lever of the moving feature: its radius about its centre and two cutoffs [m]
+  PairAnswer operator()(const FeatureId& on_moving, const FeatureId& on_fixed, double lever) const;
+};
+
+}  // namespace lmdbench

@@ -1,0 +1,113 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/mesh/polar_cone.h>
+#include <lmdbench/mesh/vertex_neighbours.h>
+#include <lmdbench/methods/certified/hierarchy/polar_extremes.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <vector>
+
+namespace lmdbench {
+
+namespace {
+
+using polar::Constraint, polar::Scratch;
+
+/// Crossings of planes that are closer to parallel than this (a sine) are left out: their neighbours bound
+/// the cone to within the slack.
+constexpr double LEAST_CROSSING = 1e-6;
+/// Planes whose angle has a larger sine than this cross clearly: most candidates can be rejected without a
+/// root.
+constexpr double CLEAR_CROSSING = 0.2;
+/// Which of the two crossings x and -x of two planes some constraint rejects for certain. The planes
+/// themselves reject neither. x need not be unit, and is at least CLEAR_CROSSING long; no constraint has more
+/// slack than POLAR_SLACK.
+std::array<bool, 2> clearly_rejected(const std::vector<Constraint>& constraints, const Vec3& x) {
+  // Planes that cross at such an angle shift their crossing by less than 2 / CLEAR_CROSSING slacks.
+  constexpr double LIMIT = (1.0 + 2.0 / CLEAR_CROSSING) * POLAR_SLACK;
+  double highest = 0.0, lowest = 0.0;
+  for (const Constraint& constraint : constraints) {
+    const double along = constraint.direction.dot(x);
+    highest = std::max(highest, along);
+    lowest = std::min(lowest, along);
+  }
+  return {highest > LIMIT, -lowest > LIMIT};
+}
+
+/// Crossings of two constraints' planes that satisfy all others. False when no two planes cross.
+bool find_crossings(Scratch& work) {
+  const std::size_t count = work.constraints.size();
+  work.extremes.directions.clear();
+  work.extremes.slack = 0.0;
+  bool crossed = false;
+  for (std::size_t i = 0; i < count; ++i) {
+    for (std::size_t j = i + 1; j < count; ++j) {
+      const Vec3& a = work.constraints[i].direction;
+      const Vec3& b = work.constraints[j].direction;
+      Vec3 crossing = a.cross(b);
+      const double squared_sine = crossing.squaredNorm();
+      if (squared_sine < LEAST_CROSSING * LEAST_CROSSING) continue;
+      crossed = true;
+      std::array<bool, 2> rejected{};
+      if (squared_sine > CLEAR_CROSSING * CLEAR_CROSSING)
+        rejected = clearly_rejected(work.constraints, crossing);
+      if (rejected[0] && rejected[1]) continue;
+      const double sine = std::sqrt(squared_sine);
+      crossing /= sine;
+      // Relaxed planes cross at most this far from the exact ones: s / cos(half their angle).
+      const double half_cosine = std::sqrt(std::max(0.0, 0.5 * (1.0 + a.dot(b))));
+      const double shift = POLAR_SLACK / std::max(half_cosine, LEAST_CROSSING);
+      for (const std::size_t sign : {0u, 1u}) {
+        const Vec3 candidate = sign == 0 ? crossing : Vec3(-crossing);
+        if (rejected[sign] || !polar::satisfies(work.constraints, candidate, i, j, shift)) continue;
+        work.extremes.directions.push_back(candidate);
+        work.extremes.slack = std::max(work.extremes.slack, POLAR_SLACK + shift);
+      }
+    }
+  }
+  return crossed;
+}
+
+std::optional<PolarCap> vertex_cap(const Surface& surface, std::int32_t vertex) {
+  if (surface.adjacency.vertex_triangles[vertex].empty()) return std::nullopt;
+  Scratch& work = polar::scratch();
+  const Vec3& p = surface.mesh.vertices[static_cast<std::size_t>(vertex)];
+  for_each_neighbour(surface, vertex, [&](std::int32_t neighbour) {
+    const Vec3 direction = surface.mesh.vertices[static_cast<std::size_t>(neighbour)] - p;
+    const double length = direction.norm();
+    if (length > 0.0) work.constraints.push_back({direction / length, POLAR_SLACK});
+    return true;
+  });
+  if (!find_crossings(work)) return PolarCap{};
+  if (work.extremes.directions.empty()) return std::nullopt;
+  // Saddles are done here, and so are peaks, all of whose directions are outer ones: whether a vertex has an
+  // outer side costs a walk round it.
+  const Vec3& outer = surface.vertex_pseudo_normals[static_cast<std::size_t>(vertex)];
+  const bool all_outer = std::all_of(work.extremes.directions.begin(), work.extremes.directions.end(),
+                                     [&](const Vec3& direction) { return direction.dot(outer) >= 0.0; });
+  if (!all_outer && has_outer_side(surface, {FeatureKind::VERTEX, vertex})) {
+    work.constraints.push_back({-outer, POLAR_SLACK});
+    find_crossings(work);
+  }
+  return polar::cap_around(work.extremes);
+}
+
+}  // namespace
+
+std::optional<PolarCap> polar_cap(const Surface& surface, const FeatureId& feature) {
+  switch (feature.kind) {
+    case FeatureKind::VERTEX:
+      return vertex_cap(surface, feature.index);
+    case FeatureKind::EDGE:
+      return polar::edge_cap(surface, feature.index);
+    case FeatureKind::FACE:
+      break;
+  }
+  const Vec3& normal = surface.face_normals[static_cast<std::size_t>(feature.index)];
+  if (normal.isZero(0.0)) return std::nullopt;
+  return PolarCap{normal, 1.0 - 0.5 * POLAR_SLACK * POLAR_SLACK, POLAR_SLACK};
+}
+
+}  // namespace lmdbench

@@ -1,0 +1,128 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <lmdbench/geometry/types.h>
+#include <lmdbench/mesh/surface.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace lmdbench {
+
+/// Children of a wide node.
+inline constexpr int WIDE_WIDTH = 8;
+
+/// What a lane of a wide node refers to: nothing, another node, or a feature.
+class WideRef {
+ public:
+  constexpr WideRef() = default;
+  static constexpr WideRef node(std::uint32_t index) { return WideRef(index); }
+  static constexpr WideRef feature(const FeatureId& id) {
+    return WideRef((static_cast<std::uint32_t>(id.kind) + 1u) << KIND_SHIFT |
+                   static_cast<std::uint32_t>(id.index));
+  }
+  static constexpr WideRef from_bits(std::uint32_t bits) { return WideRef(bits); }
+
+  constexpr bool is_empty() const { return bits_ == 0; }
+  constexpr bool is_feature() const { return bits_ >> KIND_SHIFT != 0; }
+  constexpr bool is_face() const { return bits_ >= FIRST_FACE; }
+  constexpr std::uint32_t node_index() const { return bits_; }
+  constexpr FeatureId feature_id() const {
+    return {static_cast<FeatureKind>((bits_ >> KIND_SHIFT) - 1u),
+            static_cast<std::int32_t>(bits_ & INDEX_MASK)};
+  }
+  constexpr std::uint32_t bits() const { return bits_; }
+  constexpr bool operator==(const WideRef&) const = default;
+
+  static constexpr int KIND_SHIFT = 29;
+  static constexpr std::uint32_t INDEX_MASK = (1u << KIND_SHIFT) - 1u;  ///< Largest node or feature index.
+  static constexpr std::uint32_t FIRST_FACE = (static_cast<std::uint32_t>(FeatureKind::FACE) + 1u)
+                                              << KIND_SHIFT;
+
+ private:
+  constexpr explicit WideRef(std::uint32_t bits) : bits_(bits) {}
+  std::uint32_t bits_ = 0;  ///< Node 0 is the root and nobody's child, so 0 can mean "empty".
+};
+
+/// Eight children as structure of arrays, in single precision, in the hierarchy's frame (the mesh's, moved to
+/// WideHierarchy::origin). A child is bounded by a disc-like body and a cone of directions:
+///   every point x of its features:            |x - centre| <= radius and |(x - centre) . axis| <= thickness
+///   every direction n of an LMD that leaves it: n . axis >= cosine (|n| = 1)
+/// The thickness along the cone's axis is what a sphere lacks: a flat patch of radius r has r as its extent
+/// in every direction but its own normal, and that is the direction in which the other mesh lies. All bounds
+/// are rounded outwards. Axis zero, cosine 0, sine 1 and a huge thickness mean all directions; cosine 2 means
+/// that no LMD leaves the child (triangles without area, which still can intersect others).
+struct alignas(32) WideNode {
+  float centre[3][WIDE_WIDTH];
+  float radius[WIDE_WIDTH];
+  float axis[3][WIDE_WIDTH];
+  float thickness[WIDE_WIDTH];
+  float cosine[WIDE_WIDTH];
+  float sine[WIDE_WIDTH];
+  std::uint32_t child[WIDE_WIDTH];  ///< WideRef::bits()
+};
+
+/// Thickness of children without an axis; larger than any mesh, and its square is finite in single precision.
+inline constexpr float UNBOUNDED_THICKNESS = 1e18F;
+/// Cosine of children that carry no LMD.
+inline constexpr float NO_LMD_COSINE = 2.0F;
+
+/// How the builder divides a set of features. The choices, by node tests a query (median of 40 grazing poses
+/// of two bunnies of 16,298 triangles, cutoffs 0.5 / 2 / 5 % of the diagonal):
+///
+/// | builder                          | node tests         | bytes a triangle |
+/// |----------------------------------|--------------------|------------------|
+/// | POSITION, full nodes (default)   | 587 / 856 / 1776   | 114              |
+/// | POSITION, halved at the middle   | 761 / 1134 / 2216  | 454              |
+/// | NORMAL, weight 0.03              | 592 / 877 / 1656   | 114              |
+/// | NORMAL, weight 0.3               | 5364 / 6308 / 8116 | 114              |
+/// | ORDER                            | 2189 / 3286 / 5396 | 114              |
+/// | POSITION, one-ring cones         | 1076 / 2204 / 5296 | 114              |
+/// | width 4                          | 830 / 1240 / 2602  | 133              |
+/// | 2 features a lane                | 500 / 768 / 1518   | 66               |
+///
+/// One-ring cones let 14 to 35 times as many pairs through to the final tests, 2 features a lane 6 to 11
+/// times as many. All meshes and rows, width 16 among them, with times: results/reference/builders.md.
+enum class WideSplit : std::uint8_t {
+  POSITION,  ///< Median along the longest side of the box of centres.
+  NORMAL,    ///< Median along the longest side of the box of centres and cone axes, axes weighted by
+             ///< normal_weight.
+  ORDER      ///< Median in Morton order of the centres: fastest to build.
+};
+
+struct WideBuildOptions {
+  WideSplit split = WideSplit::POSITION;
+  bool tight_caps =
+      true;  ///< Cones from polar cones; false: one-ring cones of face normals (for comparison only).
+  bool full_nodes =
+      true;  ///< Divide at multiples of powers of the width, which fills nodes; false: at the middle.
+  std::size_t width = WIDE_WIDTH;  ///< Children that a node gets, 2 to WIDE_WIDTH; fewer for comparison only.
+  /// Features in the smallest sets, 1 to `width`: sets of more than one get a node of their own, which nodes
+  /// of several features a lane would save. More than one for comparison only.
+  std::size_t leaf_size = 1;
+  double normal_weight =
+      0.3;  ///< Length that a unit of axis difference counts as, in units of the set's extent.
+};
+
+/// Hierarchy over the features of a mesh that can carry an LMD (non-empty outward polar cone), each owned by
+/// one lane of one node, and over every triangle without area. nodes[0] has one child, the root; empty for an
+/// empty mesh.
+struct WideHierarchy {
+  std::vector<WideNode> nodes;
+  Vec3 origin = Vec3::Zero();  ///< Mesh-frame point that is the origin of the nodes' coordinates.
+  double radius = 0.0;         ///< Every point of every feature is within this distance of `origin`.
+  std::size_t feature_count = 0;
+  double least_edge = 0.0;  ///< Length of the shortest edge among the features.
+
+  std::size_t bytes() const { return nodes.size() * sizeof(WideNode); }
+
+  /// Built with the default options: what `certified` prepares for a mesh.
+  static WideHierarchy of(const Surface& surface);
+};
+
+/// Deterministic, whatever the number of threads.
+WideHierarchy build_wide_hierarchy(const Surface& surface, const WideBuildOptions& options = {});
+
+}  // namespace lmdbench

@@ -1,0 +1,73 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/geometry/cone.h>
+#include <lmdbench/mesh/feature_corners.h>
+#include <lmdbench/methods/certified/hierarchy/wide_items.h>
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <optional>
+
+namespace lmdbench {
+
+namespace {
+
+/// Features that one task looks at. The blocks' results are joined in order, so that threads do not matter.
+constexpr std::size_t BLOCK = 2048;
+
+/// Cone of the normals of all faces round the feature's vertices: what a hierarchy over triangles would have
+/// to use.
+PolarCap one_ring_cap(const Surface& surface, const FeatureId& feature) {
+  std::vector<Vec3> normals;
+  const FeatureCorners corners(surface, feature);
+  for (const std::int32_t vertex : corners.view()) {
+    if (surface.vertex_is_boundary[static_cast<std::size_t>(vertex)]) return {};
+    for (const std::int32_t triangle : surface.adjacency.vertex_triangles[vertex])
+      normals.push_back(surface.face_normals[static_cast<std::size_t>(triangle)]);
+  }
+  const Cone cone = convex_cone_of_directions(normals);
+  if (!(cone.cosine > 0.0)) return {};
+  return {cone.axis, cone.cosine, cone.sine};
+}
+
+void append_item(const Surface& surface, const WideBuildOptions& options, const FeatureId& feature,
+                 std::vector<WideItem>& items) {
+  const std::optional<PolarCap> cap = polar_cap(surface, feature);
+  if (!cap && feature.kind != FeatureKind::FACE) return;
+  WideItem& item = items.emplace_back();
+  item.ref = WideRef::feature(feature);
+  item.carries_lmd = cap.has_value();
+  if (cap) item.cap = options.tight_caps ? *cap : one_ring_cap(surface, feature);
+}
+
+}  // namespace
+
+std::vector<WideItem> collect_wide_items(const Surface& surface, const WideBuildOptions& options) {
+  const std::size_t vertices = surface.mesh.vertices.size();
+  const std::size_t before_faces = vertices + surface.adjacency.edges.size();
+  const std::size_t features = before_faces + surface.mesh.triangles.size();
+  const auto feature_at = [&](std::size_t i) -> FeatureId {
+    if (i < vertices) return {FeatureKind::VERTEX, static_cast<std::int32_t>(i)};
+    if (i < before_faces) return {FeatureKind::EDGE, static_cast<std::int32_t>(i - vertices)};
+    return {FeatureKind::FACE, static_cast<std::int32_t>(i - before_faces)};
+  };
+  std::vector<std::vector<WideItem>> blocks((features + BLOCK - 1) / BLOCK);
+  tbb::parallel_for(std::size_t{0}, blocks.size(), [&](std::size_t block) {
+    blocks[block].reserve(BLOCK);
+    const std::size_t end = std::min(features, (block + 1) * BLOCK);
+    for (std::size_t i = block * BLOCK; i < end; ++i)
+      append_item(surface, options, feature_at(i), blocks[block]);
+  });
+
+  std::vector<std::size_t> starts{0};
+  for (const auto& block : blocks) starts.push_back(starts.back() + block.size());
+  std::vector<WideItem> items(starts.back());
+  tbb::parallel_for(std::size_t{0}, blocks.size(), [&](std::size_t block) {
+    std::copy(blocks[block].begin(), blocks[block].end(),
+              items.begin() + static_cast<std::ptrdiff_t>(starts[block]));
+  });
+  return items;
+}
+
+}  // namespace lmdbench

@@ -1,0 +1,23 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <lmdbench/mesh/surface.h>
+#include <lmdbench/methods/certified/hierarchy/polar_cap.h>
+#include <lmdbench/methods/certified/hierarchy/wide_hierarchy.h>
+
+#include <vector>
+
+namespace lmdbench {
+
+/// A feature while a wide hierarchy is built.
+struct WideItem {
+  PolarCap cap;
+  WideRef ref;
+  bool carries_lmd = false;  ///< False for triangles without area: they have no cap.
+};
+
+/// The features that a hierarchy owns: vertices, edges and faces, each by index.
+std::vector<WideItem> collect_wide_items(const Surface& surface, const WideBuildOptions& options);
+
+}  // namespace lmdbench

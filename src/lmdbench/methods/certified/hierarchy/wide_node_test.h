@@ -1,0 +1,161 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <lmdbench/geometry/pose.h>
+#include <lmdbench/methods/certified/hierarchy/wide_hierarchy.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+
+/// The test of one child ("probe") against the eight children of a node of the other mesh.
+///
+/// A pair must survive when it may hold an LMD within the cutoff, or when it may touch, that is hold two
+/// points within the touch distance (pairs that close have no reliable direction, so no cone may reject
+/// them). Let c, r, h, u, phi be centre, radius, thickness, axis and half angle of a child, D the vector from
+/// the probe's centre to the lane's, and z = u . D for the probe, z = -u . D for the lane. Every vector d
+/// from a point below one child to a point below the other is D plus offsets that lie in the two bodies, so
+///
+///   |d| >= |D| - (r + r')                                                  (spheres)
+///   |u . d - z| <= h + h' |u . u'| + r' sqrt(1 - (u . u')^2) =: slab       (extent of both bodies along u)
+///   |d across u| >= |D across u| - (r + r')
+///
+/// and an LMD's d has |d| <= cutoff, u . d >= cos(phi) |d| >= 0 and |d across u| <= tan(phi) u . d, <=
+/// sin(phi) |d|. Together, for the probe's u and again for the lane's u (design section 3, G1 to G3; decision
+/// E2's sense):
+///
+///   G1  |D| <= cutoff + r + r'   and   z <= cutoff + slab
+///   G2  -u . u' >= cos(phi + phi')
+///   G3  z >= -slab   and   |D across u| cos(phi) <= (r + r') cos(phi) + sin(phi) min(z + slab, cutoff
+///   cos(phi))
+///
+/// G3 needs no sigma = arcsin((r + r') / |D|): it holds for overlapping spheres too (decision E3) and is
+/// tighter there. It needs no division, and the only square root is the slab's. The touch test is |D| <=
+/// touch + r + r' and |z| <= touch + slab, both ways.
+///
+/// Everything is computed in single precision in the lane's frame; why no LMD is lost: probe and lane are
+/// rounded outwards when built; what moving the probe into the lane's frame and the sums below lose is less
+/// than POSITION_ROUNDING of the largest length in play (radii of both meshes plus the distance of their
+/// origins), which is added to r + r' and to both slabs; products of directions lose less than
+/// DIRECTION_ROUNDING, which is granted in G2, in the slab and, times |D|^2, in |D across u|^2 = |D|^2 - z^2,
+/// where cancellation would hurt. No operation is fused, so that every instruction set gives the same bits
+/// and the same counters.
+namespace lmdbench {
+
+/// Relative rounding of lengths that is granted: 32 roundings of single precision.
+inline constexpr double POSITION_ROUNDING = 2e-6;
+/// Rounding of products of two directions that is granted.
+inline constexpr float DIRECTION_ROUNDING = 2e-6F;
+
+/// One child in the frame of the other mesh's nodes.
+struct alignas(16) WideProbe {
+  float centre[4];
+  float axis[4];
+  float radius;
+  float thickness;
+  float cosine;
+  float sine;
+};
+
+/// Lengths that a query fixes, rounded outwards.
+struct WideLimits {
+  float cutoff;
+  float touch;
+  float rounding;  ///< Granted to every sum of lengths.
+};
+
+/// Lanes that survive and why the others do not, as bit masks; every lane in use is in exactly one of
+/// `lmd` | `touch`, `beyond` (G1), `not_collinear` (G2) and `off_direction` (G3).
+struct WideMasks {
+  std::uint32_t lmd = 0;            ///< May hold an LMD.
+  std::uint32_t touch = 0;          ///< May touch.
+  std::uint32_t used = 0;           ///< Lanes in use.
+  std::uint32_t beyond = 0;         ///< Rejected by G1.
+  std::uint32_t not_collinear = 0;  ///< Rejected by G2.
+};
+
+/// Coordinates of one hierarchy's frame in the other's, in single precision; a fourth row pads.
+struct alignas(16) WideTransform {
+  float columns[3][4] = {};
+  float translation[4] = {};
+
+  WideTransform() = default;
+  WideTransform(const Mat3& R, const Vec3& t) {
+    for (int i = 0; i < 3; ++i) {
+      for (int j = 0; j < 3; ++j) columns[j][i] = static_cast<float>(R(i, j));
+      translation[i] = static_cast<float>(t[i]);
+    }
+  }
+};
+
+/// A lane of a node, in its own mesh's frame.
+struct WideChild {
+  float centre[3], radius, axis[3], thickness, cosine, sine;
+  WideRef ref;
+
+  WideChild() = default;
+  WideChild(const WideNode& node, std::uint32_t lane)
+      : centre{node.centre[0][lane], node.centre[1][lane], node.centre[2][lane]},
+        radius(node.radius[lane]),
+        axis{node.axis[0][lane], node.axis[1][lane], node.axis[2][lane]},
+        thickness(node.thickness[lane]),
+        cosine(node.cosine[lane]),
+        sine(node.sine[lane]),
+        ref(WideRef::from_bits(node.child[lane])) {}
+};
+
+/// The child as probe, moved by `X`.
+inline WideProbe make_probe(const WideChild& child, const WideTransform& X) {
+  WideProbe probe{};
+  for (int i = 0; i < 3; ++i) {
+    probe.centre[i] = X.columns[0][i] * child.centre[0] + X.columns[1][i] * child.centre[1] +
+                      X.columns[2][i] * child.centre[2] + X.translation[i];
+    probe.axis[i] =
+        X.columns[0][i] * child.axis[0] + X.columns[1][i] * child.axis[1] + X.columns[2][i] * child.axis[2];
+  }
+  probe.radius = child.radius;
+  probe.thickness = child.thickness;
+  probe.cosine = child.cosine;
+  probe.sine = child.sine;
+  return probe;
+}
+
+/// One lane of a node beside a probe: the quantities above that every form of the test needs.
+struct LaneBounds {
+  float dx, dy, dz;                         ///< D
+  float radius, cosine, sine, ux, uy, uz;   ///< Of the lane.
+  float squared_distance, z_probe, z_lane;  ///< |D|^2; z of the probe and of the lane.
+  float between, across;                    ///< u . u' and the sine of their angle, rounded up.
+  float radii, slab_probe, slab_lane;       ///< With the rounding that is granted.
+
+  LaneBounds(const WideNode& node, std::uint32_t lane, const WideProbe& probe, float rounding)
+      : dx(node.centre[0][lane] - probe.centre[0]),
+        dy(node.centre[1][lane] - probe.centre[1]),
+        dz(node.centre[2][lane] - probe.centre[2]),
+        radius(node.radius[lane]),
+        cosine(node.cosine[lane]),
+        sine(node.sine[lane]),
+        ux(node.axis[0][lane]),
+        uy(node.axis[1][lane]),
+        uz(node.axis[2][lane]),
+        squared_distance(dot(dx, dy, dz, dx, dy, dz)),
+        z_probe(dot(dx, dy, dz, probe.axis[0], probe.axis[1], probe.axis[2])),
+        z_lane(-dot(dx, dy, dz, ux, uy, uz)),
+        between(dot(ux, uy, uz, probe.axis[0], probe.axis[1], probe.axis[2])),
+        across(std::sqrt(std::max(1.0F - between * between, 0.0F) + DIRECTION_ROUNDING)),
+        radii((radius + probe.radius) + rounding),
+        slab_probe((probe.thickness + rounding) +
+                   (node.thickness[lane] * std::abs(between) + radius * across)),
+        slab_lane((node.thickness[lane] + rounding) +
+                  (probe.thickness * std::abs(between) + probe.radius * across)) {}
+
+  static float dot(float ax, float ay, float az, float bx, float by, float bz) {
+    return (ax * bx + ay * by) + az * bz;
+  }
+};
+
+/// The test, lane by lane: the reference that the vector form is checked against, bit for bit.
+WideMasks test_lanes_scalar(const WideNode& node, const WideProbe& probe, const WideLimits& limits);
+
+}  // namespace lmdbench

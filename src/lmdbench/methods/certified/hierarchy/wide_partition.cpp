@@ -1,0 +1,222 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/mesh/feature_corners.h>
+#include <lmdbench/methods/certified/hierarchy/wide_partition.h>
+
+#include <Eigen/Core>
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+#include <tbb/parallel_invoke.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <utility>
+
+namespace lmdbench {
+
+namespace {
+
+/// Sets smaller than this are treated by one thread.
+constexpr std::size_t PARALLEL_GRAIN = 4096;
+
+/// Bins of a selection; smaller sets are selected by the library.
+constexpr std::size_t BINS = 256;
+
+/// An item on its way: small, because it is moved once a level. Single precision is enough to choose by.
+struct Place {
+  Eigen::Vector3f centre;  ///< in the hierarchy's frame
+  std::uint32_t item;      ///< index, in the order of features
+};
+
+Place make_place(const Surface& surface, const Vec3& origin, const WideItem& item, std::size_t index) {
+  constexpr double INFINITE = std::numeric_limits<double>::infinity();
+  const FeatureCorners corners(surface, item.ref.feature_id());
+  Vec3 low = Vec3::Constant(INFINITE), high = -low;
+  for (const std::int32_t vertex : corners.view()) {
+    const Vec3& p = surface.mesh.vertices[static_cast<std::size_t>(vertex)];
+    low = low.cwiseMin(p);
+    high = high.cwiseMax(p);
+  }
+  return {(0.5 * (low + high) - origin).cast<float>(), static_cast<std::uint32_t>(index)};
+}
+
+class Partition {
+ public:
+  Partition(const WideBuildOptions& options, const std::vector<WideItem>& items, double radius,
+            std::vector<Place>& places)
+      : options_(options), items_(items), radius_(radius), places_(places), spare_(places.size()) {}
+
+  void run() {
+    if (options_.split == WideSplit::ORDER) {
+      sort_by_code();
+    } else {
+      divide(places_);
+    }
+  }
+
+ private:
+  using Places = std::span<Place>;
+
+  void divide(Places places) {
+    const WideDivision division(places.size(), options_);
+    if (division.unit == 1) {
+      std::sort(places.begin(), places.end(), [](const Place& a, const Place& b) { return a.item < b.item; });
+      return;
+    }
+    bisect(places, division.unit, division.children);
+  }
+
+  /// Halves at multiples of the unit until one unit is left, and goes on with that.
+  void bisect(Places places, std::size_t unit, std::size_t units) {
+    if (units <= 1) {
+      divide(places);
+      return;
+    }
+    const std::size_t left_units = (units + 1) / 2;
+    const std::size_t middle = left_units * unit;
+    select(places, middle);
+    const auto left = [&] { bisect(places.first(middle), unit, left_units); };
+    const auto right = [&] { bisect(places.subspan(middle), unit, units - left_units); };
+    if (places.size() > PARALLEL_GRAIN) {
+      tbb::parallel_invoke(left, right);
+    } else {
+      left();
+      right();
+    }
+  }
+
+  /// Moves the least `count` places to the front, along the longest side of the box.
+  void select(Places places, std::size_t count) {
+    Eigen::Array3f low = places[0].centre, high = low;
+    for (const Place& place : places) {
+      low = low.min(place.centre.array());
+      high = high.max(place.centre.array());
+    }
+    int axis = 0;
+    const float extent = (high - low).maxCoeff(&axis);
+    if (options_.split == WideSplit::NORMAL && select_by_cone(places, count, extent)) return;
+    if (places.size() > BINS) {
+      select_by_bins(places, count, axis, low[axis], static_cast<float>(BINS) / extent);
+    } else {
+      select_by(places, count, [axis](const Place& place) { return place.centre[axis]; });
+    }
+  }
+
+  bool select_by_cone(Places places, std::size_t count, float extent) const {
+    Eigen::Array3d low = items_[places[0].item].cap.axis, high = low;
+    for (const Place& place : places) {
+      low = low.min(items_[place.item].cap.axis.array());
+      high = high.max(items_[place.item].cap.axis.array());
+    }
+    int axis = 0;
+    const double spread = (high - low).maxCoeff(&axis);
+    if (!(spread * options_.normal_weight * 2.0 * radius_ > static_cast<double>(extent))) return false;
+    select_by(places, count, [this, axis](const Place& place) { return items_[place.item].cap.axis[axis]; });
+    return true;
+  }
+
+  /// As select_by, by one count and one move of all, where the library's way has a branch that nobody can
+  /// predict for every comparison.
+  void select_by_bins(Places places, std::size_t count, int axis, float low, float bins_per_metre) {
+    const auto bin_of = [=](const Place& place) {
+      // Of a set without extent all are in the last bin: then the factor is infinite, and the product may be
+      // no number.
+      const float bin = (place.centre[axis] - low) * bins_per_metre;
+      return bin < static_cast<float>(BINS - 1) ? static_cast<std::size_t>(bin) : BINS - 1;
+    };
+    std::array<std::uint32_t, BINS> sizes{};
+    for (const Place& place : places) ++sizes[bin_of(place)];
+    std::size_t before = 0, bin = 0;
+    while (before + sizes[bin] <= count) before += sizes[bin++];
+
+    const auto sorted =
+        std::span(spare_).subspan(static_cast<std::size_t>(places.data() - places_.data()), places.size());
+    std::array<Place*, 3> next{sorted.data(), sorted.data() + before, sorted.data() + before + sizes[bin]};
+    for (const Place& place : places) {
+      const std::size_t own = bin_of(place);
+      *next[(own >= bin ? 1u : 0u) + (own > bin ? 1u : 0u)]++ = place;
+    }
+    std::copy(sorted.begin(), sorted.end(), places.begin());
+    select_by(places.subspan(before, sizes[bin]), count - before,
+              [axis](const Place& place) { return place.centre[axis]; });
+  }
+
+  template <class Key>
+  static void select_by(Places places, std::size_t count, Key key) {
+    std::nth_element(places.begin(), places.begin() + static_cast<std::ptrdiff_t>(count), places.end(),
+                     [&](const Place& a, const Place& b) {
+                       const auto key_a = key(a), key_b = key(b);
+                       return key_a != key_b ? key_a < key_b : a.item < b.item;
+                     });
+  }
+
+  void sort_by_code() {
+    constexpr double CELLS = 1 << 21;
+    std::vector<std::pair<std::uint64_t, Place>> coded;
+    coded.reserve(places_.size());
+    for (const Place& place : places_) {
+      std::uint64_t code = 0;
+      for (int axis = 0; axis < 3; ++axis) {
+        const double coordinate = static_cast<double>(place.centre[axis]);
+        const double cell = (coordinate / std::max(radius_, 1e-300) + 1.0) * 0.5 * CELLS;
+        const auto index = static_cast<std::uint64_t>(std::clamp(cell, 0.0, CELLS - 1.0));
+        for (std::uint64_t bit = 0; bit < 21; ++bit)
+          code |= (index >> bit & 1u) << (3u * bit + static_cast<std::uint64_t>(axis));
+      }
+      coded.emplace_back(code, place);
+    }
+    std::sort(coded.begin(), coded.end(), [](const auto& a, const auto& b) {
+      return a.first != b.first ? a.first < b.first : a.second.item < b.second.item;
+    });
+    for (std::size_t i = 0; i < coded.size(); ++i) places_[i] = coded[i].second;
+  }
+
+  const WideBuildOptions& options_;
+  const std::vector<WideItem>& items_;
+  double radius_;
+  std::vector<Place>& places_;
+  std::vector<Place> spare_;  ///< Each task uses the part that its places have in places_.
+};
+
+}  // namespace
+
+WideDivision::WideDivision(std::size_t size, const WideBuildOptions& options) : unit(1), children(size) {
+  if (size <= options.leaf_size) return;
+  if (options.full_nodes) {
+    unit = options.leaf_size;
+    while (unit * options.width < size) unit *= options.width;
+  } else {
+    unit = (size + options.width - 1) / options.width;
+  }
+  children = (size + unit - 1) / unit;
+}
+
+std::size_t count_wide_nodes(std::size_t size, const WideBuildOptions& options) {
+  if (size <= 1) return 0;
+  const WideDivision division(size, options);
+  const std::size_t full = division.children - 1;
+  std::size_t count = 1 + count_wide_nodes(size - full * division.unit, options);
+  if (full > 0) count += full * count_wide_nodes(division.unit, options);
+  return count;
+}
+
+void partition_wide_items(const Surface& surface, const WideBuildOptions& options, const Vec3& origin,
+                          double radius, std::vector<WideItem>& items) {
+  const tbb::blocked_range<std::size_t> all(0, items.size(), PARALLEL_GRAIN);
+  std::vector<Place> places(items.size());
+  tbb::parallel_for(all, [&](const auto& range) {
+    for (std::size_t i = range.begin(); i < range.end(); ++i)
+      places[i] = make_place(surface, origin, items[i], i);
+  });
+  Partition(options, items, radius, places).run();
+  std::vector<WideItem> ordered(items.size());
+  tbb::parallel_for(all, [&](const auto& range) {
+    for (std::size_t i = range.begin(); i < range.end(); ++i) ordered[i] = items[places[i].item];
+  });
+  items.swap(ordered);
+}
+
+}  // namespace lmdbench

@@ -1,0 +1,246 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/methods/certified/hierarchy/single_precision.h>
+#include <lmdbench/methods/certified/hierarchy/wide_lanes.h>
+#include <lmdbench/methods/certified/hierarchy/wide_traversal.h>
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <limits>
+
+// The rest of this file is compiled once for every instruction set.
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "lmdbench/methods/certified/hierarchy/wide_traversal.cpp"
+#include <hwy/foreach_target.h>
+// After foreach_target.h:
+#include <lmdbench/methods/certified/hierarchy/wide_vectors-inl.h>
+
+#include <hwy/highway.h>
+
+HWY_BEFORE_NAMESPACE();
+namespace lmdbench::HWY_NAMESPACE {
+
+namespace hn = hwy::HWY_NAMESPACE;
+
+/// Pairs of the queue that are looked at before their turn, to fetch what they will open: a power of two.
+constexpr std::size_t LOOK_AHEAD = 8;
+/// Entries of a queue that has never been used; it grows by doubling.
+constexpr std::size_t QUEUE_START = 4096;
+
+/// The same operations in the same order as test_lanes_scalar.
+struct VectorTest {
+  HWY_INLINE WideMasks operator()(const WideNode& node, const WideProbe& probe,
+                                  const WideLimits& limits) const {
+    const Lanes f;
+    const hn::RebindToUnsigned<Lanes> u;
+    const auto squared = [](auto x) HWY_ATTR { return hn::Mul(x, x); };
+    const auto zero = hn::Zero(f);
+    const auto cutoff = hn::Set(f, limits.cutoff);
+    const auto touch_limit = hn::Set(f, limits.touch);
+    const auto direction_rounding = hn::Set(f, DIRECTION_ROUNDING);
+    WideMasks masks;
+    for (std::uint32_t first = 0; first < WIDE_WIDTH; first += static_cast<std::uint32_t>(hn::Lanes(f))) {
+      const VectorBounds bounds(node, first, probe, limits.rounding);
+      const auto touch =
+          hn::And(hn::Le(bounds.squared_distance, squared(hn::Add(touch_limit, bounds.radii))),
+                  hn::And(hn::Le(hn::Abs(bounds.z_probe), hn::Add(touch_limit, bounds.slab_probe)),
+                          hn::Le(hn::Abs(bounds.z_lane), hn::Add(touch_limit, bounds.slab_lane))));
+      const auto near = hn::And(hn::Le(bounds.squared_distance, squared(hn::Add(cutoff, bounds.radii))),
+                                hn::And(hn::Le(bounds.z_probe, hn::Add(cutoff, bounds.slab_probe)),
+                                        hn::Le(bounds.z_lane, hn::Add(cutoff, bounds.slab_lane))));
+
+      const auto collinear =
+          hn::Ge(hn::Neg(bounds.between), hn::Sub(hn::Sub(hn::Mul(bounds.cosine, bounds.probe_cosine),
+                                                          hn::Mul(bounds.sine, bounds.probe_sine)),
+                                                  direction_rounding));
+
+      const auto least_squared_distance =
+          hn::Mul(bounds.squared_distance, hn::Set(f, 1.0F - DIRECTION_ROUNDING));
+      const auto reach_probe = hn::Add(bounds.z_probe, bounds.slab_probe);
+      const auto reach_lane = hn::Add(bounds.z_lane, bounds.slab_lane);
+      const auto side_probe =
+          hn::Add(hn::Mul(bounds.radii, bounds.probe_cosine),
+                  hn::Mul(bounds.probe_sine, hn::Min(reach_probe, hn::Mul(cutoff, bounds.probe_cosine))));
+      const auto side_lane =
+          hn::Add(hn::Mul(bounds.radii, bounds.cosine),
+                  hn::Mul(bounds.sine, hn::Min(reach_lane, hn::Mul(cutoff, bounds.cosine))));
+      const auto directed = hn::And(
+          hn::And(hn::Ge(reach_probe, zero), hn::Ge(reach_lane, zero)),
+          hn::And(
+              hn::Le(hn::Mul(hn::Sub(least_squared_distance, squared(bounds.z_probe)),
+                             squared(bounds.probe_cosine)),
+                     squared(side_probe)),
+              hn::Le(hn::Mul(hn::Sub(least_squared_distance, squared(bounds.z_lane)), squared(bounds.cosine)),
+                     squared(side_lane))));
+
+      const auto used = hn::Ne(hn::Load(u, node.child + first), hn::Zero(u));
+      const std::uint32_t used_bits = mask_bits(f, hn::RebindMask(f, used), first);
+      const std::uint32_t touch_bits = mask_bits(f, touch, first) & used_bits;
+      const std::uint32_t near_bits = mask_bits(f, near, first) & used_bits;
+      const std::uint32_t collinear_bits = mask_bits(f, collinear, first);
+      const std::uint32_t directed_bits = mask_bits(f, directed, first);
+      masks.used |= used_bits;
+      masks.touch |= touch_bits;
+      masks.lmd |= near_bits & collinear_bits & directed_bits;
+      masks.beyond |= used_bits & ~touch_bits & ~near_bits;
+      masks.not_collinear |= near_bits & ~touch_bits & ~collinear_bits;
+    }
+    return masks;
+  }
+};
+
+struct ScalarTest {
+  WideMasks operator()(const WideNode& node, const WideProbe& probe, const WideLimits& limits) const {
+    return test_lanes_scalar(node, probe, limits);
+  }
+};
+
+/// First in, first out, without a data-dependent branch but for found pairs: a processor then works on
+/// several tests at once, because none waits for what the one before it appends.
+template <class Test>
+void descend(const WideHierarchy& a, const WideHierarchy& b, const WideQuery& query, WideScratch& scratch,
+             WideCounters& counters) {
+  const Test test{};
+  const WideNode* const nodes_a = a.nodes.data();
+  const WideNode* const nodes_b = b.nodes.data();
+  WideCounters count;
+  const hn::RebindToUnsigned<Lanes> u;
+  if (scratch.queue_a.size() < QUEUE_START) scratch.resize_queue(QUEUE_START);
+  scratch.queue_a[0] = scratch.queue_b[0] = 0;
+  std::size_t end = 1, looked_at = 0;
+  std::array<WideOpening, LOOK_AHEAD> openings;
+  for (std::size_t next = 0; next < end; ++next) {
+    if (end + WIDE_WIDTH > scratch.queue_a.size()) scratch.resize_queue(2 * scratch.queue_a.size());
+    std::uint32_t* const queue_a = scratch.queue_a.data();
+    std::uint32_t* const queue_b = scratch.queue_b.data();
+    const std::uint32_t slot_a = queue_a[next], slot_b = queue_b[next];
+    const WideNode& home_a = nodes_a[slot_a / WIDE_WIDTH];
+    const WideNode& home_b = nodes_b[slot_b / WIDE_WIDTH];
+    const std::uint32_t lane_a = slot_a % WIDE_WIDTH, lane_b = slot_b % WIDE_WIDTH;
+    const WideRef ref_a = WideRef::from_bits(home_a.child[lane_a]);
+    const WideRef ref_b = WideRef::from_bits(home_b.child[lane_b]);
+    for (; looked_at < std::min(end, next + LOOK_AHEAD); ++looked_at) {
+      const WideOpening ahead = choose_opening(a, b, queue_a[looked_at], queue_b[looked_at]);
+      fetch((ahead.open_a ? nodes_a : nodes_b)[ahead.node]);
+      openings[looked_at % LOOK_AHEAD] = ahead;
+    }
+    const WideOpening opening = openings[next % LOOK_AHEAD];
+    const bool open_a = opening.open_a;
+    const WideProbe probe = make_probe_vector(open_a ? WideChild(home_b, lane_b) : WideChild(home_a, lane_a),
+                                              open_a ? query.b_in_a : query.a_in_b);
+    const WideRef probe_ref = open_a ? ref_b : ref_a;
+    const WideNode& node = (open_a ? nodes_a : nodes_b)[opening.node];
+
+    const WideMasks masks = test(node, probe, query.limits);
+    ++count.node_tests;
+    count.node_pairs += static_cast<std::uint64_t>(std::popcount(masks.used));
+    count.rejected_g1 += static_cast<std::uint64_t>(std::popcount(masks.beyond));
+    count.rejected_g2 += static_cast<std::uint64_t>(std::popcount(masks.not_collinear));
+    count.rejected_g3 += static_cast<std::uint64_t>(
+        std::popcount(masks.used & ~masks.lmd & ~masks.touch & ~masks.beyond & ~masks.not_collinear));
+
+    // What can only touch matters for faces alone.
+    const KindBits kinds = kind_bits(node);
+    const bool may_touch = !probe_ref.is_feature() || probe_ref.is_face();
+    const std::uint32_t touch = may_touch ? masks.touch & (kinds.faces | ~kinds.features) : 0u;
+    const std::uint32_t alive = masks.lmd | touch;
+    const std::uint32_t final_pairs = probe_ref.is_feature() ? kinds.features : 0u;
+    const LaneList& lanes = LANE_LISTS[alive & ~final_pairs];
+    // Eight entries are written, as many as survive are kept.
+    std::uint32_t* const of_opened = (open_a ? queue_a : queue_b) + end;
+    std::uint32_t* const of_probe = (open_a ? queue_b : queue_a) + end;
+    const std::uint32_t probe_slot = open_a ? slot_b : slot_a;
+    for (std::size_t first = 0; first < WIDE_WIDTH; first += hn::Lanes(u)) {
+      const auto list =
+          hn::PromoteTo(u, hn::LoadU(hn::Rebind<std::uint8_t, decltype(u)>(), lanes.lane.data() + first));
+      hn::StoreU(hn::Add(list, hn::Set(u, opening.node * WIDE_WIDTH)), u, of_opened + first);
+      hn::StoreU(hn::Set(u, probe_slot), u, of_probe + first);
+    }
+    end += lanes.count;
+
+    for (std::uint32_t left = alive & final_pairs; left != 0; left &= left - 1) {
+      const auto lane = static_cast<std::uint32_t>(std::countr_zero(left));
+      const WideRef child = WideRef::from_bits(node.child[lane]);
+      const WidePair pair = open_a ? WidePair{child, probe_ref} : WidePair{probe_ref, child};
+      if ((masks.lmd >> lane & 1u) != 0) scratch.lmd_pairs.push_back(pair);
+      if ((touch >> lane & 1u) != 0) scratch.touch_pairs.push_back(pair);
+    }
+  }
+  counters = count;
+}
+
+void descend_vector(const WideHierarchy& a, const WideHierarchy& b, const WideQuery& query,
+                    WideScratch& scratch, WideCounters& counters) {
+  descend<VectorTest>(a, b, query, scratch, counters);
+}
+
+void descend_scalar(const WideHierarchy& a, const WideHierarchy& b, const WideQuery& query,
+                    WideScratch& scratch, WideCounters& counters) {
+  descend<ScalarTest>(a, b, query, scratch, counters);
+}
+
+void test_vector(const WideNode& node, const WideProbe& probe, const WideLimits& limits, WideMasks& masks) {
+  masks = VectorTest{}(node, probe, limits);
+}
+
+const char* target_name() {
+  return hwy::TargetName(HWY_TARGET);
+}
+
+}  // namespace lmdbench::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+
+namespace lmdbench {
+
+HWY_EXPORT(descend_vector);
+HWY_EXPORT(descend_scalar);
+HWY_EXPORT(test_vector);
+HWY_EXPORT(target_name);
+
+WideQuery::WideQuery(const WideHierarchy& a, const WideHierarchy& b, const RigidTransform& X_BA,
+                     double cutoff, double touch) {
+  const Vec3 p_BA = X_BA.point(a.origin) - b.origin;  // a's origin in b's hierarchy frame
+  const double between = p_BA.norm();
+  const double size = between + a.radius + b.radius;
+  possible = !a.nodes.empty() && !b.nodes.empty() &&
+             between <= (a.radius + b.radius + std::max(cutoff, touch)) * (1.0 + POSITION_ROUNDING);
+  if (!possible) return;
+  a_in_b = WideTransform(X_BA.rotation, p_BA);
+  b_in_a = WideTransform(X_BA.rotation.transpose(), -(X_BA.rotation.transpose() * p_BA));
+  // The rounding of the two origins in the mesh frames is that of double precision, but grows with their
+  // coordinates.
+  const double far_away = 1e-15 * (X_BA.translation.norm() + a.origin.norm() + b.origin.norm());
+  limits.cutoff = round_up_to_single(std::min(cutoff, 2.0 * size));
+  limits.touch = round_up_to_single(touch);
+  limits.rounding = round_up_to_single(POSITION_ROUNDING * size + far_away);
+}
+
+void find_wide_pairs(const WideHierarchy& a, const WideHierarchy& b, const WideQuery& query,
+                     WideKernel kernel, WideScratch& scratch, WideCounters& counters) {
+  scratch.lmd_pairs.clear();
+  scratch.touch_pairs.clear();
+  if (!query.possible) return;
+  if (kernel == WideKernel::VECTOR) {
+    HWY_DYNAMIC_DISPATCH(descend_vector)(a, b, query, scratch, counters);
+  } else {
+    HWY_DYNAMIC_DISPATCH(descend_scalar)(a, b, query, scratch, counters);
+  }
+}
+
+WideMasks test_lanes_vector(const WideNode& node, const WideProbe& probe, const WideLimits& limits) {
+  WideMasks masks;
+  HWY_DYNAMIC_DISPATCH(test_vector)(node, probe, limits, masks);
+  return masks;
+}
+
+std::string_view wide_kernel_target() {
+  return HWY_DYNAMIC_DISPATCH(target_name)();
+}
+
+}  // namespace lmdbench
+
+#endif  // HWY_ONCE

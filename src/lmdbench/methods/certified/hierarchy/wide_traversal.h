@@ -1,0 +1,106 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <lmdbench/geometry/pose.h>
+#include <lmdbench/methods/certified/hierarchy/wide_hierarchy.h>
+#include <lmdbench/methods/certified/hierarchy/wide_node_test.h>
+
+#include <cstdint>
+#include <string_view>
+#include <vector>
+
+namespace lmdbench {
+
+/// Which form of the node test a traversal uses. Both give the same pairs and counters, bit for bit.
+enum class WideKernel : std::uint8_t {
+  VECTOR,  ///< The widest instruction set of the processor that the program runs on (Highway, run-time
+           ///< dispatch).
+  SCALAR   ///< Plain C++, the reference.
+};
+
+/// What a query needs to know of a pose.
+struct WideQuery {
+  WideTransform a_in_b;  ///< Moves points from a's frame (mesh moved to WideHierarchy::origin) to b's.
+  WideTransform b_in_a;
+  WideLimits limits{};
+  bool possible =
+      false;  ///< False when the bounding spheres of the whole meshes are farther apart than the cutoff.
+
+  /// @param X_BA   pose of a's mesh frame in b's mesh frame
+  /// @param cutoff G1's limit; may be infinite
+  /// @param touch  distance at or below which pairs of faces are reported whatever their direction
+  WideQuery(const WideHierarchy& a, const WideHierarchy& b, const RigidTransform& X_BA, double cutoff,
+            double touch);
+};
+
+/// A feature of a and a feature of b.
+struct WidePair {
+  WideRef a, b;
+};
+
+struct WideCounters {
+  std::uint64_t node_pairs = 0;  ///< Lanes tested.
+  std::uint64_t rejected_g1 = 0;
+  std::uint64_t rejected_g2 = 0;
+  std::uint64_t rejected_g3 = 0;
+  std::uint64_t node_tests = 0;  ///< Tests of one child against eight.
+};
+
+/// Which of two children, each named by node * 8 + lane, a traversal opens.
+struct WideOpening {
+  bool open_a;
+  std::uint32_t node;  ///< The opened child's node.
+};
+
+/// What opening a child narrows: its size, and more so the wider its cone is. The weight is the best of a few
+/// tried on scans (size alone needs a tenth more tests).
+inline float opening_gain(const WideNode& node, std::uint32_t lane) {
+  return node.radius[lane] * (0.2F + node.sine[lane]);
+}
+
+/// The child with more to gain; a feature cannot be opened, and one of the two is a node.
+inline WideOpening choose_opening(const WideHierarchy& a, const WideHierarchy& b, std::uint32_t slot_a,
+                                  std::uint32_t slot_b) {
+  const WideNode& home_a = a.nodes[slot_a / WIDE_WIDTH];
+  const WideNode& home_b = b.nodes[slot_b / WIDE_WIDTH];
+  const std::uint32_t lane_a = slot_a % WIDE_WIDTH, lane_b = slot_b % WIDE_WIDTH;
+  const WideRef ref_a = WideRef::from_bits(home_a.child[lane_a]);
+  const WideRef ref_b = WideRef::from_bits(home_b.child[lane_b]);
+  // No short circuit: which side it is follows no pattern that a processor could learn.
+  const bool open_a =
+      static_cast<bool>(static_cast<int>(ref_b.is_feature()) |
+                        (static_cast<int>(!ref_a.is_feature()) &
+                         static_cast<int>(opening_gain(home_a, lane_a) > opening_gain(home_b, lane_b))));
+  return {open_a, open_a ? ref_a.node_index() : ref_b.node_index()};
+}
+
+/// Memory of traversals, kept between them so that none is allocated after the first few.
+struct WideScratch {
+  /// Pairs of children to be tested, each child named by node * 8 + lane.
+  std::vector<std::uint32_t> queue_a, queue_b;
+  std::vector<WidePair> lmd_pairs;    ///< Pairs that may be LMDs.
+  std::vector<WidePair> touch_pairs;  ///< Pairs of faces that may touch.
+
+  void resize_queue(std::size_t size) {
+    queue_a.resize(size);
+    queue_b.resize(size);
+  }
+};
+
+/// Descends both hierarchies together: of a surviving pair the larger child is opened and its eight children
+/// are tested against the other in one go. Fills `lmd_pairs` with every feature pair that the bounds cannot
+/// reject as an LMD, and `touch_pairs` with every pair of faces that the bounds cannot reject as touching.
+/// Complete because the root pair survives and a pair's test is conservative for everything below it
+/// (wide_node_test.h), so by induction every feature pair that holds an LMD or touches is reached; each once,
+/// because every feature is owned by one lane and each pair of nodes is opened on one side only.
+void find_wide_pairs(const WideHierarchy& a, const WideHierarchy& b, const WideQuery& query,
+                     WideKernel kernel, WideScratch& scratch, WideCounters& counters);
+
+/// The node test as the vector form computes it on this processor.
+WideMasks test_lanes_vector(const WideNode& node, const WideProbe& probe, const WideLimits& limits);
+
+/// Instruction set that WideKernel::VECTOR uses here, for provenance: "AVX2", "SSE4", ...
+std::string_view wide_kernel_target();
+
+}  // namespace lmdbench

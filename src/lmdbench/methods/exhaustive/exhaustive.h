@@ -1,0 +1,37 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <lmdbench/lmd/method.h>
+#include <lmdbench/lmd/plateau.h>
+#include <lmdbench/lmd/scene.h>
+#include <lmdbench/methods/exhaustive/triangle_grid.h>
+
+#include <cstdint>
+#include <vector>
+
+namespace lmdbench {
+
+/// Ground truth (design section 2): every triangle pair within the cutoff, exact triangle distance, the
+/// first-order test, one entry per feature pair and per plateau. Slow and simple on purpose; it shares no
+/// search code with what it judges: no hierarchy and no cone, only a uniform grid that lists the fixed
+/// triangles near a box.
+class Exhaustive : public Method {
+ public:
+  explicit Exhaustive(Scene scene);
+
+  std::string_view name() const override { return "exhaustive"; }
+  bool tracks_locally() const override { return false; }
+  int trackings_after_search() const override { return 0; }
+  void search(const Pose& X_WM, LmdSet& lmds, WorkCounters& counters) override;
+  void track(const Pose& X_WM, LmdSet& lmds, WorkCounters& counters) override {
+    search(X_WM, lmds, counters);
+  }
+
+ private:
+  Scene scene_;
+  std::vector<TriangleGrid> grids_;  ///< One a fixed body.
+  std::vector<LocalMinimum> minima_;
+};
+
+}  // namespace lmdbench

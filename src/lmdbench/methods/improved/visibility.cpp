@@ -1,0 +1,78 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/methods/improved/visibility.h>
+
+#include <Eigen/Core>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace lmdbench {
+
+namespace {
+
+using Vec2 = Eigen::Vector2d;
+using Triangle2 = std::array<Vec2, 3>;
+
+/// True when a side of `of` separates the triangles; touching is not separated. Works for both orientations:
+/// the third corner tells the inner side.
+bool some_side_separates(const Triangle2& of, const Triangle2& other) {
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Vec2 side = of[(k + 1) % 3] - of[k];
+    const auto offset = [&](const Vec2& p) {
+      return side.x() * (p.y() - of[k].y()) - side.y() * (p.x() - of[k].x());
+    };
+    const double inner = offset(of[(k + 2) % 3]);
+    if (inner == 0.0) continue;
+    const double sign = inner > 0.0 ? 1.0 : -1.0;
+    if (sign * offset(other[0]) < 0.0 && sign * offset(other[1]) < 0.0 && sign * offset(other[2]) < 0.0)
+      return true;
+  }
+  return false;
+}
+
+/// Whether the projection of `seer` on the plane of `seen` overlaps `seen`, or nothing can be said.
+template <Visibility VISIBILITY>
+bool may_see(const ShadedTriangle& seer, const ShadedTriangle& seen) {
+  const Vec3& normal = seen.face_normal;
+  if (normal.isZero(0.0)) return true;
+  Triangle projected;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const double height = (seen.corners[0] - seer.corners[k]).dot(normal);
+    if constexpr (VISIBILITY == Visibility::VERTEX_NORMAL) {
+      const double approach = seer.vertex_normals[k].dot(normal);
+      // Same signs: the ray along the vertex normal meets the plane.
+      if (!(height * approach > 0.0)) return true;
+      projected[k] = seer.corners[k] + (height / approach) * seer.vertex_normals[k];
+    } else {
+      projected[k] = seer.corners[k] + height * normal;
+    }
+  }
+  // Overlap in the plane is overlap of the shadows along the axis that the plane faces most.
+  Eigen::Index dropped = 0;
+  normal.cwiseAbs().maxCoeff(&dropped);
+  const Eigen::Index u = (dropped + 1) % 3, v = (dropped + 2) % 3;
+  Triangle2 shadow, target;
+  for (std::size_t k = 0; k < 3; ++k) {
+    shadow[k] = {projected[k][u], projected[k][v]};
+    target[k] = {seen.corners[k][u], seen.corners[k][v]};
+  }
+  return !some_side_separates(target, shadow) && !some_side_separates(shadow, target);
+}
+
+}  // namespace
+
+bool see_each_other(const ShadedTriangle& a, const ShadedTriangle& b, Visibility visibility) {
+  switch (visibility) {
+    case Visibility::VERTEX_NORMAL:
+      return may_see<Visibility::VERTEX_NORMAL>(a, b) && may_see<Visibility::VERTEX_NORMAL>(b, a);
+    case Visibility::ORTHOGONAL:
+      return may_see<Visibility::ORTHOGONAL>(a, b) && may_see<Visibility::ORTHOGONAL>(b, a);
+    case Visibility::OFF:
+      break;
+  }
+  return true;
+}
+
+}  // namespace lmdbench

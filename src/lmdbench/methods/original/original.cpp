@@ -1,0 +1,106 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/lmd/local_tracking.h>
+#include <lmdbench/lmd/search_counters.h>
+#include <lmdbench/methods/original/feature_points.h>
+#include <lmdbench/methods/original/original.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace lmdbench {
+
+namespace {
+
+/// Decision E13: one LMD a pair of feature points. Leaves the set sorted by `lmd_less`.
+void drop_duplicates(LmdSet& lmds, WorkCounters& counters) {
+  std::sort(lmds.begin(), lmds.end(), lmd_less);
+  const auto end = std::unique(lmds.begin(), lmds.end(), same_feature_pair);
+  counters[Counter::DROPPED_DUPLICATES] += static_cast<std::uint64_t>(lmds.end() - end);
+  lmds.erase(end, lmds.end());
+}
+
+}  // namespace
+
+Original::Original(Scene scene, const MethodOptions& options)
+    : scene_(std::move(scene)),
+      options_(options),
+      verify_moving_(scene_.moving->surface(), options.g5_tolerance_rad) {
+  for (const auto& body : scene_.fixed) verify_fixed_.emplace_back(body->surface(), options.g5_tolerance_rad);
+}
+
+Lmd Original::feature_point_pair(const RigidTransform& X_WM, std::int32_t fixed_body, std::int32_t t_moving,
+                                 std::int32_t t_fixed, WorkCounters& counters) const {
+  const Surface& moving = scene_.moving->surface();
+  const Surface& fixed = scene_.fixed[static_cast<std::size_t>(fixed_body)]->surface();
+  const FeaturePoints a = feature_points(X_WM.triangle(moving.mesh.triangle(t_moving)));
+  const FeaturePoints b = feature_points(fixed.mesh.triangle(t_fixed));
+  const FeaturePointPair nearest = nearest_feature_points(a, b);
+  counters[Counter::FEATURE_POINT_DISTANCES] += a.size() * b.size();
+  Lmd lmd;
+  lmd.distance = std::sqrt(nearest.squared_distance);
+  lmd.point_moving = a[nearest.index_a];
+  lmd.point_fixed = b[nearest.index_b];
+  lmd.feature_moving = moving.feature_of(t_moving, part_of_feature_point(nearest.index_a));
+  lmd.feature_fixed = fixed.feature_of(t_fixed, part_of_feature_point(nearest.index_b));
+  lmd.triangle_moving = t_moving;
+  lmd.triangle_fixed = t_fixed;
+  lmd.fixed_body = fixed_body;
+  return lmd;
+}
+
+void Original::search(const Pose& X_WM, LmdSet& lmds, WorkCounters& counters) {
+  lmds.clear();
+  const RigidTransform transform(X_WM);
+  for (std::size_t body = 0; body < scene_.fixed.size(); ++body)
+    search_body(transform, static_cast<std::int32_t>(body), lmds, counters);
+  drop_duplicates(lmds, counters);
+}
+
+void Original::search_body(const RigidTransform& X_WM, std::int32_t fixed_body, LmdSet& lmds,
+                           WorkCounters& counters) {
+  const Body& fixed = *scene_.fixed[static_cast<std::size_t>(fixed_body)];
+  const DirectionVerification& verify_fixed = verify_fixed_[static_cast<std::size_t>(fixed_body)];
+  const auto visit_leaves = [&](std::int32_t t_moving, std::int32_t t_fixed) {
+    Lmd lmd = feature_point_pair(X_WM, fixed_body, t_moving, t_fixed, counters);
+    if (!(lmd.distance <= scene_.cutoff)) {
+      ++counters[Counter::REJECTED_CUTOFF];
+      return;
+    }
+    set_direction(lmd, lmd.direction);
+    if (lmd.distance > 0.0 &&
+        !(verify_moving_.accepts(lmd.feature_moving, X_WM.rotation.transpose() * lmd.direction) &&
+          verify_fixed.accepts(lmd.feature_fixed, -lmd.direction))) {
+      ++counters[Counter::REJECTED_G5];
+      return;
+    }
+    lmds.push_back(lmd);
+  };
+  const Hierarchy& hierarchy_moving = scene_.moving->prepared<Hierarchy>();
+  const Hierarchy& hierarchy_fixed = fixed.prepared<Hierarchy>();
+  const auto run = [&]<DirectionTest TEST>() {
+    return traversal_.run<TEST>(hierarchy_moving, hierarchy_fixed, X_WM, scene_.cutoff, visit_leaves);
+  };
+  if (options_.literal_g3) {
+    add_traversal(counters, run.operator()<DirectionTest::LITERAL>());
+  } else if (options_.line_cone == LineCone::TWO_SIDED) {
+    add_traversal(counters, run.operator()<DirectionTest::LINE>());
+  } else {
+    add_traversal(counters, run.operator()<DirectionTest::RAY>());
+  }
+}
+
+void Original::track(const Pose& X_WM, LmdSet& lmds, WorkCounters& counters) {
+  const RigidTransform transform(X_WM);
+  for (Lmd& lmd : lmds) {
+    const Surface& fixed = scene_.fixed[static_cast<std::size_t>(lmd.fixed_body)]->surface();
+    const auto evaluate = [&](std::int32_t t_moving, std::int32_t t_fixed) {
+      return TrackedPair{feature_point_pair(transform, lmd.fixed_body, t_moving, t_fixed, counters)};
+    };
+    lmd = walk_to_minimum(scene_.moving->surface(), fixed, lmd, evaluate, counters).lmd;
+  }
+  drop_duplicates(lmds, counters);
+}
+
+}  // namespace lmdbench

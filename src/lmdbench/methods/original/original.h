@@ -1,0 +1,47 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <lmdbench/lmd/method.h>
+#include <lmdbench/lmd/method_options.h>
+#include <lmdbench/lmd/scene.h>
+#include <lmdbench/methods/original/direction_verification.h>
+#include <lmdbench/snch/traversal.h>
+
+#include <cstdint>
+#include <vector>
+
+namespace lmdbench {
+
+/// The original algorithm (Johnson and Cohen 2001; Johnson and Willemsen 2003, 2004; as told in the paper,
+/// section 3.2).
+///   Global search: G1, G2 and G3 (dual solution line cone) on the nodes; at the leaves the least of 7x7
+///   point distances (G4), whose vector is verified against the normals of both feature points (G5). Local
+///   tracking: L1..L4 with 7x7 distances.
+///
+/// Decision E4, ours: the formula of G3 is not in the paper; the default reads the line of centres as a ray,
+/// which equals the improved algorithm's G3.a/b and favours the original. Decision E13: LMDs with the same
+/// pair of feature points are one LMD.
+class Original : public Method {
+ public:
+  Original(Scene scene, const MethodOptions& options);
+
+  std::string_view name() const override { return "original"; }
+  bool tracks_locally() const override { return true; }
+  int trackings_after_search() const override { return 0; }
+  void search(const Pose& X_WM, LmdSet& lmds, WorkCounters& counters) override;
+  void track(const Pose& X_WM, LmdSet& lmds, WorkCounters& counters) override;
+
+ private:
+  void search_body(const RigidTransform& X_WM, std::int32_t fixed_body, LmdSet& lmds, WorkCounters& counters);
+  Lmd feature_point_pair(const RigidTransform& X_WM, std::int32_t fixed_body, std::int32_t t_moving,
+                         std::int32_t t_fixed, WorkCounters& counters) const;
+
+  Scene scene_;
+  MethodOptions options_;
+  DirectionVerification verify_moving_;
+  std::vector<DirectionVerification> verify_fixed_;  ///< One a fixed body.
+  DualTraversal traversal_;
+};
+
+}  // namespace lmdbench

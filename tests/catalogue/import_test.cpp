@@ -1,0 +1,212 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/base/error.h>
+#include <lmdbench/catalogue/import.h>
+#include <lmdbench/catalogue/off_file.h>
+#include <lmdbench/catalogue/shapes.h>
+#include <lmdbench/mesh/surface.h>
+
+#include "support/message_of.h"
+#include "support/scratch_directory.h"
+#include <Eigen/Geometry>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <sstream>
+#include <string>
+
+namespace lmdbench {
+namespace {
+
+using testing::message_of;
+using testing::ScratchDirectory;
+
+using ::testing::AllOf;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using Corners = std::array<std::int32_t, 3>;
+
+// A mesh whose coordinates are few enough digits for single precision, as the formats below can hold them.
+TriangleMesh single_precision_blob() {
+  TriangleMesh mesh = make_blob(1.0, 0.3, 2);
+  for (Vec3& vertex : mesh.vertices)
+    for (int axis = 0; axis < 3; ++axis) vertex[axis] = std::round(vertex[axis] * 0x1p20) * 0x1p-20;
+  return mesh;
+}
+
+void expect_same_triangles(const TriangleMesh& actual, const TriangleMesh& wanted, double tolerance) {
+  ASSERT_EQ(actual.triangles.size(), wanted.triangles.size());
+  EXPECT_EQ(actual.vertices.size(), wanted.vertices.size()) << "welded";
+  for (std::size_t t = 0; t < wanted.triangles.size(); ++t) {
+    const auto index = static_cast<std::int32_t>(t);
+    for (std::size_t k = 0; k < 3; ++k)
+      ASSERT_LE((actual.triangle(index)[k] - wanted.triangle(index)[k]).norm(), tolerance)
+          << "triangle " << t << " corner " << k;
+  }
+}
+
+std::string bytes(float value) {
+  std::string text(4, '\0');
+  std::memcpy(text.data(), &value, 4);
+  return text;
+}
+
+std::string to_binary_stl(const TriangleMesh& mesh) {
+  std::string text(80, ' ');
+  const auto count = static_cast<std::uint32_t>(mesh.triangles.size());
+  text.append(reinterpret_cast<const char*>(&count), 4);
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    text += bytes(0) + bytes(0) + bytes(1);
+    for (const Vec3& corner : mesh.triangle(static_cast<std::int32_t>(t)))
+      for (int axis = 0; axis < 3; ++axis) text += bytes(static_cast<float>(corner[axis]));
+    text += std::string(2, '\0');
+  }
+  return text;
+}
+
+std::string to_binary_ply(const TriangleMesh& mesh) {
+  std::ostringstream text;
+  text << "ply\nformat binary_little_endian 1.0\nelement vertex " << mesh.vertices.size()
+       << "\nproperty float x\nproperty float y\nproperty float z\nelement face " << mesh.triangles.size()
+       << "\nproperty list uchar int vertex_indices\nend_header\n";
+  for (const Vec3& vertex : mesh.vertices)
+    for (int axis = 0; axis < 3; ++axis) text << bytes(static_cast<float>(vertex[axis]));
+  for (const auto& corners : mesh.triangles) {
+    text << '\3';
+    for (const std::int32_t corner : corners) text.write(reinterpret_cast<const char*>(&corner), 4);
+  }
+  return text.str();
+}
+
+std::string to_obj(const TriangleMesh& mesh) {
+  std::ostringstream text;
+  text.precision(9);
+  for (const Vec3& vertex : mesh.vertices)
+    text << "v " << vertex.x() << ' ' << vertex.y() << ' ' << vertex.z() << '\n';
+  for (const auto& [a, b, c] : mesh.triangles) text << "f " << a + 1 << ' ' << b + 1 << ' ' << c + 1 << '\n';
+  return text.str();
+}
+
+TEST(ImportTest, KeepsTheTrianglesOfEveryFormatInTheirOrder) {
+  const ScratchDirectory folder;
+  const TriangleMesh mesh = single_precision_blob();
+  write_off(folder.path() / "blob.off", mesh);
+  expect_same_triangles(import_mesh(folder.path() / "blob.off"), mesh, 0.0);
+  expect_same_triangles(import_mesh(folder.write("blob.stl", to_binary_stl(mesh))), mesh, 0.0);
+  expect_same_triangles(import_mesh(folder.write("blob.ply", to_binary_ply(mesh))), mesh, 0.0);
+  // Text through assimp is right to single precision only.
+  expect_same_triangles(import_mesh(folder.write("blob.obj", to_obj(mesh))), mesh, 3e-7);
+}
+
+TEST(ImportTest, WeldedStlIsClosed) {
+  const ScratchDirectory folder;
+  const Surface surface =
+      build_surface(import_mesh(folder.write("s.stl", to_binary_stl(single_precision_blob()))));
+  EXPECT_EQ(std::count(surface.edge_is_boundary.begin(), surface.edge_is_boundary.end(), true), 0);
+}
+
+TEST(ImportTest, IsSilentOnStandardOutput) {
+  const ScratchDirectory folder;
+  ::testing::internal::CaptureStdout();
+  ::testing::internal::CaptureStderr();
+  import_mesh(folder.write("s.stl", to_binary_stl(make_box({1, 1, 1}))));
+  EXPECT_THROW(import_mesh(folder.write("bad.obj", "v 0 0 0\nf 1 2 9\n")), InputError);
+  EXPECT_EQ(::testing::internal::GetCapturedStdout(), "");
+  EXPECT_EQ(::testing::internal::GetCapturedStderr(), "");
+}
+
+// A glTF node tree: the same triangle once as it is, once moved, and once mirrored in x, which must not turn
+// it inside out.
+TEST(ImportTest, MergesNodesWithTheirTransforms) {
+  const ScratchDirectory folder;
+  const std::filesystem::path file = folder.write("scene.gltf", R"({
+    "asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}],
+    "nodes": [{"mesh": 0, "children": [1, 2]},
+              {"mesh": 0, "translation": [10, 20, 30], "scale": [2, 2, 2]},
+              {"mesh": 0, "scale": [-1, 1, 1], "translation": [0, 0, 5]}],
+    "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "indices": 1}]}],
+    "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3", "min": [0, 0, 0], "max": [1, 1, 0]},
+                  {"bufferView": 1, "componentType": 5123, "count": 3, "type": "SCALAR"}],
+    "bufferViews": [{"buffer": 0, "byteOffset": 0, "byteLength": 36}, {"buffer": 0, "byteOffset": 36, "byteLength": 6}],
+    "buffers": [{"byteLength": 42, "uri": "data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAAAAABAAIA"}]
+  })");
+  const TriangleMesh mesh = import_mesh(file);
+  ASSERT_EQ(mesh.triangles.size(), 3u);
+  EXPECT_THAT(mesh.triangle(0), ElementsAre(Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0)));
+  EXPECT_THAT(mesh.triangle(1), ElementsAre(Vec3(10, 20, 30), Vec3(12, 20, 30), Vec3(10, 22, 30)));
+  const Triangle mirrored = mesh.triangle(2);
+  EXPECT_THAT(mirrored, ::testing::UnorderedElementsAre(Vec3(0, 0, 5), Vec3(-1, 0, 5), Vec3(0, 1, 5)));
+  EXPECT_GT((mirrored[1] - mirrored[0]).cross(mirrored[2] - mirrored[0]).z(), 0.0);
+}
+
+TEST(ImportTest, CutsPolygonsInPlaceAndSkipsLines) {
+  const ScratchDirectory folder;
+  const TriangleMesh mesh = import_mesh(folder.write(
+      "p.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 5 5 5\nf 1 2 3\nf 1 2 3 4\nl 1 5\nf 2 3 4\n"));
+  ASSERT_EQ(mesh.triangles.size(), 4u);
+  EXPECT_EQ(mesh.triangle(0)[2], Vec3(1, 1, 0));
+  EXPECT_EQ(mesh.vertices.size(), 4u) << "the line's end is not on the surface";
+}
+
+TEST(ImportTest, KeepsTrianglesWithoutArea) {
+  const ScratchDirectory folder;
+  const TriangleMesh mesh = import_mesh(
+      folder.write("d.off", "OFF\n4 3 0\n0 0 0\n1 0 0\n2 0 0\n0 1 0\n3 0 1 2\n3 0 1 3\n3 1 1 3\n"));
+  EXPECT_THAT(mesh.triangles, ElementsAre(Corners{0, 1, 2}, Corners{0, 1, 3}, Corners{1, 1, 3}));
+}
+
+struct BrokenFile {
+  std::string name, file, content, says;
+};
+
+class BrokenMeshTest : public ::testing::TestWithParam<BrokenFile> {};
+
+TEST_P(BrokenMeshTest, IsRefused) {
+  const ScratchDirectory folder;
+  const std::filesystem::path file = folder.write(GetParam().file, GetParam().content);
+  const std::string message = message_of<InputError>([&] { import_mesh(file); });
+  EXPECT_THAT(message, AllOf(HasSubstr(file.string()), HasSubstr(GetParam().says), HasSubstr("remedy")));
+}
+
+const std::string PLY_HEADER =
+    "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\nelement "
+    "face 1\n"
+    "property list uchar int vertex_indices\nend_header\n";
+
+INSTANTIATE_TEST_SUITE_P(
+    Files, BrokenMeshTest,
+    ::testing::Values(
+        BrokenFile{"empty", "a.off", "", "empty"}, BrokenFile{"text", "a.ply", "hello", ""},
+        BrokenFile{"unknown_format", "a.xyzzy", "hello", ""},
+        BrokenFile{"no_triangle", "a.off", "OFF\n3 0 0\n0 0 0\n1 0 0\n0 1 0\n", "no triangle"},
+        BrokenFile{"line_only", "a.obj", "v 0 0 0\nv 1 0 0\nl 1 2\n", "no triangle"},
+        BrokenFile{"obj_index", "a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 9\n", "index"},
+        BrokenFile{"ply_index", "a.ply", PLY_HEADER + "0 0 0\n1 0 0\n0 1 0\n3 0 1 5\n", "names vertex 5"},
+        BrokenFile{"ply_nan", "a.ply", PLY_HEADER + "0 0 0\n1 nan 0\n0 1 0\n3 0 1 2\n", "vertex 1"},
+        BrokenFile{"coff_cut_short", "a.off", "COFF\n3 4 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n", "number"},
+        BrokenFile{"off_index", "a.OFF", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 7\n", "line 6"}),
+    [](const auto& parameter) { return parameter.param.name; });
+
+TEST(ImportTest, NamesAMissingFileAndAFolder) {
+  const ScratchDirectory folder;
+  EXPECT_THAT(message_of<InputError>([&] { import_mesh(folder.path() / "none.off"); }),
+              HasSubstr("none.off"));
+  EXPECT_THAT(message_of<InputError>([&] { import_mesh(folder.path()); }), HasSubstr("directory"));
+}
+
+TEST(WeldedTest, JoinsEqualPositionsOnlyAndKeepsTheOrder) {
+  TriangleMesh mesh;
+  const double almost = 1.0 + 2.3e-16;
+  mesh.vertices = {{9, 9, 9}, {0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {almost, 0, 0}, {0, 1, 0}, {-0.0, 0, 0}};
+  mesh.triangles = {{1, 2, 3}, {4, 5, 6}};
+  const TriangleMesh result = welded(mesh);
+  EXPECT_THAT(result.vertices, ElementsAre(Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0), Vec3(almost, 0, 0)));
+  EXPECT_THAT(result.triangles, ElementsAre(Corners{0, 1, 2}, Corners{3, 2, 0}));
+}
+
+}  // namespace
+}  // namespace lmdbench

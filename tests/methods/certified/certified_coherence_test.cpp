@@ -1,0 +1,295 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/mesh/feature_corners.h>
+#include <lmdbench/methods/certified/certified.h>
+#include <lmdbench/methods/exhaustive/exhaustive.h>
+
+#include <gtest/gtest.h>
+#include <support/scenes.h>
+
+#include <cmath>
+#include <cstddef>
+#include <numbers>
+#include <random>
+#include <utility>
+#include <vector>
+
+namespace lmdbench {
+namespace {
+
+using testing::grazing_pose;
+using testing::make_body;
+using testing::make_scene;
+using testing::random_direction;
+using testing::uniform;
+
+/// Swings about a pose: slow and fast, forth and back, standing still at times, with a jump now and then.
+std::vector<Pose> swing(const Pose& middle, double size, double speed, int frames, std::mt19937_64& random) {
+  std::vector<Pose> poses;
+  const Vec3 direction = random_direction(random), axis = random_direction(random);
+  const Vec3 arm = middle.translation;
+  for (int frame = 0; frame < frames; ++frame) {
+    const double phase = 2.0 * std::numbers::pi * (frame % 100 < 20 ? frame - frame % 100 : frame) * speed;
+    Pose pose;
+    const Eigen::Quaterniond turn(Eigen::AngleAxisd(0.2 * std::sin(1.3 * phase), axis));
+    pose.rotation = (turn * middle.rotation).normalized();
+    pose.translation = arm + 0.03 * size * std::sin(phase) * direction;
+    if (frame % 150 == 149) pose.translation += 0.2 * size * random_direction(random);
+    poses.push_back(pose);
+  }
+  return poses;
+}
+
+/// The coherent method at every pose of a path against truth and against a search from scratch.
+void expect_truth_along(const Scene& scene, double cutoff, const std::vector<Pose>& poses,
+                        std::size_t& lmd_count) {
+  Scene limited = scene;
+  limited.cutoff = cutoff;
+  MethodOptions from_scratch;
+  from_scratch.frame_coherence = false;
+  lmd_count = 0;
+  Certified coherent(limited), scratch(limited, from_scratch);
+  Exhaustive exhaustive(limited);
+  LmdSet kept, fresh, truth;
+  WorkCounters of_kept, of_fresh, of_truth;
+  for (std::size_t frame = 0; frame < poses.size(); ++frame) {
+    coherent.search(poses[frame], kept, of_kept);
+    scratch.search(poses[frame], fresh, of_fresh);
+    exhaustive.search(poses[frame], truth, of_truth);
+    ASSERT_EQ(kept.size(), fresh.size()) << "frame " << frame;
+    ASSERT_EQ(kept.size(), truth.size()) << "frame " << frame;
+    lmd_count += truth.size();
+    for (std::size_t i = 0; i < kept.size(); ++i) {
+      ASSERT_TRUE(same_feature_pair(kept[i], truth[i])) << "frame " << frame;
+      ASSERT_EQ(kept[i].point_moving, fresh[i].point_moving) << "frame " << frame;
+      ASSERT_EQ(kept[i].point_fixed, fresh[i].point_fixed) << "frame " << frame;
+      ASSERT_NEAR(kept[i].distance, truth[i].distance, 1e-12) << "frame " << frame;
+    }
+  }
+  EXPECT_LT(of_kept[Counter::NODE_PAIRS], of_fresh[Counter::NODE_PAIRS]);
+}
+
+void expect_truth_along(const Scene& scene, double cutoff, const std::vector<Pose>& poses) {
+  std::size_t lmds = 0;
+  expect_truth_along(scene, cutoff, poses, lmds);
+  EXPECT_GT(lmds, poses.size() / 4);
+}
+
+void expect_truth_on_swings(const Scene& scene, std::uint64_t seed) {
+  std::mt19937_64 random(seed);
+  const double size = bounding_box_diagonal(scene.fixed[0]->surface().mesh);
+  std::size_t all = 0;  // a patch has LMDs on its outer side alone
+  for (const double speed : {0.0002, 0.001, 0.002, 0.01}) {
+    const Pose pose = grazing_pose(scene, 0.01 * size, random);
+    std::size_t lmds = 0;
+    expect_truth_along(scene, 0.03 * size, swing(pose, size, speed, 200, random), lmds);
+    all += lmds;
+  }
+  EXPECT_GT(all, 300u);
+}
+
+TEST(CertifiedCoherence, FindsTheTruthOnBlobs) {
+  expect_truth_on_swings(make_scene(make_blob(1.0, 0.3, 3), make_blob(0.8, 0.3, 3), 0.0), 1);
+}
+
+TEST(CertifiedCoherence, FindsTheTruthOnToriAndPatches) {
+  expect_truth_on_swings(make_scene(make_torus(1.0, 0.4, 20, 10), make_patch(3.0, 10, 0.2), 0.0), 2);
+}
+
+TEST(CertifiedCoherence, FindsTheTruthOnNeedlesAndUnequalTriangles) {
+  expect_truth_on_swings(make_scene(make_needles(0.5, 2.0, 20), make_unequal(1.0, 6, 50.0), 0.0), 3);
+}
+
+TEST(CertifiedCoherence, FindsTheTruthOnBoxesThatSlideInParallel) {
+  const Scene scene = make_scene(make_box({1.0, 1.0, 1.0}, 3), make_box({1.0, 1.0, 1.0}, 2), 0.0);
+  std::vector<Pose> poses;
+  for (int frame = 0; frame < 400; ++frame) {
+    Pose pose;
+    pose.translation = {0.003 * frame, 0.0007 * frame, 1.05 - 0.0001 * frame};
+    const double rock = std::max(0.0, 1e-3 * std::sin(0.05 * frame));
+    pose.rotation = Eigen::AngleAxisd(rock, Vec3::UnitX());
+    poses.push_back(pose);
+  }
+  expect_truth_along(scene, 0.1, poses);
+}
+
+TEST(CertifiedCoherence, FindsTheTruthThroughContactAndPenetration) {
+  const Scene scene = make_scene(make_blob(1.0, 0.2, 2), make_box({1.0, 1.0, 1.0}, 3), 0.0);
+  std::vector<Pose> poses;
+  for (int frame = 0; frame < 300; ++frame) {
+    Pose pose;
+    pose.translation = {0.1, 0.2, 1.7 - 0.15 * (1.0 - std::cos(0.05 * frame)) - 0.0001 * frame};
+    poses.push_back(pose);
+  }
+  expect_truth_along(scene, 0.1, poses);
+}
+
+TEST(CertifiedCoherence, FindsTheTruthWhereCoplanarFacesComeToTouch) {
+  // No axis that the touch test tries lies in the common plane: beyond the cutoff such faces are told apart
+  // by their exact distance alone.
+  const Scene scene = make_scene(make_box({1.0, 1.0, 1.0}, 2), make_box({1.0, 1.0, 1.0}, 2), 0.0);
+  std::vector<Pose> poses;
+  for (int frame = 0; frame < 300; ++frame) {
+    Pose pose;
+    pose.translation = {1.1 - 0.0005 * frame, 0.0, 0.0};
+    poses.push_back(pose);
+  }
+  expect_truth_along(scene, 0.02, poses);
+}
+
+TEST(CertifiedCoherence, FindsTheTruthWithSeveralFixedBodies) {
+  Scene scene = make_scene(make_blob(1.0, 0.3, 2), make_box({0.5, 2.0, 2.0}), 0.0);
+  scene.fixed.push_back(make_body("other", translated(make_torus(1.0, 0.3, 20, 10), {0.0, 2.2, 0.4})));
+  std::mt19937_64 random(6);
+  Pose pose;
+  pose.translation = {1.3, 1.0, 0.0};
+  expect_truth_along(scene, 0.3, swing(pose, 2.0, 0.002, 300, random));
+}
+
+TEST(CertifiedCoherence, AJumpLeavesNoWorkBehind) {
+  Scene scene = make_scene(make_blob(1.0, 0.2, 4), make_blob(1.2, 0.3, 4), 0.1);
+  std::mt19937_64 random(8);
+  const Pose begin = grazing_pose(scene, 0.02, random);
+  const Vec3 direction = random_direction(random);
+  std::vector<Pose> slide(80, begin);
+  for (std::size_t frame = 0; frame < slide.size(); ++frame)
+    slide[frame].translation += 2e-4 * static_cast<double>(frame) * direction;
+  Certified certified(scene);
+  LmdSet lmds;
+  const auto work_along_slide = [&] {
+    WorkCounters counters;
+    for (const Pose& pose : slide) certified.search(pose, lmds, counters);
+    return counters[Counter::NODE_PAIRS] + counters[Counter::LEAF_PAIRS];
+  };
+  const std::uint64_t undisturbed = work_along_slide();
+  Pose elsewhere = begin;
+  elsewhere.translation += Vec3(0.0, 0.0, 1.0);
+  WorkCounters ignored;
+  certified.search(elsewhere, lmds, ignored);
+  // The jump there and back is no pace that goes on.
+  EXPECT_LE(work_along_slide(), undisturbed + undisturbed / 4);
+}
+
+TEST(CertifiedCoherence, FindsTheTruthAtRandomPoses) {
+  // Nothing coheres: every frame falls back to a search from scratch.
+  const Scene scene = make_scene(make_blob(1.0, 0.3, 2), make_torus(1.0, 0.4, 20, 10), 0.0);
+  std::mt19937_64 random(7);
+  Scene limited = scene;
+  limited.cutoff = 0.1;
+  Certified coherent(limited);
+  Exhaustive exhaustive(limited);
+  LmdSet found, truth;
+  WorkCounters counters;
+  std::size_t lmds = 0;
+  for (int i = 0; i < 30; ++i) {
+    const Pose pose = grazing_pose(scene, 0.02, random);
+    coherent.search(pose, found, counters);
+    exhaustive.search(pose, truth, counters);
+    ASSERT_EQ(found.size(), truth.size());
+    lmds += truth.size();
+    for (std::size_t k = 0; k < truth.size(); ++k) EXPECT_TRUE(same_feature_pair(found[k], truth[k]));
+  }
+  EXPECT_GT(lmds, 30u);
+}
+
+TEST(CertifiedCoherence, FindsTheTruthUnderTremor) {
+  // Forecasts are never right, and must not be needed.
+  const Scene scene = make_scene(make_blob(1.0, 0.3, 2), make_torus(1.0, 0.4, 20, 10), 0.0);
+  std::mt19937_64 random(9);
+  std::vector<Pose> poses = swing(grazing_pose(scene, 0.02, random), 2.0, 0.001, 300, random);
+  for (Pose& pose : poses) {
+    pose.translation += 2e-3 * uniform(random) * random_direction(random);
+    const Eigen::Quaterniond shake(Eigen::AngleAxisd(2e-3 * uniform(random), random_direction(random)));
+    pose.rotation = (shake * pose.rotation).normalized();
+  }
+  expect_truth_along(scene, 0.1, poses);
+}
+
+TEST(CertifiedCoherence, FindsTheTruthWhereTheMotionTurnsRound) {
+  // Long steady stretches, so that plans are long, and then the opposite.
+  const Scene scene = make_scene(make_blob(1.0, 0.3, 3), make_blob(1.0, 0.2, 3), 0.0);
+  std::mt19937_64 random(10);
+  const Pose middle = grazing_pose(scene, 0.02, random);
+  const Vec3 direction = random_direction(random), axis = random_direction(random);
+  std::vector<Pose> poses;
+  for (int frame = 0; frame < 400; ++frame) {
+    const double along = std::abs(frame % 80 - 40.0);
+    Pose pose;
+    pose.translation = middle.translation + 1e-3 * along * direction;
+    pose.rotation =
+        (Eigen::Quaterniond(Eigen::AngleAxisd(2e-3 * along, axis)) * middle.rotation).normalized();
+    poses.push_back(pose);
+  }
+  expect_truth_along(scene, 0.1, poses);
+}
+
+/// Centre and radius of a feature.
+std::pair<Vec3, double> body_of(const Surface& surface, const FeatureId& feature) {
+  std::vector<Vec3> corners;
+  const FeatureCorners vertices(surface, feature);
+  for (const std::int32_t vertex : vertices.view())
+    corners.push_back(surface.mesh.vertices[static_cast<std::size_t>(vertex)]);
+  Vec3 centre = Vec3::Zero();
+  for (const Vec3& corner : corners) centre += corner / static_cast<double>(corners.size());
+  double radius = 0.0;
+  for (const Vec3& corner : corners) radius = std::max(radius, (corner - centre).norm());
+  return {centre, radius};
+}
+
+TEST(PairFilter, NothingIsAnLmdWhileTheRejectionStands) {
+  const Scene scene = make_scene(make_blob(1.0, 0.4, 2), make_blob(1.0, 0.3, 2), 0.0);
+  const Surface &moving = scene.moving->surface(), &fixed = scene.fixed[0]->surface();
+  const double cutoff = 0.3;
+  std::mt19937_64 random(8);
+  WideScratch scratch;
+  std::size_t stood = 0, far = 0, ended = 0;
+  for (int i = 0; i < 40; ++i) {
+    const Pose pose = grazing_pose(scene, 0.05, random);
+    const RigidTransform before(pose);
+    // A generous cutoff offers many pairs of every kind.
+    const WideQuery query(scene.moving->prepared<WideHierarchy>(), scene.fixed[0]->prepared<WideHierarchy>(),
+                          before, cutoff, 1e-9);
+    WideCounters counters;
+    find_wide_pairs(scene.moving->prepared<WideHierarchy>(), scene.fixed[0]->prepared<WideHierarchy>(), query,
+                    WideKernel::VECTOR, scratch, counters);
+    const PairFilter first{moving, before, fixed, cutoff, 1e-9, 1e-5, 1e-8};
+    for (const WidePair& pair : scratch.lmd_pairs) {
+      const auto [centre, radius] = body_of(moving, pair.a.feature_id());
+      const PairAnswer answer = first(pair.a.feature_id(), pair.b.feature_id(), radius + 2.0 * cutoff);
+      const PairStanding& standing = answer.standing;
+      if (answer.verdict != PairVerdict::NO_LMD || !(standing.slack > 0.0)) continue;
+      EXPECT_LE(standing.gradient.norm(), 1.0 + 1e-9);
+      for (int trial = 0; trial < 12; ++trial) {
+        const double angle = 0.3 * uniform(random) * uniform(random) * uniform(random);
+        Vec3 displacement = 0.5 * uniform(random) * uniform(random) * random_direction(random);
+        // Motions that lose nothing may be long.
+        if (trial % 2 == 0)
+          displacement -= std::max(0.0, displacement.dot(standing.gradient)) * standing.gradient;
+        const double left = standing.slack - standing.gradient.dot(displacement) -
+                            standing.spread * displacement.norm() - standing.lever * angle;
+        Pose after = pose;
+        const Eigen::Quaterniond turn(Eigen::AngleAxisd(angle, random_direction(random)));
+        after.rotation = (turn * pose.rotation).normalized();
+        after.translation = before.point(centre) + displacement - after.rotation * centre;
+        const RigidTransform transform(after);
+        const PairFilter second{moving, transform, fixed, cutoff, 1e-9, 1e-5, 1e-8};
+        const bool is_lmd = second(pair.a.feature_id(), pair.b.feature_id(), 0.0).verdict == PairVerdict::LMD;
+        if (left > 0.0 && angle < standing.turn) {
+          ASSERT_FALSE(is_lmd) << to_string(pair.a.feature_id().kind) << " "
+                               << to_string(pair.b.feature_id().kind) << " slack " << standing.slack
+                               << " left " << left << " turn " << standing.turn;
+          ++stood;
+          if (displacement.norm() > 1.5 * standing.slack) ++far;
+        } else if (is_lmd) {
+          ++ended;
+        }
+      }
+    }
+  }
+  EXPECT_GT(stood, 10000u);
+  EXPECT_GT(far, 1000u);
+  EXPECT_GT(ended, 20u);
+}
+
+}  // namespace
+}  // namespace lmdbench

@@ -1,0 +1,247 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/methods/certified/certified.h>
+#include <lmdbench/methods/exhaustive/exhaustive.h>
+
+#include <gtest/gtest.h>
+#include <support/scenes.h>
+
+#include <cstddef>
+#include <memory>
+#include <random>
+#include <sstream>
+#include <string>
+#include <vector>
+
+namespace lmdbench {
+namespace {
+
+using testing::grazing_pose;
+using testing::make_body;
+using testing::make_scene;
+
+std::string describe(const LmdSet& lmds) {
+  std::ostringstream text;
+  for (const Lmd& lmd : lmds) {
+    text << "  " << lmd.distance << " " << to_string(lmd.feature_moving.kind) << " "
+         << lmd.feature_moving.index << ", " << to_string(lmd.feature_fixed.kind) << " "
+         << lmd.feature_fixed.index << "\n";
+  }
+  return text.str();
+}
+
+/// Same feature pairs in the same order, same points up to 1e-12 of the coordinates, same flags.
+::testing::AssertionResult same_set(const LmdSet& truth, const LmdSet& found) {
+  const auto failure = [&] {
+    return ::testing::AssertionFailure() << "truth:\n" << describe(truth) << "found:\n" << describe(found);
+  };
+  if (truth.size() != found.size()) return failure();
+  for (std::size_t i = 0; i < truth.size(); ++i) {
+    const double scale =
+        truth[i].point_moving.cwiseAbs().maxCoeff() + truth[i].point_fixed.cwiseAbs().maxCoeff();
+    if (!same_feature_pair(truth[i], found[i]) || truth[i].intersecting != found[i].intersecting ||
+        truth[i].triangle_moving != found[i].triangle_moving ||
+        truth[i].triangle_fixed != found[i].triangle_fixed ||
+        !((truth[i].point_moving - found[i].point_moving).norm() <= 1e-12 * scale) ||
+        !((truth[i].point_fixed - found[i].point_fixed).norm() <= 1e-12 * scale) ||
+        !(std::abs(truth[i].distance - found[i].distance) <= 1e-12 * scale))
+      return failure();
+  }
+  return ::testing::AssertionSuccess();
+}
+
+/// Runs truth and both kernels at a pose; counts the LMDs, so that a test cannot pass on empty sets.
+class Comparison {
+ public:
+  void check(Scene scene, const Pose& pose, double cutoff) {
+    scene.cutoff = cutoff;
+    LmdSet truth, vector, scalar;
+    WorkCounters of_truth, of_vector, of_scalar;
+    Exhaustive(scene).search(pose, truth, of_truth);
+    Certified(scene).search(pose, vector, of_vector);
+    Certified(scene, {}, WideKernel::SCALAR).search(pose, scalar, of_scalar);
+    lmds_ += truth.size();
+    EXPECT_TRUE(same_set(truth, vector)) << where(pose, cutoff);
+    EXPECT_TRUE(same_set(truth, scalar)) << where(pose, cutoff);
+    EXPECT_EQ(of_vector, of_scalar) << where(pose, cutoff);
+  }
+
+  std::size_t lmds() const { return lmds_; }
+
+ private:
+  static std::string where(const Pose& pose, double cutoff) {
+    std::ostringstream text;
+    text.precision(17);
+    text << "cutoff " << cutoff << ", pose " << pose.translation.transpose() << " "
+         << pose.rotation.coeffs().transpose();
+    return text.str();
+  }
+
+  std::size_t lmds_ = 0;
+};
+
+void expect_truth_at_random_poses(const Scene& scene, int poses, std::uint64_t seed) {
+  std::mt19937_64 random(seed);
+  const double size = bounding_box_diagonal(scene.fixed[0]->surface().mesh);
+  Comparison comparison;
+  for (int i = 0; i < poses; ++i) {
+    Pose pose = grazing_pose(scene, 0.002 * size, random);
+    for (const double cutoff : {0.005, 0.02, 0.05}) comparison.check(scene, pose, cutoff * size);
+    // Deeper, down to interpenetration.
+    pose.translation *= 0.97;
+    comparison.check(scene, pose, 0.02 * size);
+  }
+  EXPECT_GT(comparison.lmds(), static_cast<std::size_t>(poses));
+}
+
+Pose moved(double x, double y, double z) {
+  return {{x, y, z}, Eigen::Quaterniond::Identity()};
+}
+
+TEST(Certified, FindsTheTruthOnBlobs) {
+  expect_truth_at_random_poses(make_scene(make_blob(1.0, 0.3, 3), make_blob(0.8, 0.3, 3), 0.0), 15, 1);
+}
+
+TEST(Certified, FindsTheTruthOnTori) {
+  expect_truth_at_random_poses(make_scene(make_torus(1.0, 0.4, 30, 16), make_torus(1.0, 0.3, 24, 12), 0.0),
+                               15, 2);
+}
+
+TEST(Certified, FindsTheTruthOnUnequalTriangles) {
+  expect_truth_at_random_poses(make_scene(make_unequal(1.0, 8, 100.0), make_unequal(1.0, 7, 30.0), 0.0), 15,
+                               3);
+}
+
+TEST(Certified, FindsTheTruthOnNeedles) {
+  expect_truth_at_random_poses(make_scene(make_needles(0.5, 2.0, 40), make_needles(0.5, 2.0, 24, 0.0), 0.0),
+                               15, 4);
+}
+
+TEST(Certified, FindsTheTruthOnOpenPatches) {
+  expect_truth_at_random_poses(make_scene(make_patch(2.0, 10, 0.2), make_patch(2.0, 9, 0.1), 0.0), 15, 5);
+}
+
+TEST(Certified, FindsTheTruthOnBoxesAndReflexEdges) {
+  expect_truth_at_random_poses(make_scene(make_l_block(1.0), make_box({1.0, 2.0, 0.5}, 3), 0.0), 25, 6);
+  expect_truth_at_random_poses(
+      make_scene(make_two_boxes({1.0, 1.0, 1.0}, 0.3), make_wedge(1.0, 1.0, 0.5), 0.0), 25, 7);
+}
+
+TEST(Certified, FindsTheTruthOnBoxesInParallel) {
+  // Every kind of plateau: face to face, edge to edge, edge over face, corner over face, and rocking by less
+  // and more than the tolerances.
+  const Scene scene = make_scene(make_box({0.1, 0.1, 0.1}, 3), make_box({0.1, 0.1, 0.1}, 2), 0.0);
+  Comparison comparison;
+  for (const double x : {0.0, 0.03, 0.05, 0.1, 0.11}) {
+    for (const double y : {0.0, 0.02, 0.1, 0.12}) {
+      for (const double z : {0.1001, 0.11, 0.12}) {
+        for (const double angle : {0.0, 1e-12, 1e-9, 1e-7, 1e-4}) {
+          Pose pose = moved(x, y, z);
+          pose.rotation = Eigen::AngleAxisd(angle, Vec3(0.6, 0.8, 0.0));
+          comparison.check(scene, pose, 0.03);
+        }
+      }
+    }
+  }
+  EXPECT_GT(comparison.lmds(), 100u);
+}
+
+TEST(Certified, FindsTheTruthOnItsOwnCopy) {
+  const Scene scene = make_scene(make_blob(1.0, 0.2, 2), make_blob(1.0, 0.2, 2), 0.0);
+  Comparison comparison;
+  comparison.check(scene, moved(0.0, 0.0, 0.0), 0.01);
+  comparison.check(scene, moved(0.0, 0.0, 1e-13), 0.01);
+  comparison.check(scene, moved(0.0, 0.0, 1e-7), 0.01);
+  comparison.check(scene, moved(2.2, 0.0, 0.0), 0.1);
+  comparison.check(scene, moved(2.3, 0.0, 0.0), 0.2);
+  EXPECT_GT(comparison.lmds(), 0u);
+}
+
+TEST(Certified, FindsTheTruthAtTinyGaps) {
+  const Scene scene = make_scene(make_blob(1.0, 0.3, 3), make_blob(1.0, 0.2, 3), 0.0);
+  std::mt19937_64 random(8);
+  Comparison comparison;
+  for (const double gap : {1e-3, 1e-5, 1e-7, 1e-8, 1e-9, 1e-10, 1e-12, 1e-14})
+    comparison.check(scene, grazing_pose(scene, gap, random), 0.02);
+  EXPECT_GT(comparison.lmds(), 8u);
+}
+
+TEST(Certified, FindsTheTruthAtWildScales) {
+  for (const double scale : {1e-6, 1e-3, 1e3, 1e6})
+    expect_truth_at_random_poses(
+        make_scene(scaled(make_blob(1.0, 0.3, 2), scale), scaled(make_torus(1.0, 0.4, 20, 10), scale), 0.0),
+        5, 9);
+}
+
+TEST(Certified, FindsTheTruthWithUnequalSizes) {
+  expect_truth_at_random_poses(make_scene(make_blob(1e-3, 3e-4, 2), make_blob(1.0, 0.3, 3), 0.0), 5, 10);
+}
+
+TEST(Certified, FindsTheTruthFarFromTheOrigin) {
+  const Vec3 offset(1e6, -1e6, 5e5);
+  Scene scene = make_scene(make_blob(1.0, 0.3, 2), translated(make_torus(1.0, 0.4, 20, 10), offset), 0.0);
+  const Scene near = make_scene(make_blob(1.0, 0.3, 2), make_torus(1.0, 0.4, 20, 10), 0.0);
+  std::mt19937_64 random(11);
+  Comparison comparison;
+  for (int i = 0; i < 10; ++i) {
+    Pose pose = grazing_pose(near, 0.005, random);
+    pose.translation += offset;
+    comparison.check(scene, pose, 0.05);
+  }
+  EXPECT_GT(comparison.lmds(), 10u);
+}
+
+TEST(Certified, FindsTheTruthOnBrokenMeshes) {
+  // Triangles without area, duplicates, flipped ones, a fan of three round one edge, a vertex of two sheets.
+  TriangleMesh broken = make_blob(1.0, 0.3, 2);
+  broken.triangles.push_back({0, 0, 1});
+  broken.triangles.push_back({3, 3, 3});
+  broken.triangles.push_back(broken.triangles[10]);
+  std::swap(broken.triangles[20][0], broken.triangles[20][1]);
+  std::swap(broken.triangles[40][0], broken.triangles[40][1]);
+  broken.vertices.push_back(broken.vertices[static_cast<std::size_t>(broken.triangles[30][0])] * 1.3);
+  const auto tip = static_cast<std::int32_t>(broken.vertices.size() - 1);
+  broken.triangles.push_back({broken.triangles[30][0], broken.triangles[30][1], tip});
+  broken.vertices.push_back(Vec3(0.0, 0.0, 2.0));
+  broken.vertices.push_back(Vec3(0.1, 0.0, 2.0));
+  broken.triangles.push_back({5, tip + 1, tip + 2});
+  broken.triangles.push_back({tip + 1, tip + 2, tip + 1});
+  broken.triangles.erase(broken.triangles.begin() + 100, broken.triangles.begin() + 104);
+  expect_truth_at_random_poses(make_scene(broken, make_torus(1.0, 0.4, 20, 10), 0.0), 10, 12);
+  expect_truth_at_random_poses(make_scene(broken, broken, 0.0), 10, 13);
+}
+
+TEST(Certified, FindsTheTruthWithSeveralFixedBodies) {
+  Scene scene = make_scene(make_blob(1.0, 0.3, 2), make_box({0.5, 2.0, 2.0}), 0.0);
+  scene.fixed.push_back(make_body("other", translated(make_torus(1.0, 0.3, 20, 10), {0.0, 2.2, 0.4})));
+  scene.fixed.push_back(make_body("far", translated(make_box({1.0, 1.0, 1.0}), {50.0, 0.0, 0.0})));
+  std::mt19937_64 random(14);
+  Comparison comparison;
+  for (int i = 0; i < 20; ++i) {
+    Pose pose = moved(1.2, 1.0, 0.0);
+    pose.rotation = testing::random_rotation(random);
+    comparison.check(scene, pose, 0.3);
+  }
+  EXPECT_GT(comparison.lmds(), 20u);
+}
+
+TEST(Certified, FindsEverythingWithoutCutoff) {
+  const Scene scene = make_scene(make_blob(1.0, 0.3, 2), make_torus(1.0, 0.4, 12, 8), 0.0);
+  Comparison comparison;
+  for (const double x : {0.0, 0.2, 3.0}) comparison.check(scene, moved(x, 0.5, 1.9), 1e3);
+  EXPECT_GT(comparison.lmds(), 3u);
+}
+
+TEST(Certified, IsEmptyBeyondTheCutoff) {
+  const Scene scene = make_scene(make_box({1.0, 1.0, 1.0}), make_box({1.0, 1.0, 1.0}), 0.1);
+  LmdSet lmds(3);
+  WorkCounters counters;
+  Certified(scene).search(moved(1e30, 0.0, 0.0), lmds, counters);
+  EXPECT_TRUE(lmds.empty());
+  lmds.resize(3);
+  Certified(scene).search(moved(1.11, 0.0, 0.0), lmds, counters);
+  EXPECT_TRUE(lmds.empty());
+}
+
+}  // namespace
+}  // namespace lmdbench

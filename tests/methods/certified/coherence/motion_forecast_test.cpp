@@ -1,0 +1,148 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/methods/certified/coherence/forecast_timers.h>
+#include <lmdbench/methods/certified/coherence/motion_forecast.h>
+
+#include <gtest/gtest.h>
+#include <support/scenes.h>
+
+#include <cmath>
+#include <limits>
+#include <random>
+#include <vector>
+
+namespace lmdbench {
+namespace {
+
+using testing::random_direction;
+using testing::uniform;
+
+/// A hand's motion: smooth, with a tremor.
+RigidTransform frame_of_motion(int frame, double tremor, std::mt19937_64& random) {
+  const double t = 0.01 * frame;
+  Pose pose;
+  pose.translation =
+      Vec3(0.3 * std::sin(t), 0.2 * std::sin(0.7 * t + 1.0), 0.1 * t) + tremor * random_direction(random);
+  pose.rotation =
+      Eigen::Quaterniond(Eigen::AngleAxisd(0.4 * std::sin(0.9 * t), Vec3(1.0, 2.0, 0.5).normalized()) *
+                         Eigen::AngleAxisd(tremor * uniform(random), Vec3::UnitY()));
+  return RigidTransform(pose);
+}
+
+TEST(MotionForecast, NothingIsFartherFromItsForecastThanTheDeviation) {
+  constexpr double RADIUS = 0.5, LEVER = 0.2, TINY = 1e-9;
+  struct Plan {
+    int frame;
+    std::size_t epoch;
+    RigidTransform X;
+    Vec3 velocity;
+    Mat3 turn;
+    double creep, spin, longest, deviation_at_start;
+  };
+  std::mt19937_64 random(1);
+  std::size_t tight = 0, judged = 0;
+  for (const double tremor : {0.0, 1e-4}) {
+    MotionForecast forecast;
+    std::vector<Plan> plans;
+    for (int frame = 0; frame < 600; ++frame) {
+      const RigidTransform X = frame_of_motion(frame, tremor, random);
+      if (frame == 0) {
+        forecast.reset(X, RADIUS, LEVER);
+        continue;
+      }
+      forecast.advance(X, 1e-12);
+      for (const Plan& plan : plans) {
+        const int tau = frame - plan.frame;
+        if (tau > plan.longest) continue;
+        const double deviation = forecast.deviation(plan.epoch) + plan.deviation_at_start;
+        const double angle = Eigen::AngleAxisd(Mat3(X.rotation * plan.X.rotation.transpose())).angle();
+        EXPECT_LE(angle, tau * plan.spin + deviation / forecast.reach() + TINY);
+        for (int k = 0; k < 4; ++k) {
+          const Vec3 c = RADIUS * uniform(random) * random_direction(random);
+          const Vec3 rest = X.point(c) - plan.X.point(c) - tau * (plan.turn * c + plan.velocity);
+          EXPECT_LE(rest.norm(), tau * plan.creep + deviation + TINY) << frame << " from " << plan.frame;
+          ++judged;
+          if (deviation < 1e-3) ++tight;
+        }
+      }
+      if (forecast.longest_plan() >= 1.0)
+        plans.push_back({frame, forecast.epoch(), X, forecast.origin_velocity(), forecast.turn(),
+                         forecast.creep(), forecast.spin(), forecast.longest_plan(),
+                         forecast.deviation_at_start()});
+      if (plans.size() > MotionForecast::LONGEST_PLAN) plans.erase(plans.begin());
+    }
+  }
+  EXPECT_GT(judged, 100000u);
+  EXPECT_GT(tight, 10000u);
+}
+
+TEST(MotionForecast, SeesASteadyMotionComing) {
+  MotionForecast forecast;
+  const auto pose = [](int frame) {
+    return RigidTransform(Pose{Vec3(1e-4 * frame, 0.0, 0.0),
+                               Eigen::Quaterniond(Eigen::AngleAxisd(1e-3 * frame, Vec3::UnitZ()))});
+  };
+  forecast.reset(pose(0), 0.1, 0.01);
+  for (int frame = 1; frame <= 61; ++frame) forecast.advance(pose(frame), 0.0);
+  // Sixty frames turn by 0.06: what is left is of third order.
+  std::size_t remembered = 0;
+  for (std::size_t epoch = 0; epoch < MotionForecast::EPOCHS; ++epoch) {
+    if (forecast.deviation(epoch) == std::numeric_limits<double>::infinity()) continue;
+    EXPECT_LT(forecast.deviation(epoch), 0.21 * 0.06 * 0.06 * 0.06);
+    ++remembered;
+  }
+  EXPECT_GT(remembered, 10u);
+}
+
+class ForecastTimersTest : public ::testing::Test {
+ protected:
+  ForecastTimersTest() { forecast.reset(RigidTransform(), 0.1, 0.01); }
+  std::vector<std::uint32_t> next(double x) {
+    RigidTransform X;
+    X.translation.x() = x;
+    forecast.advance(X, 0.0);
+    std::vector<std::uint32_t> due;
+    timers.collect(forecast, due);
+    return due;
+  }
+  MotionForecast forecast;
+  ForecastTimers timers;
+};
+
+TEST_F(ForecastTimersTest, GoOffWhenTheirFramesAreOver) {
+  double x = 0.0;
+  EXPECT_TRUE(next(x += 0.001).empty());
+  const std::uint32_t first = timers.add(), second = timers.add(), third = timers.add();
+  timers.plan(first, 3.5, 1.0, forecast);
+  timers.plan(second, 1e9, 1.0, forecast);
+  timers.plan(third, 2.0, 1.0, forecast);
+  timers.drop(third);
+  for (int frame = 1; frame <= 70; ++frame) {
+    const auto due = next(x += 0.001);
+    // After 3 frames the plan still stands, and it does not after 4.
+    if (frame == 4) {
+      EXPECT_EQ(due, std::vector<std::uint32_t>{first});
+    } else if (frame == static_cast<int>(MotionForecast::LONGEST_PLAN) + 1) {
+      EXPECT_EQ(due, std::vector<std::uint32_t>{second});
+    } else {
+      EXPECT_TRUE(due.empty()) << frame;
+    }
+  }
+  EXPECT_EQ(timers.count(), 2u);
+  EXPECT_EQ(timers.add(), third);
+}
+
+TEST_F(ForecastTimersTest, GoOffWhenTheMotionDeviates) {
+  next(0.001);
+  const std::uint32_t narrow = timers.add(), wide = timers.add();
+  timers.plan(narrow, 50.0, 0.01, forecast);
+  timers.plan(wide, 50.0, 0.1, forecast);
+  EXPECT_TRUE(next(0.002).empty());
+  EXPECT_TRUE(next(0.0125).empty());  // 0.0095 from 0.003
+  EXPECT_EQ(next(0.004 + 0.011), std::vector<std::uint32_t>{narrow});
+  EXPECT_TRUE(next(0.005).empty());
+  EXPECT_EQ(next(0.2), std::vector<std::uint32_t>{wide});
+}
+
+}  // namespace
+}  // namespace lmdbench

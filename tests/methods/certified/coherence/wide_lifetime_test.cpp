@@ -1,0 +1,154 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/methods/certified/coherence/wide_lifetime.h>
+
+#include "methods/certified/hierarchy/wide_samples.h"
+#include <gtest/gtest.h>
+
+#include <random>
+
+namespace lmdbench {
+namespace {
+
+using testing::expect_same_lifetimes;
+using testing::for_each_random_node_test;
+using testing::LaneSample;
+using testing::random_direction;
+using testing::uniform;
+
+float random_float(double largest, std::mt19937_64& random) {
+  return static_cast<float>(largest * uniform(random));
+}
+
+TEST(WideLifetime, VectorAndScalarAgreeBitForBit) {
+  std::mt19937_64 random(4);
+  std::size_t alive = 0, dead = 0;
+  bool moving_lanes = false;
+  for_each_random_node_test(
+      random, [&](const WideQuery& query, const WideNode& node, const WideProbe& probe) {
+        moving_lanes = !moving_lanes;
+        WideForecast forecast;
+        forecast.in_moving = WideTransform(0.01 * testing::random_rotation(random).toRotationMatrix(),
+                                           0.01 * random_direction(random));
+        forecast.creep = random_float(1e-3, random);
+        forecast.spin = random_float(1e-2, random);
+        forecast.cutoff = query.limits.cutoff;
+        forecast.base = random_float(1e-3, random);
+        forecast.drift = random_float(1e-3, random);
+        forecast.reach = 3.0F;
+        const WideLifetimeTest test{
+            moving_lanes,
+            {random_float(0.01, random), random_float(0.01, random), -random_float(0.01, random)},
+            static_cast<std::uint32_t>(random() & 0xFFu)};
+        forecast.horizon = random_float(4.0, random);
+        const WideLifetimes scalar = test_lanes_lifetime_scalar(node, probe, query.limits, forecast, test);
+        const WideLifetimes vector = test_lanes_lifetime(node, probe, query.limits, forecast, test);
+        ASSERT_NO_FATAL_FAILURE(expect_same_lifetimes(vector, scalar));
+        ++(scalar.lmd != 0 ? alive : dead);
+      });
+  EXPECT_GT(alive, 100u);
+  EXPECT_GT(dead, 100u);
+}
+
+/// Two children that hold an LMD at the end of a motion, with the motion of the first one's mesh.
+struct EndsAsLmd {
+  LaneSample a, b;  ///< As they are at the end, in one frame.
+  double cutoff, frames, angle, deviation;
+  Mat3 turn;          ///< From the start to the end.
+  Vec3 displacement;  ///< Of a's centre.
+  Vec3 velocity;      ///< That was forecast for it; the rest has deviated.
+
+  explicit EndsAsLmd(std::mt19937_64& random) : a(random), b(random) {
+    cutoff = 0.2 * uniform(random);
+    const double distance = cutoff * uniform(random);
+    const Mat3 opposite = Eigen::Quaterniond::FromTwoVectors(b.direction, -a.direction).toRotationMatrix();
+    const Vec3 offset = a.point + distance * a.direction - opposite * b.point;
+    b.centre = opposite * b.centre + offset;
+    b.axis = opposite * b.axis;
+    b.point = opposite * b.point + offset;
+    frames = 20.0 * uniform(random);
+    angle = 0.3 * uniform(random) * uniform(random) * uniform(random);
+    turn = Eigen::AngleAxisd(angle, random_direction(random)).toRotationMatrix();
+    displacement = 0.5 * uniform(random) * random_direction(random);
+    deviation = 0.1 * uniform(random) * uniform(random) * uniform(random);
+    velocity = (displacement + deviation * random_direction(random)) / frames;
+  }
+};
+
+TEST(WideLifetime, NothingIsAnLmdBeforeItsFramesAreOver) {
+  std::mt19937_64 random(5);
+  std::size_t rejected = 0, beyond = 0, held = 0;
+  for (int i = 0; i < 400000; ++i) {
+    const EndsAsLmd pair(random);
+    // The moving mesh's own frame is the world at the end of the motion. At the start, its points were at
+    // start_centre + turn^-1 (x - centre).
+    const Vec3 start_centre = pair.a.centre - pair.displacement;
+    const Mat3 back = pair.turn.transpose();
+    const RigidTransform X_start = [&] {
+      RigidTransform X;
+      X.rotation = back;
+      X.translation = start_centre - back * pair.a.centre;
+      return X;
+    }();
+    const bool moving_lanes = i % 2 == 1;
+    WideNode home{}, node{};
+    (moving_lanes ? pair.b : pair.a).store(home, 0);
+    (moving_lanes ? pair.a : pair.b).store(node, 3);
+    const Mat3 to_moving = X_start.rotation.transpose();
+    const WideTransform place = moving_lanes ? WideTransform(to_moving, -(to_moving * X_start.translation))
+                                             : WideTransform(X_start.rotation, X_start.translation);
+    const WideProbe probe = make_probe(WideChild(home, 0), place);
+    const double size = 3.0 + pair.b.centre.norm();
+    const WideLimits limits{static_cast<float>(pair.cutoff * (1.0 + 1e-7)), 0.0F,
+                            static_cast<float>(POSITION_ROUNDING * size)};
+    WideForecast forecast;
+    const Vec3 velocity_M = to_moving * pair.velocity;
+    forecast.in_moving = WideTransform(Mat3::Zero(), velocity_M);
+    forecast.spin = static_cast<float>(pair.angle / pair.frames * 1.0001);
+    forecast.creep = static_cast<float>(1e-5 * pair.velocity.norm());
+    forecast.cutoff = static_cast<float>(pair.cutoff * 1.0001);
+    forecast.base = random_float(0.01, random);
+    forecast.drift = random_float(0.01, random);
+    forecast.reach = 4.0F;
+    WideLifetimeTest test{moving_lanes, {}, 0u};
+    for (int k = 0; k < 3; ++k) test.probe_velocity[k] = static_cast<float>(pair.velocity[k]);
+    const WideLifetimes result = test_lanes_lifetime(node, probe, limits, forecast, test);
+    if (result.lmd != 0) continue;
+    ++rejected;
+    if (pair.deviation > static_cast<double>(result.allowance)) {
+      ++beyond;
+      continue;
+    }
+    ASSERT_LE(static_cast<double>(result.frames), pair.frames * (1.0 + 1e-5)) << i;
+    ++held;
+  }
+  EXPECT_GT(rejected, 20000u);
+  EXPECT_GT(beyond, 1000u);
+  EXPECT_GT(held, 5000u);
+}
+
+TEST(WideLifetime, DirectionOfTheMotionCounts) {
+  // A lane beyond the cutoff: towards it the rejection stands for few frames, away from it for ever.
+  std::mt19937_64 random(1);
+  LaneSample a(random), b(random);
+  a.centre = Vec3::Zero();
+  b.centre = {1.0, 0.0, 0.0};
+  a.radius = b.radius = 0.1;
+  WideNode home{}, node{};
+  a.store(home, 0);
+  b.store(node, 0);
+  const WideProbe probe = make_probe(WideChild(home, 0), WideTransform(Mat3::Identity(), Vec3::Zero()));
+  const WideLimits limits{0.2F, 0.0F, 1e-6F};
+  WideForecast forecast;
+  forecast.cutoff = 0.2F;
+  forecast.reach = 4.0F;
+  const auto frames = [&](float speed) {
+    return test_lanes_lifetime(node, probe, limits, forecast, {false, {speed, 0.0F, 0.0F}, 0u}).frames;
+  };
+  EXPECT_GE(frames(0.01F), 0.99F * 0.6F * (1.0F - DEVIATION_SHARE) / 0.01F);
+  EXPECT_LT(frames(0.01F), 1e3F);
+  EXPECT_GT(frames(-0.01F), 1e6F);
+}
+
+}  // namespace
+}  // namespace lmdbench

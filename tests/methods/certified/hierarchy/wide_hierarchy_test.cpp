@@ -1,0 +1,316 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/mesh/polar_cone.h>
+#include <lmdbench/methods/certified/hierarchy/polar_cap.h>
+#include <lmdbench/methods/certified/hierarchy/wide_hierarchy.h>
+#include <lmdbench/methods/certified/hierarchy/wide_traversal.h>
+
+#include "methods/certified/hierarchy/wide_samples.h"
+#include <gtest/gtest.h>
+#include <support/scenes.h>
+#include <tbb/global_control.h>
+
+#include <algorithm>
+#include <cstring>
+#include <functional>
+#include <random>
+#include <set>
+#include <vector>
+
+namespace lmdbench {
+namespace {
+
+using testing::expect_same_pairs;
+using testing::for_each_random_node_test;
+using testing::LaneSample;
+using testing::random_direction;
+using testing::random_transform;
+using testing::shapes;
+using testing::uniform;
+
+std::vector<FeatureId> all_features(const Surface& surface) {
+  std::vector<FeatureId> features;
+  const auto add = [&](FeatureKind kind, std::size_t count) {
+    for (std::size_t i = 0; i < count; ++i) features.push_back({kind, static_cast<std::int32_t>(i)});
+  };
+  add(FeatureKind::VERTEX, surface.mesh.vertices.size());
+  add(FeatureKind::EDGE, surface.adjacency.edges.size());
+  add(FeatureKind::FACE, surface.mesh.triangles.size());
+  return features;
+}
+
+TEST(PolarCap, HoldsThePolarCone) {
+  std::size_t narrow = 0, none = 0;
+  for (const TriangleMesh& mesh : shapes()) {
+    const Surface surface = build_surface(mesh);
+    for (const FeatureId& feature : all_features(surface)) {
+      const PolarCone cone = polar_cone(surface, feature);
+      const auto cap = polar_cap(surface, feature);
+      if (!cap) {
+        EXPECT_TRUE(cone.empty()) << to_string(feature.kind) << feature.index;
+        ++none;
+        continue;
+      }
+      if (cap->is_all_directions()) continue;
+      EXPECT_NEAR(cap->axis.norm(), 1.0, 1e-12);
+      for (const Vec3& generator : cone.generators) {
+        // The generators carry a tolerance of their own.
+        EXPECT_GE(cap->axis.dot(generator), cap->cosine - POLAR_CONE_TOLERANCE)
+            << to_string(feature.kind) << feature.index;
+        EXPECT_LE(cap->axis.cross(generator).norm(), cap->sine + POLAR_CONE_TOLERANCE);
+      }
+      if (cap->cosine > 0.5) ++narrow;
+    }
+  }
+  EXPECT_GT(narrow, 1000u);
+  EXPECT_GT(none, 1000u);
+}
+
+TEST(PolarCap, OfTentsOfAnyBend) {
+  // Two triangles on one edge, flat to folded both ways, needle-like to fat: the cone is the arc from normal
+  // to normal where the edge is convex, empty where it is reflex.
+  std::mt19937_64 random(7);
+  std::size_t convex = 0, reflex = 0;
+  for (int i = 0; i < 20000; ++i) {
+    const double size = std::pow(10.0, 4.0 * uniform(random) - 2.0);
+    const double bend = (2.0 * uniform(random) - 1.0) * (i % 4 == 0 ? 1e-4 : 3.1);  // > 0: convex
+    const auto wing = [&](double angle) {
+      return Vec3(uniform(random) * 3.0 - 1.0, size * std::cos(angle), -size * std::sin(angle));
+    };
+    const Vec3 left = wing(0.5 * bend);
+    Vec3 right = wing(0.5 * bend);
+    right.y() = -right.y();
+    const Mat3 turn = testing::random_rotation(random).toRotationMatrix();
+    TriangleMesh tent;
+    tent.vertices = {turn * Vec3::Zero(), turn * Vec3::UnitX(), turn * left, turn * right};
+    tent.triangles = {{0, 1, 2}, {1, 0, 3}};
+    const Surface surface = build_surface(tent);
+    const auto cap = polar_cap(surface, {FeatureKind::EDGE, 0});
+    const double flatness = (3.0 + size) / size;
+    const double doubt = 50.0 * POLAR_SLACK * flatness;
+    if (bend > 0.0) {
+      ASSERT_TRUE(cap) << "bend " << bend << ", size " << size;
+      ++convex;
+      if (cap->is_all_directions()) {
+        ASSERT_GT(0.5 * bend + doubt, 1.5) << "bend " << bend << ", size " << size;
+        continue;
+      }
+      for (const Vec3& normal : surface.face_normals) {
+        ASSERT_GE(cap->axis.dot(normal), cap->cosine) << "bend " << bend << ", size " << size;
+        ASSERT_LE(cap->axis.cross(normal).norm(), cap->sine);
+      }
+      ASSERT_LE(std::acos(cap->cosine), 0.5 * bend + doubt) << "bend " << bend << ", size " << size;
+    } else if (-bend > doubt && -bend < 3.0) {
+      ASSERT_FALSE(cap) << "bend " << bend << ", size " << size;
+      ++reflex;
+    }
+  }
+  EXPECT_GT(convex, 5000u);
+  EXPECT_GT(reflex, 5000u);
+}
+
+TEST(PolarCap, IsTight) {
+  const Surface box = build_surface(make_box({1.0, 1.0, 1.0}));
+  for (const FeatureId& feature : all_features(box)) {
+    const auto cap = polar_cap(box, feature);
+    ASSERT_TRUE(cap);
+    const auto expected = [&] {
+      if (feature.kind == FeatureKind::FACE) return 1.0;
+      if (feature.kind == FeatureKind::VERTEX) return 1.0 / std::sqrt(3.0);
+      const auto triangles = box.incident_triangles(feature);
+      const bool flat = box.face_normals[static_cast<std::size_t>(triangles[0])].dot(
+                            box.face_normals[static_cast<std::size_t>(triangles[1])]) > 0.5;
+      return flat ? 1.0 : std::sqrt(0.5);
+    }();
+    EXPECT_NEAR(cap->cosine, expected, 1e-4) << to_string(feature.kind) << feature.index;
+  }
+}
+
+/// Calls visit(node, lane, features below).
+std::vector<FeatureId> visit_lanes(
+    const WideHierarchy& hierarchy, std::uint32_t node_index,
+    const std::function<void(const WideNode&, std::size_t, const std::vector<FeatureId>&)>& visit) {
+  std::vector<FeatureId> all;
+  const WideNode& node = hierarchy.nodes[node_index];
+  for (std::size_t lane = 0; lane < WIDE_WIDTH; ++lane) {
+    const WideRef ref = WideRef::from_bits(node.child[lane]);
+    if (ref.is_empty()) continue;
+    const std::vector<FeatureId> below = ref.is_feature() ? std::vector<FeatureId>{ref.feature_id()}
+                                                          : visit_lanes(hierarchy, ref.node_index(), visit);
+    visit(node, lane, below);
+    all.insert(all.end(), below.begin(), below.end());
+  }
+  return all;
+}
+
+TEST(WideHierarchy, OwnsEveryFeatureOnceAndBoundsIt) {
+  for (const WideSplit split : {WideSplit::POSITION, WideSplit::NORMAL, WideSplit::ORDER}) {
+    for (const bool full : {true, false}) {
+      for (const TriangleMesh& mesh : shapes()) {
+        const Surface surface = build_surface(mesh);
+        WideBuildOptions options;
+        options.split = split;
+        options.full_nodes = full;
+        const WideHierarchy hierarchy = build_wide_hierarchy(surface, options);
+        const auto check = [&](const WideNode& node, std::size_t lane, const std::vector<FeatureId>& below) {
+          const Vec3 centre(node.centre[0][lane], node.centre[1][lane], node.centre[2][lane]);
+          const Vec3 axis(node.axis[0][lane], node.axis[1][lane], node.axis[2][lane]);
+          for (const FeatureId& feature : below) {
+            const auto triangles = surface.incident_triangles(feature);
+            for (const std::int32_t corner : surface.mesh.triangles[static_cast<std::size_t>(triangles[0])]) {
+              if (feature.kind == FeatureKind::VERTEX && corner != feature.index) continue;
+              if (feature.kind == FeatureKind::EDGE) {
+                const auto& ends = surface.adjacency.edges[static_cast<std::size_t>(feature.index)];
+                if (corner != ends[0] && corner != ends[1]) continue;
+              }
+              const Vec3 p = surface.mesh.vertices[static_cast<std::size_t>(corner)] - hierarchy.origin;
+              ASSERT_LE((p - centre).norm(), static_cast<double>(node.radius[lane]));
+              ASSERT_LE(std::abs((p - centre).dot(axis)), static_cast<double>(node.thickness[lane]));
+            }
+            if (axis.isZero(0.0)) continue;
+            for (const Vec3& direction : polar_cone(surface, feature).generators)
+              ASSERT_GE(direction.dot(axis), static_cast<double>(node.cosine[lane]));
+          }
+        };
+        std::vector<FeatureId> owned = visit_lanes(hierarchy, 0, check);
+        std::sort(owned.begin(), owned.end());
+        std::vector<FeatureId> expected;
+        for (const FeatureId& feature : all_features(surface))
+          if (feature.kind == FeatureKind::FACE || polar_cap(surface, feature)) expected.push_back(feature);
+        EXPECT_EQ(owned, expected);
+        EXPECT_EQ(hierarchy.feature_count, expected.size());
+      }
+    }
+  }
+}
+
+TEST(WideHierarchy, IsTheSameEveryTime) {
+  const Surface surface =
+      build_surface(make_blob(1.0, 0.3, 5));  // large enough to be built by several threads
+  const WideHierarchy a = build_wide_hierarchy(surface), b = build_wide_hierarchy(surface);
+  ASSERT_EQ(a.nodes.size(), b.nodes.size());
+  EXPECT_EQ(std::memcmp(a.nodes.data(), b.nodes.data(), a.bytes()), 0);
+}
+
+TEST(WideHierarchy, DoesNotDependOnTheNumberOfThreads) {
+  const TriangleMesh mesh = make_blob(1.0, 0.3, 5);
+  const auto with_threads = [&](std::size_t threads) {
+    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+    return build_wide_hierarchy(build_surface(mesh));
+  };
+  const WideHierarchy one = with_threads(1), four = with_threads(4);
+  ASSERT_EQ(one.nodes.size(), four.nodes.size());
+  EXPECT_EQ(std::memcmp(one.nodes.data(), four.nodes.data(), one.bytes()), 0);
+}
+
+TEST(WideHierarchy, DividesAsTheOptionsSay) {
+  WideBuildOptions narrow;
+  narrow.width = 4;
+  WideBuildOptions coarse;
+  coarse.leaf_size = 2;
+  const Surface surface = build_surface(make_blob(1.0, 0.3, 3));
+  const auto lanes_in_use = [](const WideNode& node) {
+    return WIDE_WIDTH - std::count(std::begin(node.child), std::end(node.child), 0u);
+  };
+  const WideHierarchy of_narrow = build_wide_hierarchy(surface, narrow);
+  for (const WideNode& node : of_narrow.nodes) ASSERT_LE(lanes_in_use(node), 4);
+  const WideHierarchy of_coarse = build_wide_hierarchy(surface, coarse);
+  std::size_t features = 0;
+  for (std::size_t i = 1; i < of_coarse.nodes.size(); ++i) {
+    const WideNode& node = of_coarse.nodes[i];
+    if (!WideRef::from_bits(node.child[0]).is_feature()) continue;
+    ASSERT_LE(lanes_in_use(node), 2);
+    features += static_cast<std::size_t>(lanes_in_use(node));
+  }
+  EXPECT_GE(features + 1, of_coarse.feature_count) << "an odd last one may stand among nodes";
+}
+
+TEST(WideHierarchy, IsCompact) {
+  const Surface surface = build_surface(make_blob(1.0, 0.3, 5));
+  const WideHierarchy hierarchy = build_wide_hierarchy(surface);
+  EXPECT_LE(static_cast<double>(hierarchy.bytes()) / static_cast<double>(surface.mesh.triangles.size()),
+            140.0);
+}
+
+TEST(WideHierarchy, OfAnEmptyMeshIsEmpty) {
+  EXPECT_TRUE(build_wide_hierarchy(build_surface(TriangleMesh{})).nodes.empty());
+}
+
+TEST(WideNodeTest, VectorAndScalarAgreeBitForBit) {
+  std::mt19937_64 random(1);
+  std::size_t alive = 0;
+  for_each_random_node_test(random,
+                            [&](const WideQuery& query, const WideNode& node, const WideProbe& probe) {
+                              const WideMasks scalar = test_lanes_scalar(node, probe, query.limits);
+                              const WideMasks vector = test_lanes_vector(node, probe, query.limits);
+                              ASSERT_EQ(scalar.lmd, vector.lmd);
+                              ASSERT_EQ(scalar.touch, vector.touch);
+                              ASSERT_EQ(scalar.used, vector.used);
+                              ASSERT_EQ(scalar.beyond, vector.beyond);
+                              ASSERT_EQ(scalar.not_collinear, vector.not_collinear);
+                              if (scalar.lmd != 0) ++alive;
+                            });
+  EXPECT_GT(alive, 100u);
+}
+
+TEST(WideNodeTest, NeverRejectsAPairOfOppositeDirections) {
+  // The lane is placed so that the direction from the probe's point to the lane's lies in both cones at a
+  // distance within the cutoff: whatever the bodies, the pair must survive. Distance at most the touch
+  // distance: must touch.
+  std::mt19937_64 random(2);
+  std::size_t rejected = 0;
+  for (int i = 0; i < 200000; ++i) {
+    const LaneSample a(random);
+    LaneSample b(random);
+    const double cutoff = 0.2 * uniform(random);
+    const double distance = cutoff * (i % 2 == 0 ? 1.0 : uniform(random));
+    // Turn b so that its direction is the opposite of a's, then move its point to a's point + distance.
+    const Mat3 turn = Eigen::Quaterniond::FromTwoVectors(b.direction, -a.direction).toRotationMatrix();
+    const Vec3 offset = a.point + distance * a.direction - turn * b.point;
+    b.centre = turn * b.centre + offset;
+    b.axis = turn * b.axis;
+    WideNode home{}, node{};
+    a.store(home, 0);
+    b.store(node, 3);
+    const WideProbe probe = make_probe(WideChild(home, 0), WideTransform(Mat3::Identity(), Vec3::Zero()));
+    const double size = 1.0 + b.centre.norm();
+    const WideLimits limits{static_cast<float>(cutoff * (1.0 + 1e-7)),
+                            static_cast<float>(distance * (1.0 + 1e-7)),
+                            static_cast<float>(POSITION_ROUNDING * size)};
+    const WideMasks masks = test_lanes_scalar(node, probe, limits);
+    ASSERT_EQ(masks.lmd, 8u) << i;
+    ASSERT_EQ(masks.touch, 8u) << i;
+    // A slightly larger gap than the cutoff along a's axis is what the test is for.
+    WideLimits shorter = limits;
+    shorter.cutoff *= 0.5F;
+    shorter.touch = 0.0F;
+    if (test_lanes_scalar(node, probe, shorter).lmd == 0) ++rejected;
+  }
+  EXPECT_GT(rejected, 10000u);
+}
+
+TEST(WideTraversal, VectorAndScalarFindTheSamePairs) {
+  std::mt19937_64 random(3);
+  std::size_t pairs = 0;
+  for (const TriangleMesh& mesh : shapes()) {
+    const WideHierarchy hierarchy = build_wide_hierarchy(build_surface(mesh));
+    for (int i = 0; i < 30; ++i) {
+      const WideQuery query(hierarchy, hierarchy,
+                            random_transform(2.0 * hierarchy.radius * uniform(random), random),
+                            0.2 * uniform(random), 1e-9);
+      WideScratch vector, scalar;
+      WideCounters of_vector, of_scalar;
+      find_wide_pairs(hierarchy, hierarchy, query, WideKernel::VECTOR, vector, of_vector);
+      find_wide_pairs(hierarchy, hierarchy, query, WideKernel::SCALAR, scalar, of_scalar);
+      ASSERT_NO_FATAL_FAILURE(expect_same_pairs(vector, of_vector, scalar, of_scalar));
+      pairs += vector.lmd_pairs.size();
+      std::set<std::pair<std::uint32_t, std::uint32_t>> unique;
+      for (const WidePair& pair : vector.lmd_pairs) unique.emplace(pair.a.bits(), pair.b.bits());
+      EXPECT_EQ(unique.size(), vector.lmd_pairs.size());
+    }
+  }
+  EXPECT_GT(pairs, 1000u);
+}
+
+}  // namespace
+}  // namespace lmdbench

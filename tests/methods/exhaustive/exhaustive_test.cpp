@@ -1,0 +1,220 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/lmd/first_order.h>
+#include <lmdbench/methods/exhaustive/exhaustive.h>
+#include <lmdbench/methods/registry.h>
+
+#include <gtest/gtest.h>
+#include <support/scenes.h>
+
+#include <cmath>
+#include <set>
+#include <tuple>
+
+namespace lmdbench {
+namespace {
+
+using testing::make_scene;
+
+LmdSet truth(const Scene& scene, const Pose& pose) {
+  LmdSet lmds;
+  WorkCounters counters;
+  Exhaustive(scene).search(pose, lmds, counters);
+  return lmds;
+}
+
+Pose moved(double x, double y, double z) {
+  return {{x, y, z}, Eigen::Quaterniond::Identity()};
+}
+
+std::set<std::tuple<FeatureId, FeatureId>> feature_pairs(const LmdSet& lmds) {
+  std::set<std::tuple<FeatureId, FeatureId>> pairs;
+  for (const Lmd& lmd : lmds) pairs.emplace(lmd.feature_moving, lmd.feature_fixed);
+  return pairs;
+}
+
+TEST(Exhaustive, TwoBoxesFaceToFaceAreOnePlateauAtTheCentreOfTheOverlap) {
+  const Scene scene = make_scene(make_box({0.1, 0.1, 0.1}, 3), make_box({0.1, 0.1, 0.1}, 3), 0.05);
+  const LmdSet lmds = truth(scene, moved(0.03, 0.02, 0.12));
+  ASSERT_EQ(lmds.size(), 1u);
+  EXPECT_NEAR(lmds[0].distance, 0.02, 1e-15);
+  // The overlap is [-0.02, 0.05] x [-0.03, 0.05].
+  EXPECT_LT((lmds[0].point_fixed - Vec3(0.015, 0.01, 0.05)).norm(), 1e-12);
+  EXPECT_LT((lmds[0].point_moving - Vec3(0.015, 0.01, 0.07)).norm(), 1e-12);
+  EXPECT_LT((lmds[0].direction - Vec3(0.0, 0.0, -1.0)).norm(), 1e-12);
+}
+
+TEST(Exhaustive, TwoBoxesCornerToCornerAreOneVertexPair) {
+  const Scene scene = make_scene(make_box({0.1, 0.1, 0.1}), make_box({0.1, 0.1, 0.1}), 0.05);
+  const LmdSet lmds = truth(scene, moved(0.11, 0.12, 0.13));
+  ASSERT_EQ(lmds.size(), 1u);
+  EXPECT_EQ(lmds[0].feature_moving.kind, FeatureKind::VERTEX);
+  EXPECT_EQ(lmds[0].feature_fixed.kind, FeatureKind::VERTEX);
+  EXPECT_NEAR(lmds[0].distance, std::sqrt(0.01 * 0.01 + 0.02 * 0.02 + 0.03 * 0.03), 1e-15);
+}
+
+TEST(Exhaustive, TwoBoxesEdgeToEdgeInParallelAreOneSegment) {
+  const Scene scene = make_scene(make_box({0.1, 0.1, 0.1}, 4), make_box({0.1, 0.1, 0.1}, 4), 0.05);
+  const LmdSet lmds = truth(scene, moved(0.11, 0.12, 0.03));
+  ASSERT_EQ(lmds.size(), 1u);
+  EXPECT_NEAR(lmds[0].distance, std::hypot(0.01, 0.02), 1e-15);
+  EXPECT_LT((lmds[0].point_fixed - Vec3(0.05, 0.05, 0.015)).norm(), 1e-12);
+  EXPECT_LT((lmds[0].point_moving - Vec3(0.06, 0.07, 0.015)).norm(), 1e-12);
+}
+
+TEST(Exhaustive, CrossedWedgesAreOneEdgePair) {
+  // The upper wedge is turned upside down and by a quarter turn: the sharp edges cross at right angles.
+  const Scene scene = make_scene(make_wedge(0.1, 0.2, 0.05), make_wedge(0.1, 0.2, 0.05), 0.02);
+  const double top = 0.5 * bounding_box_diagonal(scene.fixed[0]->surface().mesh);
+  Pose pose;
+  pose.rotation = Eigen::AngleAxisd(std::numbers::pi / 2, Vec3::UnitZ()) *
+                  Eigen::AngleAxisd(std::numbers::pi, Vec3::UnitX());
+  const Body &moving = *scene.moving, &fixed = *scene.fixed[0];
+  pose.translation = {0.013, 0.007, 2.0 * top};
+  pose.translation.z() -= nearest_pair(moving.surface(), moving.prepared<Hierarchy>(), fixed.surface(),
+                                       fixed.prepared<Hierarchy>(), pose)
+                              .distance -
+                          0.01;
+  const LmdSet lmds = truth(scene, pose);
+  ASSERT_EQ(lmds.size(), 1u);
+  EXPECT_EQ(lmds[0].feature_moving.kind, FeatureKind::EDGE);
+  EXPECT_EQ(lmds[0].feature_fixed.kind, FeatureKind::EDGE);
+  EXPECT_NEAR(lmds[0].distance, 0.01, 1e-12);
+}
+
+TEST(Exhaustive, AReflexEdgeCarriesNothing) {
+  // A small sphere in the notch of the L sees both arms, not the edge between them.
+  const Scene scene = make_scene(make_sphere(0.002, 1), make_l_block(0.05), 0.012);
+  int pairs = 0;
+  for (double x = -0.024; x < 0.025; x += 0.006) {
+    for (double z = -0.024; z < 0.025; z += 0.006) {
+      for (const Lmd& lmd : truth(scene, moved(x, 0.001, z))) {
+        if (lmd.intersecting) continue;
+        ++pairs;
+        if (lmd.feature_fixed.kind != FeatureKind::EDGE) continue;
+        const auto triangles = scene.fixed[0]->surface().adjacency.edge_triangles[lmd.feature_fixed.index];
+        ASSERT_EQ(triangles.size(), 2u);
+        const auto& normals = scene.fixed[0]->surface().face_normals;
+        // Convex or flat: the direction lies between the normals of the two faces.
+        const Vec3 bisector =
+            normals[static_cast<std::size_t>(triangles[0])] + normals[static_cast<std::size_t>(triangles[1])];
+        EXPECT_GT((-lmd.direction).dot(bisector.normalized()), 0.7);
+      }
+    }
+  }
+  EXPECT_GT(pairs, 10);
+}
+
+/// The definition, without the grid: every triangle pair, every corner of the incident triangles.
+TEST(Exhaustive, EqualsTheLiteralDefinition) {
+  std::size_t total = 0;
+  std::mt19937_64 random(5);
+  for (const TriangleMesh& mesh :
+       {make_torus(0.05, 0.02, 20, 10), make_patch(0.1, 10, 0.02), make_unequal(0.05, 5, 30.0)}) {
+    const Scene scene = make_scene(make_blob(0.04, 0.01, 2), mesh, 0.03);
+    for (int sample = 0; sample < 6; ++sample) {
+      const Pose pose = testing::grazing_pose(scene, 0.003, random);
+      const RigidTransform transform(pose), identity;
+      const Surface &moving = scene.moving->surface(), &fixed = scene.fixed[0]->surface();
+      std::set<std::tuple<FeatureId, FeatureId>> expected;
+      for (std::size_t a = 0; a < moving.mesh.triangles.size(); ++a) {
+        for (std::size_t b = 0; b < fixed.mesh.triangles.size(); ++b) {
+          const auto ta = static_cast<std::int32_t>(a), tb = static_cast<std::int32_t>(b);
+          const TrianglePairDistance pair =
+              triangle_distance(transform.triangle(moving.mesh.triangle(ta)), fixed.mesh.triangle(tb));
+          if (pair.squared_distance > scene.cutoff * scene.cutoff) continue;
+          Lmd lmd;
+          lmd.point_moving = pair.point_a, lmd.point_fixed = pair.point_b;
+          lmd.distance = std::sqrt(pair.squared_distance);
+          lmd.feature_moving = moving.feature_of(ta, pair.feature_a);
+          lmd.feature_fixed = fixed.feature_of(tb, pair.feature_b);
+          if (is_local_minimum(moving, transform, fixed, lmd))
+            expected.emplace(lmd.feature_moving, lmd.feature_fixed);
+        }
+      }
+      total += expected.size();
+      EXPECT_EQ(feature_pairs(truth(scene, pose)), expected);
+    }
+  }
+  EXPECT_GT(total, 20u);
+}
+
+/// What an LMD is, tested by sampling: no point of either surface near the pair's points is nearer to the
+/// other.
+TEST(Exhaustive, NoNeighbouringPointIsNearer) {
+  std::mt19937_64 random(6);
+  const Scene scene = make_scene(make_blob(0.04, 0.01, 2), make_torus(0.05, 0.02, 20, 10), 0.03);
+  int checks = 0;
+  for (int sample = 0; sample < 10; ++sample) {
+    const Pose pose = testing::grazing_pose(scene, 0.003, random);
+    const RigidTransform transform(pose);
+    const Surface& moving = scene.moving->surface();
+    for (const Lmd& lmd : truth(scene, pose)) {
+      for (const std::int32_t t : moving.incident_triangles(lmd.feature_moving)) {
+        const Triangle corners = transform.triangle(moving.mesh.triangle(t));
+        for (int i = 0; i < 20; ++i) {
+          const double u = testing::uniform(random), v = (1.0 - u) * testing::uniform(random);
+          const Vec3 far = corners[0] + u * (corners[1] - corners[0]) + v * (corners[2] - corners[0]);
+          EXPECT_GE((far - lmd.point_fixed).norm(), lmd.distance * (1.0 - 1e-9));
+          ++checks;
+        }
+      }
+    }
+  }
+  EXPECT_GT(checks, 500);
+}
+
+TEST(Exhaustive, HoldsTheMinimumDistanceAndIsSortedAndFreeOfDuplicates) {
+  std::mt19937_64 random(8);
+  const Scene scene = make_scene(make_blob(0.04, 0.01, 3), make_blob(0.05, 0.012, 3), 0.02);
+  for (int sample = 0; sample < 10; ++sample) {
+    const Pose pose = testing::grazing_pose(scene, 0.001, random);
+    const LmdSet lmds = truth(scene, pose);
+    ASSERT_FALSE(lmds.empty());
+    const Body &moving = *scene.moving, &fixed = *scene.fixed[0];
+    EXPECT_EQ(lmds[0].distance, nearest_pair(moving.surface(), moving.prepared<Hierarchy>(), fixed.surface(),
+                                             fixed.prepared<Hierarchy>(), pose)
+                                    .distance);
+    EXPECT_TRUE(std::is_sorted(lmds.begin(), lmds.end(), lmd_less));
+    EXPECT_EQ(feature_pairs(lmds).size(), lmds.size());
+  }
+}
+
+TEST(Exhaustive, TouchingSurfacesGiveOneContactWithoutDirection) {
+  const Scene scene = make_scene(make_sphere(0.05, 2), make_sphere(0.05, 2), 0.01);
+  const LmdSet lmds = truth(scene, moved(0.09, 0.003, 0.002));
+  ASSERT_FALSE(lmds.empty());
+  EXPECT_TRUE(lmds[0].intersecting);
+  EXPECT_EQ(lmds[0].distance, 0.0);
+  EXPECT_TRUE(lmds[0].direction.hasNaN());
+  EXPECT_EQ(std::count_if(lmds.begin(), lmds.end(), [](const Lmd& lmd) { return lmd.intersecting; }), 1);
+}
+
+TEST(Exhaustive, SeesEveryFixedBody) {
+  Scene scene = make_scene(make_sphere(0.05, 2), translated(make_sphere(0.05, 2), {0.11, 0.0, 0.0}), 0.02);
+  scene.fixed.push_back(testing::make_body("left", translated(make_sphere(0.05, 2), {-0.112, 0.0, 0.0})));
+  const LmdSet lmds = truth(scene, moved(0.0, 0.0003, 0.0));
+  std::set<std::int32_t> bodies;
+  for (const Lmd& lmd : lmds) bodies.insert(lmd.fixed_body);
+  EXPECT_EQ(bodies, (std::set<std::int32_t>{0, 1}));
+}
+
+TEST(Exhaustive, NearlyParallelFacesAreOneContactAtAnyTilt) {
+  // From far below the tolerance of the first-order test to far above it: the whole overlap, then one corner.
+  const Scene scene = make_scene(make_box({0.06, 0.06, 0.06}, 2), make_box({0.3, 0.3, 0.01}, 5), 0.005);
+  for (int step = 0; step <= 60; ++step) {
+    const double tilt = 1e-11 * std::pow(1.15, step);
+    Pose pose;
+    pose.translation = {0.01, 0.02, 0.0355};
+    pose.rotation = Eigen::AngleAxisd(tilt, Vec3(1.0, 0.3, 0.0).normalized());
+    for (const char* name : {"exhaustive", "certified"}) {
+      LmdSet lmds;
+      WorkCounters counters;
+      make_method(name, scene)->search(pose, lmds, counters);
+      EXPECT_EQ(lmds.size(), 1u) << name << ", tilt " << tilt;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace lmdbench

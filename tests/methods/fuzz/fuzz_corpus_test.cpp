@@ -1,0 +1,52 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "methods/fuzz/check_lmd_sets.h"
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <random>
+#include <vector>
+
+namespace lmdbench::testing {
+namespace {
+
+TEST(LmdFuzzCorpus, KeepsEveryPromise) {
+  std::vector<std::filesystem::path> files;
+  for (const auto& entry :
+       std::filesystem::directory_iterator(LMDBENCH_SOURCE_DIR "/tests/methods/fuzz/corpus"))
+    files.push_back(entry.path());
+  ASSERT_GE(files.size(), 5u);
+  std::sort(files.begin(), files.end());
+  for (const auto& path : files) {
+    std::ifstream file(path, std::ios::binary);
+    const std::vector<std::uint8_t> bytes{std::istreambuf_iterator<char>(file),
+                                          std::istreambuf_iterator<char>()};
+    const auto fuzz = scene_from_bytes(bytes);
+    ASSERT_TRUE(fuzz) << path;
+    EXPECT_EQ(broken_promise(*fuzz), "") << path;
+  }
+}
+
+TEST(LmdFuzzCheck, KeepsEveryPromiseForRandomBytes) {
+  std::mt19937_64 random(701);
+  int scenes = 0;
+  for (int i = 0; i < 3000; ++i) {
+    std::vector<std::uint8_t> bytes(160);
+    for (std::uint8_t& byte : bytes) byte = static_cast<std::uint8_t>(random());
+    if (const auto fuzz = scene_from_bytes(bytes)) {
+      ++scenes;
+      ASSERT_EQ(broken_promise(*fuzz), "") << "scene " << i;
+    }
+  }
+  EXPECT_GT(scenes, 2000);
+}
+
+TEST(LmdFuzzCheck, NeedsBytesForThePose) {
+  EXPECT_FALSE(scene_from_bytes(std::vector<std::uint8_t>(3)));
+}
+
+}  // namespace
+}  // namespace lmdbench::testing

@@ -1,0 +1,228 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/methods/exhaustive/exhaustive.h>
+#include <lmdbench/methods/improved/improved.h>
+
+#include <gtest/gtest.h>
+#include <support/scenes.h>
+
+#include <algorithm>
+
+namespace lmdbench {
+namespace {
+
+using testing::make_scene;
+
+bool holds(const LmdSet& set, const Lmd& lmd) {
+  return std::any_of(set.begin(), set.end(), [&](const Lmd& other) { return same_feature_pair(other, lmd); });
+}
+
+MethodOptions with(Visibility visibility, Reduction reduction) {
+  MethodOptions options;
+  options.visibility = visibility;
+  options.reduction = reduction;
+  return options;
+}
+
+class ImprovedTest : public ::testing::Test {
+ protected:
+  /// Calls `body(scene, pose, truth)` on grazing poses of several mesh pairs.
+  template <class Visit>
+  void on_poses(int samples, Visit&& visit) {
+    std::mt19937_64 random(21);
+    for (const TriangleMesh& mesh : {make_blob(0.05, 0.012, 3), make_torus(0.05, 0.02, 24, 12),
+                                     make_needles(0.05, 0.1, 12), make_unequal(0.05, 8, 30.0)}) {
+      const Scene scene = make_scene(make_blob(0.04, 0.01, 4), mesh, 0.015);
+      Exhaustive exhaustive(scene);
+      for (int i = 0; i < samples; ++i) {
+        const Pose pose = testing::grazing_pose(scene, 0.001, random);
+        LmdSet truth;
+        exhaustive.search(pose, truth, counters_);
+        ASSERT_FALSE(truth.empty());
+        visit(scene, pose, truth);
+      }
+    }
+  }
+  WorkCounters counters_;
+};
+
+TEST_F(ImprovedTest, CandidatesHoldEveryTrueLmdWhereNothingIsCulledByVisibility) {
+  std::size_t count = 0;
+  on_poses(10, [&](const Scene& scene, const Pose& pose, const LmdSet& truth) {
+    LmdSet candidates;
+    Improved(scene, with(Visibility::OFF, Reduction::PUBLISHED)).search(pose, candidates, counters_);
+    for (const Lmd& lmd : truth) EXPECT_TRUE(holds(candidates, lmd));
+    count += truth.size();
+  });
+  EXPECT_GT(count, 40u);
+}
+
+/// The measured finding behind design section 7: no visibility policy is conservative, and culls cost recall.
+TEST_F(ImprovedTest, VisibilityCullsLeafPairsAndNeverAddsCandidates) {
+  on_poses(3, [&](const Scene& scene, const Pose& pose, const LmdSet&) {
+    LmdSet all, culled;
+    WorkCounters work;
+    Improved(scene, with(Visibility::OFF, Reduction::PUBLISHED)).search(pose, all, counters_);
+    Improved(scene, with(Visibility::VERTEX_NORMAL, Reduction::PUBLISHED)).search(pose, culled, work);
+    EXPECT_LE(culled.size(), all.size());
+    EXPECT_EQ(work[Counter::LEAF_PAIRS],
+              work[Counter::REJECTED_VISIBILITY] + work[Counter::TRIANGLE_DISTANCES]);
+    for (const Lmd& lmd : culled)
+      EXPECT_TRUE(std::any_of(all.begin(), all.end(), [&](const Lmd& other) {
+        return other.triangle_moving == lmd.triangle_moving && other.triangle_fixed == lmd.triangle_fixed &&
+               other.distance == lmd.distance;
+      }));
+  });
+}
+
+TEST_F(ImprovedTest, LossFreeReductionKeepsEachMinimumOnce) {
+  on_poses(6, [&](const Scene& scene, const Pose& pose, const LmdSet& truth) {
+    Improved improved(scene, with(Visibility::OFF, Reduction::LOSS_FREE));
+    LmdSet lmds;
+    improved.search(pose, lmds, counters_);
+    improved.track(pose, lmds, counters_);
+    for (const Lmd& lmd : truth) EXPECT_TRUE(holds(lmds, lmd));
+    for (std::size_t i = 0; i < lmds.size(); ++i)
+      for (std::size_t j = i + 1; j < lmds.size(); ++j) EXPECT_FALSE(same_feature_pair(lmds[i], lmds[j]));
+  });
+}
+
+TEST_F(ImprovedTest, PublishedReductionKeepsASubsetWithTheNearestPair) {
+  std::size_t kept = 0, before = 0;
+  on_poses(6, [&](const Scene& scene, const Pose& pose, const LmdSet& truth) {
+    Improved published(scene, with(Visibility::OFF, Reduction::PUBLISHED));
+    Improved loss_free(scene, with(Visibility::OFF, Reduction::LOSS_FREE));
+    LmdSet candidates, all;
+    published.search(pose, candidates, counters_);
+    before += candidates.size();
+    all = candidates;
+    published.track(pose, candidates, counters_);
+    loss_free.track(pose, all, counters_);
+    kept += candidates.size();
+    EXPECT_LE(candidates.size(), all.size());
+    for (const Lmd& lmd : candidates) EXPECT_TRUE(holds(all, lmd));
+    ASSERT_FALSE(candidates.empty());
+    EXPECT_EQ(candidates[0].distance, truth[0].distance);
+  });
+  EXPECT_LT(kept * 4, before);  // the reduction is what it is there for
+}
+
+/// The finding behind decision E7: what the published rule loses is a matter of the order.
+TEST_F(ImprovedTest, ThePublishedReductionLosesLmdsInAnOrderThatIgnoresDistance) {
+  std::size_t total = 0, nearest_first = 0, by_index = 0;
+  on_poses(6, [&](const Scene& scene, const Pose& pose, const LmdSet& truth) {
+    MethodOptions options = with(Visibility::OFF, Reduction::PUBLISHED);
+    LmdSet ordered, unordered;
+    Improved first(scene, options);
+    options.tracking_order = TrackingOrder::TRIANGLE_INDEX;
+    Improved second(scene, options);
+    first.search(pose, ordered, counters_);
+    unordered = ordered;
+    first.track(pose, ordered, counters_);
+    second.track(pose, unordered, counters_);
+    total += truth.size();
+    for (const Lmd& lmd : truth) {
+      nearest_first += holds(ordered, lmd);
+      by_index += holds(unordered, lmd);
+    }
+  });
+  EXPECT_GE(nearest_first * 100, total * 98);
+  EXPECT_LT(by_index * 100, total * 97);
+}
+
+/// Decision E7: the result depends on the set, not on its order.
+TEST_F(ImprovedTest, TrackingDoesNotDependOnTheOrderOfTheSet) {
+  std::mt19937_64 random(4);
+  on_poses(4, [&](const Scene& scene, const Pose& pose, const LmdSet&) {
+    Improved improved(scene, with(Visibility::VERTEX_NORMAL, Reduction::PUBLISHED));
+    LmdSet first, second;
+    improved.search(pose, first, counters_);
+    second = first;
+    std::shuffle(second.begin(), second.end(), random);
+    improved.track(pose, first, counters_);
+    improved.track(pose, second, counters_);
+    ASSERT_EQ(first.size(), second.size());
+    for (std::size_t i = 0; i < first.size(); ++i) {
+      EXPECT_TRUE(same_feature_pair(first[i], second[i]));
+      EXPECT_EQ(first[i].distance, second[i].distance);
+    }
+  });
+}
+
+TEST_F(ImprovedTest, TrackingFollowsAMotionToTheMinimaOfTheNewPose) {
+  std::size_t followed = 0, total = 0;
+  on_poses(6, [&](const Scene& scene, const Pose& pose, const LmdSet&) {
+    Improved improved(scene, with(Visibility::OFF, Reduction::LOSS_FREE));
+    LmdSet lmds, truth;
+    improved.search(pose, lmds, counters_);
+    improved.track(pose, lmds, counters_);
+    Pose moved = pose;
+    moved.translation += Vec3(1e-4, -5e-5, 5e-5);
+    moved.rotation = Eigen::AngleAxisd(1e-3, Vec3::UnitZ()) * moved.rotation;
+    improved.track(moved, lmds, counters_);
+    Exhaustive(scene).search(moved, truth, counters_);
+    for (const Lmd& lmd : truth) {
+      if (lmd.intersecting || lmd.distance > 0.9 * scene.cutoff)
+        continue;  // may have come into reach just now
+      ++total;
+      if (holds(lmds, lmd)) ++followed;
+    }
+    for (const Lmd& lmd : lmds) EXPECT_NEAR(lmd.distance, (lmd.point_fixed - lmd.point_moving).norm(), 1e-12);
+  });
+  EXPECT_GT(total, 25u);
+  EXPECT_GE(static_cast<double>(followed), 0.9 * static_cast<double>(total));
+}
+
+TEST_F(ImprovedTest, TheCacheSavesDistancesOfNeighbours) {
+  on_poses(1, [&](const Scene& scene, const Pose& pose, const LmdSet&) {
+    Improved improved(scene, with(Visibility::OFF, Reduction::PUBLISHED));
+    LmdSet lmds;
+    WorkCounters work;
+    improved.search(pose, lmds, counters_);
+    improved.track(pose, lmds, work);
+    EXPECT_GT(work[Counter::CACHE_HITS], work[Counter::TRIANGLE_DISTANCES]);
+  });
+}
+
+/// Decision E2: the printed inequality of G3 keeps the wrong pairs. It shows where the leaves' spheres are
+/// apart.
+TEST_F(ImprovedTest, LiteralG3LosesAlmostEverything) {
+  std::mt19937_64 random(22);
+  const Scene scene = make_scene(make_blob(0.04, 0.01, 4), make_blob(0.05, 0.012, 4), 0.03);
+  MethodOptions literal = with(Visibility::OFF, Reduction::PUBLISHED);
+  literal.literal_g3 = true;
+  std::size_t kept = 0, total = 0;
+  for (int i = 0; i < 10; ++i) {
+    const Pose pose = testing::grazing_pose(scene, 0.02, random);
+    LmdSet truth, candidates;
+    Exhaustive(scene).search(pose, truth, counters_);
+    Improved(scene, literal).search(pose, candidates, counters_);
+    for (const Lmd& lmd : truth) kept += holds(candidates, lmd);
+    total += truth.size();
+  }
+  EXPECT_GT(total, 10u);
+  EXPECT_LT(kept * 4, total);
+}
+
+/// Decision E12: a contact keeps the direction that it had when it was last apart.
+TEST_F(ImprovedTest, AContactKeepsItsLastDirection) {
+  const Scene scene = make_scene(make_sphere(0.05, 2), make_sphere(0.05, 2), 0.01);
+  Improved improved(scene, with(Visibility::OFF, Reduction::LOSS_FREE));
+  Pose pose;
+  pose.translation = {0.101, 0.001, 0.002};
+  LmdSet lmds;
+  improved.search(pose, lmds, counters_);
+  improved.track(pose, lmds, counters_);
+  ASSERT_FALSE(lmds.empty());
+  const Vec3 apart = lmds[0].direction;
+  EXPECT_NEAR(apart.norm(), 1.0, 1e-12);
+  lmds.resize(1);
+  pose.translation.x() = 0.098;
+  improved.track(pose, lmds, counters_);
+  ASSERT_EQ(lmds.size(), 1u);
+  EXPECT_EQ(lmds[0].distance, 0.0);
+  EXPECT_EQ(lmds[0].direction, apart);
+}
+
+}  // namespace
+}  // namespace lmdbench

@@ -1,0 +1,178 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/geometry/triangle_distance.h>
+#include <lmdbench/methods/exhaustive/exhaustive.h>
+#include <lmdbench/methods/original/direction_verification.h>
+#include <lmdbench/methods/original/feature_points.h>
+#include <lmdbench/methods/original/original.h>
+
+#include <gtest/gtest.h>
+#include <support/scenes.h>
+
+namespace lmdbench {
+namespace {
+
+using testing::make_scene;
+
+Triangle random_triangle(std::mt19937_64& random, double size) {
+  const Vec3 centre = testing::random_direction(random);
+  return {centre + size * testing::random_direction(random),
+          centre + size * testing::random_direction(random),
+          centre + size * testing::random_direction(random)};
+}
+
+/// Radius of the smallest disc about one feature point that reaches every point of the triangle: what 7x7 can
+/// lose.
+double covering_radius(const Triangle& t) {
+  double radius = 0.0;
+  for (int i = 0; i <= 40; ++i) {
+    for (int j = 0; i + j <= 40; ++j) {
+      const Vec3 point = t[0] + (i / 40.0) * (t[1] - t[0]) + (j / 40.0) * (t[2] - t[0]);
+      double nearest = std::numeric_limits<double>::infinity();
+      for (const Vec3& feature : feature_points(t)) nearest = std::min(nearest, (feature - point).norm());
+      radius = std::max(radius, nearest);
+    }
+  }
+  return radius * 1.05;  // the samples miss the worst point by less than this
+}
+
+TEST(FeaturePoints, OverestimateTheDistanceByNoMoreThanTheCoveringRadii) {
+  std::mt19937_64 random(2);
+  for (int i = 0; i < 300; ++i) {
+    const Triangle a = random_triangle(random, 0.4), b = random_triangle(random, 0.4);
+    const double exact = std::sqrt(triangle_distance(a, b).squared_distance);
+    const double seven =
+        std::sqrt(nearest_feature_points(feature_points(a), feature_points(b)).squared_distance);
+    EXPECT_GE(seven, exact - 1e-12);
+    EXPECT_LE(seven, exact + covering_radius(a) + covering_radius(b));
+  }
+}
+
+TEST(DirectionVerification, AcceptsTheNormalSetAndItsTolerance) {
+  const Surface surface = build_surface(make_box({1.0, 1.0, 1.0}));
+  const DirectionVerification exact(surface, 1e-9), loose(surface, 0.3);
+  const auto tilted = [](const Vec3& from, const Vec3& to, double angle) {
+    return Vec3(std::cos(angle) * from + std::sin(angle) * to);
+  };
+  for (std::int32_t t = 0; t < 12; ++t) {
+    const FeatureId face{FeatureKind::FACE, t};
+    const Vec3 normal = surface.face_normals[static_cast<std::size_t>(t)];
+    EXPECT_TRUE(exact.accepts(face, normal));
+    EXPECT_FALSE(exact.accepts(face, tilted(normal, normal.unitOrthogonal(), 0.01)));
+    EXPECT_TRUE(loose.accepts(face, tilted(normal, normal.unitOrthogonal(), 0.29)));
+    EXPECT_FALSE(loose.accepts(face, tilted(normal, normal.unitOrthogonal(), 0.31)));
+    EXPECT_FALSE(loose.accepts(face, -normal));
+  }
+  int sharp = 0;
+  for (std::int32_t e = 0; e < surface.adjacency.edge_count(); ++e) {
+    const auto faces = surface.adjacency.edge_triangles[e];
+    const Vec3 n0 = surface.face_normals[static_cast<std::size_t>(faces[0])],
+               n1 = surface.face_normals[static_cast<std::size_t>(faces[1])];
+    if (n0.dot(n1) > 0.5) continue;
+    ++sharp;
+    const FeatureId edge{FeatureKind::EDGE, e};
+    const Vec3 along = n0.cross(n1).normalized(), middle = (n0 + n1).normalized();
+    EXPECT_TRUE(exact.accepts(edge, middle));
+    EXPECT_TRUE(exact.accepts(edge, tilted(n0, n1, 0.2)));
+    EXPECT_FALSE(exact.accepts(edge, tilted(middle, along, 0.01)));
+    EXPECT_TRUE(loose.accepts(edge, tilted(middle, along, 0.29)));
+    EXPECT_FALSE(loose.accepts(edge, tilted(middle, along, 0.31)));
+    EXPECT_TRUE(loose.accepts(edge, tilted(n0, Vec3(-n1), 0.29)));
+    EXPECT_FALSE(loose.accepts(edge, tilted(n0, Vec3(-n1), 0.31)));
+  }
+  EXPECT_EQ(sharp, 12);
+  for (std::int32_t v = 0; v < 8; ++v) {
+    const FeatureId vertex{FeatureKind::VERTEX, v};
+    EXPECT_TRUE(exact.accepts(vertex, surface.mesh.vertices[static_cast<std::size_t>(v)].normalized()));
+    EXPECT_FALSE(loose.accepts(vertex, -surface.mesh.vertices[static_cast<std::size_t>(v)].normalized()));
+  }
+}
+
+class OriginalTest : public ::testing::Test {
+ protected:
+  LmdSet search(const Scene& scene, const Pose& pose, double tolerance,
+                LineCone line_cone = LineCone::ONE_SIDED) {
+    MethodOptions options;
+    options.g5_tolerance_rad = tolerance;
+    options.line_cone = line_cone;
+    Original original(scene, options);
+    LmdSet lmds;
+    work_ = {};
+    original.search(pose, lmds, work_);
+    return lmds;
+  }
+  WorkCounters work_;
+};
+
+TEST_F(OriginalTest, AWiderToleranceKeepsMoreAndTheWidestAll) {
+  std::mt19937_64 random(9);
+  const Scene scene = make_scene(make_blob(0.04, 0.01, 3), make_torus(0.05, 0.02, 24, 12), 0.015);
+  std::size_t tight = 0, loose = 0, all = 0;
+  for (int i = 0; i < 10; ++i) {
+    const Pose pose = testing::grazing_pose(scene, 0.002, random);
+    tight += search(scene, pose, 0.05).size();
+    loose += search(scene, pose, 0.6).size();
+    all += search(scene, pose, std::numbers::pi).size();
+    EXPECT_EQ(work_[Counter::REJECTED_G5], 0u);
+    EXPECT_EQ(work_[Counter::FEATURE_POINT_DISTANCES], 49 * work_[Counter::LEAF_PAIRS]);
+  }
+  EXPECT_LT(tight, loose);
+  EXPECT_LT(loose, all);
+}
+
+TEST_F(OriginalTest, ATwoSidedLineConeNeverRejectsMoreNodePairs) {
+  std::mt19937_64 random(10);
+  const Scene scene = make_scene(make_blob(0.04, 0.01, 3), make_torus(0.05, 0.02, 24, 12), 0.015);
+  for (int i = 0; i < 5; ++i) {
+    const Pose pose = testing::grazing_pose(scene, 0.002, random);
+    search(scene, pose, 0.5, LineCone::ONE_SIDED);
+    const auto one_sided = work_[Counter::LEAF_PAIRS];
+    search(scene, pose, 0.5, LineCone::TWO_SIDED);
+    EXPECT_GE(work_[Counter::LEAF_PAIRS], one_sided);
+  }
+}
+
+/// Decision E13.
+TEST_F(OriginalTest, AVertexPairIsOneLmd) {
+  const Scene scene = make_scene(make_box({0.1, 0.1, 0.1}), make_box({0.1, 0.1, 0.1}), 0.05);
+  Pose pose;
+  pose.translation = {0.11, 0.12, 0.115};
+  const LmdSet lmds = search(scene, pose, 0.1);
+  ASSERT_EQ(lmds.size(), 1u);
+  EXPECT_EQ(lmds[0].feature_moving.kind, FeatureKind::VERTEX);
+  EXPECT_GT(work_[Counter::DROPPED_DUPLICATES], 0u);
+}
+
+/// The defect that the paper sets out to mend: over a large triangle the nearest feature points are far off.
+TEST_F(OriginalTest, MissesWhatALargeTriangleHides) {
+  const Scene scene = make_scene(make_sphere(0.002, 1), make_box({0.1, 0.1, 0.1}), 0.002);
+  Pose pose;
+  pose.translation = {0.021, 0.013, 0.053};
+  LmdSet truth;
+  Exhaustive(scene).search(pose, truth, work_);
+  EXPECT_EQ(truth.size(), 1u);
+  EXPECT_TRUE(search(scene, pose, 1.0).empty());
+}
+
+TEST_F(OriginalTest, TrackingNeverLengthensAPairAtRest) {
+  std::mt19937_64 random(12);
+  const Scene scene = make_scene(make_blob(0.04, 0.01, 3), make_torus(0.05, 0.02, 24, 12), 0.015);
+  Original original(scene, {});
+  for (int i = 0; i < 5; ++i) {
+    const Pose pose = testing::grazing_pose(scene, 0.001, random);
+    LmdSet lmds;
+    original.search(pose, lmds, work_);
+    LmdSet tracked = lmds;
+    original.track(pose, tracked, work_);
+    ASSERT_LE(tracked.size(), lmds.size());
+    if (lmds.empty()) continue;
+    EXPECT_LE(tracked[0].distance, lmds[0].distance);
+    LmdSet again = tracked;
+    original.track(pose, again, work_);
+    ASSERT_EQ(again.size(), tracked.size());
+    for (std::size_t k = 0; k < again.size(); ++k) EXPECT_TRUE(same_feature_pair(again[k], tracked[k]));
+  }
+}
+
+}  // namespace
+}  // namespace lmdbench
