@@ -38,8 +38,8 @@ const std::vector<Variant>& variants() {
 
 std::vector<CutoffResult> judge_poses(Scene scene, double diagonal, const std::vector<double>& cutoffs,
                                       const std::vector<Pose>& poses, const Complain& complain) {
-  // An LMD does not depend on the cutoff, only whether it counts: the largest cutoff's truth holds the
-  // others'.
+  // An LMD does not depend on the cutoff, only whether it counts: the largest
+  // cutoff's truth holds the others'.
   scene.cutoff = *std::max_element(cutoffs.begin(), cutoffs.end()) * diagonal;
   const std::unique_ptr<Method> exhaustive = make_method("exhaustive", scene);
   std::vector<CutoffResult> results;

@@ -13,8 +13,8 @@
 #include <string>
 #include <vector>
 
-/// Tasks along a recorded path: what one haptic frame takes ("whole frame"), and what its local part takes
-/// ("local tracking").
+/// Tasks along a recorded path: what one haptic frame takes ("whole frame"), and what its
+/// local part takes ("local tracking").
 namespace lmdbench::micro {
 
 /// Consecutive frames of an experiment, with the truth at some of them.

@@ -35,8 +35,8 @@ struct LmdError {
   MatchCount feature_pairs;        ///< Empty counts for peers without an LMD set.
   MatchCount neighbours;           ///< The same, neighbouring features counting as found.
   std::size_t minimum_missed = 0;  ///< Poses where the minimum distance is not the true one.
-  /// Largest relative overestimate of the minimum distance; infinite where nothing was found though there was
-  /// an LMD.
+  /// Largest relative overestimate of the minimum distance; infinite where nothing was
+  /// found though there was an LMD.
   double worst_minimum_error = 0.0;
 
   /// Adds one pose. A pose without a true LMD within the cutoff says nothing about the minimum distance and

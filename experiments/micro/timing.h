@@ -16,13 +16,13 @@ struct TimedTask {
   std::function<void(std::size_t pose)> prepare = {};  ///< Goes before each run, not timed; may be empty.
 };
 
-/// Processor time [s] of the calling thread, so that other programs on the machine count as little as they
-/// can.
+/// Processor time [s] of the calling thread, so that other programs on the machine
+/// count as little as they can.
 double thread_seconds();
 
-/// seconds[task][pose]: the median of `repetitions` runs. All tasks run at a pose before the next pose comes,
-/// in an order that rotates, so drifts of the machine meet every task alike. One unrecorded run of everything
-/// goes first.
+/// seconds[task][pose]: the median of `repetitions` runs. All tasks run at a pose before the next
+/// pose comes, in an order that rotates, so drifts of the machine meet every task alike. One
+/// unrecorded run of everything goes first.
 std::vector<std::vector<double>> time_interleaved(const std::vector<TimedTask>& tasks, std::size_t pose_count,
                                                   std::size_t repetitions);
 

@@ -32,8 +32,8 @@ struct VariantResult {
   micro::MatchCount feature_pairs;
   micro::MatchCount adjacent;
   std::size_t poses_with_loss = 0;  ///< Poses with at least one true LMD whose feature pair is missing.
-  /// Poses whose nearest true LMD has no reported LMD at its distance (relative 1e-6): the force's main part
-  /// is off.
+  /// Poses whose nearest true LMD has no reported LMD at its distance (relative 1e-6):
+  /// the force's main part is off.
   std::size_t minimum_missed = 0;
 };
 

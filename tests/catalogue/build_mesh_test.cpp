@@ -31,8 +31,8 @@ using ::testing::HasSubstr;
 
 void ignore(const std::string&) {}
 
-// A manifest with one source, and the package that holds it: made here with dpkg-deb, so no network is
-// needed.
+// A manifest with one source, and the package that holds it: made here with
+// dpkg-deb, so no network is needed.
 class BuildMeshTest : public ::testing::Test {
  protected:
   void SetUp() override {

@@ -6,8 +6,8 @@
 
 #include <string>
 
-/// What a user can get wrong, through the real program: exit code, and a message that names the file and the
-/// place.
+/// What a user can get wrong, through the real program: exit code, and a message that
+/// names the file and the place.
 namespace lmdbench::testing {
 namespace {
 

@@ -25,9 +25,9 @@ struct FakeTraits {
   int trackings_after_search = 2;
 };
 
-/// Finds three LMDs at a distance of 1 mm per frame of the pose; the first tracking after a search drops one
-/// of them. tracked sets carry the pose's frame as distance, so that the driver's working set tells its
-/// history.
+/// Finds three LMDs at a distance of 1 mm per frame of the pose; the first tracking after a
+/// search drops one of them. tracked sets carry the pose's frame as distance, so that the
+/// driver's working set tells its history.
 class FakeMethod : public Method {
  public:
   FakeMethod(std::string tag, FakeTraits traits, Log* log, double drift)

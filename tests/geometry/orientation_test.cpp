@@ -74,8 +74,8 @@ TEST(Orientation, TwoDimensionsAgreeWithRationals) {
   std::uniform_int_distribution<int> steps(-2, 2);
   int zeros = 0;
   for (int round = 0; round < 20000; ++round) {
-    // Three points of a line, on a lattice or up to rounding, the last moved by a few units in the last
-    // place.
+    // Three points of a line, on a lattice or up to rounding, the last moved by a
+    // few units in the last place.
     const bool on_lattice = round % 2 == 0;
     const auto point = [&] {
       const double first = coordinate(random);

@@ -45,8 +45,8 @@ TEST(PointTriangle, ReportsEveryRegion) {
 }
 
 TEST(PointTriangle, StandsNeedles) {
-  // The altitude is 1e-10 of the edge; the nearest point is inside, far from every edge by the needle's
-  // measure.
+  // The altitude is 1e-10 of the edge; the nearest point is inside, far from every
+  // edge by the needle's measure.
   const Triangle needle{Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0.5, 1e-10, 0)};
   const auto result = point_triangle_distance(Vec3(0.5, 0.25e-10, 1e-6), needle);
   EXPECT_EQ(result.feature, TriangleFeature::FACE);

@@ -48,8 +48,8 @@ TEST(BoundingSphere, OfACubeIsItsHalfDiagonal) {
 TEST(BoundingSphere, HoldsEveryPointAndIsTheSmallest) {
   std::mt19937_64 random(3);
   for (int round = 0; round < 300; ++round) {
-    // Points in the unit ball with four on its surface round the centre: the unit ball is the smallest
-    // sphere.
+    // Points in the unit ball with four on its surface round the centre: the unit
+    // ball is the smallest sphere.
     const double scale = std::pow(10.0, round % 13 - 6);
     const Vec3 centre = random_point(random) * scale;
     std::vector<Vec3> points;

@@ -95,8 +95,8 @@ TEST(TriangleDistanceBatch, TakesEveryCount) {
 }
 
 TEST(TriangleDistanceBatch, LeavesGeneralPairsToVectors) {
-  // What the scalar kernel gets costs ten times as much; a margin too wide would show here, not in any
-  // result.
+  // What the scalar kernel gets costs ten times as much; a margin too wide would
+  // show here, not in any result.
   Pairs pairs(testing::triangle_families()[0], 303, 10000);
   const TriangleBatchStages stages = triangle_distance_batch_stages(pairs.a, pairs.b, pairs.results);
   EXPECT_GT(stages.first_step, 3000U);

@@ -13,8 +13,8 @@ struct TrianglePair {
 /// The pair with every corner scaled, rotated and moved.
 TrianglePair transformed(const TrianglePair& pair, double scale, const Mat3& rotation, const Vec3& offset);
 
-/// The pair with the corners of both triangles reordered (0 <= order < 36) and, for order >= 36, swapped (<
-/// 72).
+/// The pair with the corners of both triangles reordered (0 <= order < 36) and, for
+/// order >= 36, swapped (< 72).
 TrianglePair reordered(const TrianglePair& pair, int order);
 
 /// Largest absolute coordinate of the pair: the scale that errors are relative to.

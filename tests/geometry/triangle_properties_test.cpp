@@ -26,8 +26,8 @@ double distance(const TrianglePair& pair) {
   return std::sqrt(triangle_distance(pair.a, pair.b).squared_distance);
 }
 
-/// A pair of any family but those whose magnitudes leave no room for a transform, and an engine to go on
-/// with.
+/// A pair of any family but those whose magnitudes leave no room for a transform,
+/// and an engine to go on with.
 TrianglePair any_pair(Random& random) {
   const auto families = testing::triangle_families();
   for (;;) {

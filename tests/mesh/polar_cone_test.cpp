@@ -228,9 +228,9 @@ TEST_P(AnyShapeTest, GeneratorsAgreeWithTheDefinition) {
   }
 }
 
-// A point near the surface, in the direction of a feature's cone, has its nearest point among the incident
-// triangles on that feature: what makes the cone an LMD's. Checked by distances to a fine sample of those
-// triangles.
+// A point near the surface, in the direction of a feature's cone, has its nearest point among
+// the incident triangles on that feature: what makes the cone an LMD's. Checked by distances to
+// a fine sample of those triangles.
 TEST_P(AnyShapeTest, NothingIncidentIsNearerThanTheFeature) {
   const Surface surface = build_surface(GetParam().mesh);
   std::mt19937 random(5);

@@ -97,9 +97,9 @@ TEST(PolarRaysTest, HullCoversTheWholeConeEvenWhenItHoldsALine) {
   for (const Case& c : cases) {
     const auto rays = polar_rays(c.directions, Vec3::Zero(), 1e-8);
     ASSERT_FALSE(rays.empty()) << c.name;
-    // Directions of the polar's own polar: positive combinations of the given ones, and nothing else, may
-    // have all rays on their negative side. A direction s that separates a ray-free part of the cone would be
-    // another.
+    // Directions of the polar's own polar: positive combinations of the given ones, and nothing
+    // else, may have all rays on their negative side. A direction s that separates a ray-free
+    // part of the cone would be another.
     for (int i = 0; i < 20000; ++i) {
       const Vec3 s = Vec3(normal(random), normal(random), normal(random)).normalized();
       const bool all_rays_behind =

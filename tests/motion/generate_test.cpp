@@ -128,8 +128,8 @@ TEST(GeneratePath, TwoBallsFollowTheGapProfile) {
     const double gap = BALLS.distance(frames[k].pose);
     const double wanted = 0.15 * wanted_gap(spec.gaps, frames[k].time);
     EXPECT_GE(gap, wanted * (1.0 - 1e-3) - 1e-7) << k;
-    // In close contact the gap is the wanted one to a part in a hundred; on the way in the limits may hold it
-    // back.
+    // In close contact the gap is the wanted one to a part in a hundred; on the way in
+    // the limits may hold it back.
     if (wanted_gap(spec.gaps, frames[k].time) < 0.0011 && frames[k].time > 1.2 && frames[k].time < 2.0) {
       EXPECT_LE(gap, wanted * 1.01) << k;
     }

@@ -16,8 +16,8 @@ namespace lmdbench::testing {
 struct DistanceAnswer {
   double distance = 0.0;
   bool touches = false;  ///< Its own flag where it has one, else distance 0.
-  /// Its nearest points, where it promises them in every case. FCL's are arbitrary in contact, CGAL gives
-  /// none.
+  /// Its nearest points, where it promises them in every case. FCL's are arbitrary
+  /// in contact, CGAL gives none.
   std::optional<Segment> points;
 };
 

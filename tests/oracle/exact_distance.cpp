@@ -21,8 +21,8 @@ Exact::Triangle_3 exact(const Triangle& t) {
   return {exact(t[0]), exact(t[1]), exact(t[2])};
 }
 
-/// Square root of a rational. Scaled to near 1 first, because the square of a small distance may be a
-/// denormal.
+/// Square root of a rational. Scaled to near 1 first, because the square of a small
+/// distance may be a denormal.
 double root(const CGAL::Gmpq& squared) {
   if (squared == 0) return 0.0;
   int exponent = static_cast<int>(mpz_sizeinbase(squared.numerator().mpz(), 2)) -
@@ -44,8 +44,8 @@ double exact_distance(const Triangle& a, const Triangle& b) {
 }
 
 double exact_distance(const Vec3& point, const Triangle& triangle) {
-  // As a triangle of three equal corners: the point-triangle overload needs a plane, which a flat triangle
-  // has not.
+  // As a triangle of three equal corners: the point-triangle overload needs a plane,
+  // which a flat triangle has not.
   const Vec3& p = point;
   return exact_distance(Triangle{p, p, p}, triangle);
 }

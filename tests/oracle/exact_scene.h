@@ -15,8 +15,8 @@
 /// the angle weights of vertex pseudo-normals (long double) and the reported numbers.
 namespace lmdbench::exact {
 
-/// Roundings that a distance or a difference of points may carry in double precision, in epsilons of the
-/// largest coordinate.
+/// Roundings that a distance or a difference of points may carry in double precision, in
+/// epsilons of the largest coordinate.
 inline constexpr double ROUNDINGS = 64.0;
 
 /// A pair of features with a critical point of the distance in both interiors that meets the first-order
@@ -28,9 +28,9 @@ struct ExactLmd {
   double distance = 0.0;  ///< Rounded once, as the points [m].
   Vec3 point_moving = Vec3::Zero();
   Vec3 point_fixed = Vec3::Zero();
-  /// Whether rounding of double precision could not have decided otherwise: the distance is not within
-  /// rounding of the cutoff or of zero, and no outer side hangs on a sign near zero or a triangle that is all
-  /// but flat.
+  /// Whether rounding of double precision could not have decided otherwise: the distance is not
+  /// within rounding of the cutoff or of zero, and no outer side hangs on a sign near zero or a
+  /// triangle that is all but flat.
   bool certain = true;
 };
 

@@ -13,8 +13,8 @@ namespace lmdbench::exact {
 /// Sine below which an outer side or the area of a triangle is left to rounding.
 inline constexpr double UNCERTAIN_SINE = 1e-9;
 
-/// One mesh of the scene with its vertices in the world as RigidTransform rounds them: from here on they are
-/// exact.
+/// One mesh of the scene with its vertices in the world as RigidTransform rounds them:
+/// from here on they are exact.
 class WorldBody {
  public:
   WorldBody(const Surface& surface, const RigidTransform& X_WS);

@@ -56,8 +56,8 @@ struct Ledger {
   std::vector<LedgerRow> rows;  ///< Frames in which any two differ, fcl-unscaled among them.
 };
 
-/// Reads a result with an FCL cross-check, loads its scene again and arbitrates every frame in which opinions
-/// differ.
+/// Reads a result with an FCL cross-check, loads its scene again and arbitrates every
+/// frame in which opinions differ.
 /// @param experiment_file  the experiment's file: relative names in the result are relative to its folder
 /// @throws InputError when the result has no cross-check or does not fit the meshes and path found
 Ledger arbitrate(const std::filesystem::path& result, const std::filesystem::path& experiment_file);

@@ -44,8 +44,8 @@ TEST(LedgerRows, ExtremeFlushCubesFrame72) {
   }
 }
 
-/// Two triangles with parallel bases: three and a half times too far, so that the meshes come out too far as
-/// well.
+/// Two triangles with parallel bases: three and a half times too far, so that the
+/// meshes come out too far as well.
 TEST(LedgerRows, ExtremeCombsFrame453) {
   const Pose X_WM{Vec3(-0.020473780035273368, 0.01002052910052911, 0.0056515249664903008),
                   Eigen::Quaterniond(0.11968797676063503, 0, 0.99281155725492332, 0)};  // w, x, y, z

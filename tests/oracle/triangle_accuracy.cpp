@@ -54,8 +54,8 @@ void print_times() {
 
 }  // namespace
 
-/// Prints tests/oracle/triangle_accuracy.md, half a minute; with --million triangle_accuracy_million.md, some
-/// minutes.
+/// Prints tests/oracle/triangle_accuracy.md, half a minute; with --million
+/// triangle_accuracy_million.md, some minutes.
 int main(int argc, char** argv) {
   if (argc == 2 && std::string_view(argv[1]) == "--million") {
     fmt::print("# Triangle distances: a million pairs a family\n\n");

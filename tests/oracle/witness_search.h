@@ -44,9 +44,9 @@ struct Witness {
   Real squared_distance = -1;  ///< as the search sees it; negative for none
 };
 
-/// Looks for the nearest points of two triangles: ends and insides of edge pairs, corners over faces, and
-/// edges through faces. Textbook formulas without any tolerance: whoever uses the outcome bounds it by
-/// itself.
+/// Looks for the nearest points of two triangles: ends and insides of edge pairs, corners
+/// over faces, and edges through faces. Textbook formulas without any tolerance: whoever uses
+/// the outcome bounds it by itself.
 template <class Real>
 class WitnessSearch {
  public:
@@ -150,8 +150,8 @@ class WitnessSearch {
       const Real part = height[k] / (height[k] - height[l]);
       std::array<Real, 3> meeting;
       for (int i = 1; i < 3; ++i) meeting[i] = weights[k][i] + part * (weights[l][i] - weights[k][i]);
-      // From the rounded two: weights of far corners are large, and the sum of three roundings would not
-      // be 1.
+      // From the rounded two: weights of far corners are large, and the sum of
+      // three roundings would not be 1.
       meeting[0] = 1 - meeting[1] - meeting[2];
       keep_if_inside(meeting, on_edge(k, part), n, 0, swap);
     }

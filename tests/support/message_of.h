@@ -9,8 +9,8 @@
 
 namespace lmdbench::testing {
 
-/// Message of the error that `action` throws; a test failure and an empty text when it throws none of that
-/// type.
+/// Message of the error that `action` throws; a test failure and an empty text when
+/// it throws none of that type.
 template <typename ErrorType, typename Action>
 std::string message_of(const Action& action) {
   try {

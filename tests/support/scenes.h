@@ -46,9 +46,9 @@ inline Eigen::Quaterniond random_rotation(std::mt19937_64& random) {
           std::sqrt(u) * std::cos(b)};
 }
 
-/// A pose of random orientation whose distance to the scene's first fixed body is `gap`, reached from outside
-/// by conservative advancement: distance is 1-Lipschitz in translation, so steps of distance minus gap never
-/// overshoot.
+/// A pose of random orientation whose distance to the scene's first fixed body is `gap`, reached
+/// from outside by conservative advancement: distance is 1-Lipschitz in translation, so steps of
+/// distance minus gap never overshoot.
 inline Pose grazing_pose(const Scene& scene, double gap, std::mt19937_64& random) {
   const Body& moving = *scene.moving;
   const Body& fixed = *scene.fixed[0];

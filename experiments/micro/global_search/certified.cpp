@@ -4,8 +4,8 @@
 
 namespace lmdbench::micro {
 
-/// The exact and complete method. Along a path it reuses the last frame's work; random poses leave nothing to
-/// reuse.
+/// The exact and complete method. Along a path it reuses the last frame's work; random
+/// poses leave nothing to reuse.
 SearchImplementation certified_search() {
   return {"certified", Exactness::COMPLETE_SET, false,
           [](const Scene& scene) { return make_method_search("certified", scene, 0); }};

@@ -45,8 +45,8 @@ SearchImplementation fcl_warm_search();
 SearchImplementation embree_search();
 SearchImplementation cgal_vertex_search();
 
-/// All that this build knows, in the order of reports, but for `cgal_vertex_search`, which has a program of
-/// its own.
+/// All that this build knows, in the order of reports, but for `cgal_vertex_search`,
+/// which has a program of its own.
 std::vector<SearchImplementation> search_implementations();
 
 /// A method's `search` as an implementation, followed by its trackings in the global thread where wanted.

@@ -8,9 +8,9 @@
 #include <micro/timing.h>
 #include <nlohmann/json.hpp>
 
-/// Times every implementation of the task "global search" on the same poses, interleaved pose by pose, and
-/// reports the error of each beside its time. Exit code 1 when an implementation does not do what it
-/// promises.
+/// Times every implementation of the task "global search" on the same poses, interleaved
+/// pose by pose, and reports the error of each beside its time. Exit code 1 when an
+/// implementation does not do what it promises.
 namespace lmdbench::micro {
 namespace {
 

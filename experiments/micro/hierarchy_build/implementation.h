@@ -11,8 +11,8 @@
 
 namespace lmdbench::micro {
 
-/// A query to a finished hierarchy: how far is the mesh from a small box? With the truth, found by looking at
-/// every triangle.
+/// A query to a finished hierarchy: how far is the mesh from a small box? With the truth,
+/// found by looking at every triangle.
 struct BuildProbe {
   TriangleMesh box;  ///< Small beside the mesh, and apart from it.
   double distance_from_box = 0.0;

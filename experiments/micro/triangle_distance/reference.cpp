@@ -19,8 +19,8 @@ double segment_norm(const Vec3& a, const Vec3& b) {
   return (a + std::clamp(-a.dot(ab) / squared_length, 0.0, 1.0) * ab).norm();
 }
 
-/// Distance of the origin from the inside of a triangle; infinite when its foot lies outside, where an edge
-/// is nearer.
+/// Distance of the origin from the inside of a triangle; infinite when its foot lies
+/// outside, where an edge is nearer.
 double face_norm(const Vec3& a, const Vec3& b, const Vec3& c) {
   const Vec3 normal = (b - a).cross(c - a);
   const double squared_norm = normal.squaredNorm();

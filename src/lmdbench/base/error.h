@@ -5,8 +5,8 @@
 #include <stdexcept>
 #include <string>
 
-/// Errors that end a command. The library throws them and never prints or aborts; `cli/` maps them to exit
-/// codes.
+/// Errors that end a command. The library throws them and never prints or aborts;
+/// `cli/` maps them to exit codes.
 namespace lmdbench {
 
 /// Exit codes of the command line (design contract; scripts depend on them).

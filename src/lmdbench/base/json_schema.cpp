@@ -130,8 +130,8 @@ void validate_against_schema(const Json& document, const Json& schema_json, cons
   const valijson::adapters::NlohmannJsonAdapter target(document);
   if (valijson::Validator().validate(schema, target, &results)) return;
 
-  // The validator reports the innermost violation first, then every enclosing object: only the first one
-  // helps.
+  // The validator reports the innermost violation first, then every enclosing
+  // object: only the first one helps.
   valijson::ValidationResults::Error error;
   results.popError(error);
   std::vector<std::string> place;

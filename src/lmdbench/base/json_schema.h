@@ -6,9 +6,9 @@
 
 #include <string>
 
-/// Checking and completing JSON documents against a draft-07 schema. Two things are done here instead of by
-/// the validator, because its messages could not help the user: unknown keys (with the nearest known one) and
-/// defaults.
+/// Checking and completing JSON documents against a draft-07 schema. Two things are done here
+/// instead of by the validator, because its messages could not help the user: unknown keys (with
+/// the nearest known one) and defaults.
 namespace lmdbench {
 
 /// Keys that the schema does not know are refused wherever it says "additionalProperties": false. A property
@@ -24,8 +24,8 @@ void validate_against_schema(const nlohmann::json& document, const nlohmann::jso
 /// Adds every absent property that has a "default" (and applies), to any depth.
 void fill_defaults(nlohmann::json& document, const nlohmann::json& schema);
 
-/// The candidate nearest to `word` by edit distance, or an empty string when none is near enough to be a
-/// slip.
+/// The candidate nearest to `word` by edit distance, or an empty string when none
+/// is near enough to be a slip.
 std::string nearest_word(const std::string& word, const std::vector<std::string>& candidates);
 
 }  // namespace lmdbench

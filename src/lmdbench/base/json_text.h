@@ -11,8 +11,8 @@
 /// Reading JSON text for people: places in messages, no silently lost keys, overrides from the command line.
 namespace lmdbench {
 
-/// @throws UsageError with line and column for text that is not JSON, with the key for one that an object
-/// repeats
+/// @throws UsageError with line and column for text that is not JSON, with the key for one that an
+///         object repeats
 nlohmann::json parse_json(const std::string& text, const std::string& file);
 
 /// Applies one "/json/pointer=value"; a value that is not JSON is taken as a string. "/methods/-" appends.

@@ -13,9 +13,8 @@ namespace lmdbench {
 class PartFile {
  public:
   /// Makes missing parent directories and the empty `.part` file.
-  /// @throws EnvironmentError when the name is a directory, when a directory or file cannot be made, or when
-  /// another
-  ///         process is writing the same result
+  /// @throws EnvironmentError when the name is a directory, when a directory or file cannot be made, or
+  ///         when another process is writing the same result
   explicit PartFile(std::filesystem::path final_name);
   ~PartFile();  ///< Releases the lock; the `.part` file stays where `publish` was not reached.
   PartFile(const PartFile&) = delete;
@@ -26,8 +25,8 @@ class PartFile {
 
   /// Writes the content, brings it to the disk and renames; what had the final name before is replaced at
   /// once. May be tried again when it failed.
-  /// @throws EnvironmentError; the earlier file of the final name is then untouched and the `.part` file
-  /// empty
+  /// @throws EnvironmentError; the earlier file of the final name is then untouched and the `.part`
+  ///         file empty
   void publish(std::span<const std::byte> content);
 
  private:

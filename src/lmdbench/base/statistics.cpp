@@ -28,8 +28,8 @@ double percentile(std::vector<double> values, double p) {
   const auto below = static_cast<std::size_t>(position);
   const std::size_t above = std::min(below + 1, values.size() - 1);
   const double fraction = position - static_cast<double>(below);
-  // Equal neighbours (also two infinities) are returned as they are: interpolation would make NaN of
-  // infinities.
+  // Equal neighbours (also two infinities) are returned as they are: interpolation
+  // would make NaN of infinities.
   if (fraction == 0.0 || values[below] == values[above]) return values[below];
   return values[below] + fraction * (values[above] - values[below]);
 }

@@ -25,8 +25,8 @@ constexpr const char* NPM_REMEDY =
     "experiment "
     "of the paper needs it";
 
-// Removed with all it holds at the end of its scope. Stands beside the final place, so that files can be
-// renamed.
+// Removed with all it holds at the end of its scope. Stands beside the final place,
+// so that files can be renamed.
 class TemporaryFolder {
  public:
   explicit TemporaryFolder(const fs::path& parent) {

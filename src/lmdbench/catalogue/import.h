@@ -10,8 +10,8 @@ namespace lmdbench {
 
 /// Reads a mesh file, whatever format assimp knows (PLY, OBJ, STL, glTF, ...), and OFF by `read_off`.
 ///
-/// - All meshes of the file are merged, each moved by its node's transform; mirrored ones are turned right
-/// side out.
+/// - All meshes of the file are merged, each moved by its node's transform; mirrored ones are turned
+///   right side out.
 /// - Vertices with bit-identical positions are welded (0 and -0 count as one), because formats such as STL
 ///   give every triangle its own corners, and adjacency, normals and polar cones need to know who meets whom.
 ///   Never by a distance: an epsilon would close real gaps, collapse small triangles and depend on the
@@ -20,16 +20,15 @@ namespace lmdbench {
 ///   them). Polygons become triangles in place. Points and lines are no surface and are left out.
 /// - Vertices keep the file's order too, but those that no triangle uses are left out: they are not on the
 ///   surface and must not count for its size.
-/// - Coordinates are taken as they are; no unit is guessed. All formats but OFF are read in single precision
-/// (assimp).
+/// - Coordinates are taken as they are; no unit is guessed. All formats but OFF are read in single
+///   precision (assimp).
 ///
-/// @throws InputError when the file cannot be read, holds no triangle, a coordinate that is not finite or an
-/// index out
-///         of range; it names the vertex or triangle, counted from 0
+/// @throws InputError when the file cannot be read, holds no triangle, a coordinate that is not finite or
+///         an index out of range; it names the vertex or triangle, counted from 0
 TriangleMesh import_mesh(const std::filesystem::path& file);
 
-/// Welds vertices with bit-identical positions and drops those without triangles; the order of the first ones
-/// stays.
+/// Welds vertices with bit-identical positions and drops those without triangles; the
+/// order of the first ones stays.
 TriangleMesh welded(const TriangleMesh& mesh);
 
 }  // namespace lmdbench

@@ -128,8 +128,8 @@ std::optional<TriangleMesh> read_off(const std::filesystem::path& file) {
     lines.fail("the file ends after its keyword", "get the file again: it may be cut short");
   if (lines.word() == "BINARY") return std::nullopt;
 
-  // Once more from the start, now that the layout is known: the counts stand on the keyword's line or the
-  // next.
+  // Once more from the start, now that the layout is known: the counts stand on the
+  // keyword's line or the next.
   LineReader again(file.string(), text);
   again.next_line();
   again.word();

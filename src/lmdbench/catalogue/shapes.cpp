@@ -29,8 +29,8 @@ std::array<double, 2> circle_point(int i, int n) {
 // Ridges round the spindle of needles.
 constexpr std::int32_t NEEDLE_RIDGES = 5;
 
-// Surface of the box spanned by three ascending rows of coordinates, with a vertex on every surface lattice
-// point.
+// Surface of the box spanned by three ascending rows of coordinates, with a vertex on
+// every surface lattice point.
 TriangleMesh lattice_box(const std::array<std::vector<double>, 3>& coordinates) {
   TriangleMesh mesh;
   std::map<std::array<std::size_t, 3>, std::int32_t> numbers;

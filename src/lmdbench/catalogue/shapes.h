@@ -6,9 +6,8 @@
 
 /// Generated shapes: for tests and for work without a network. All lengths are metres, all triangles
 /// counter-clockwise seen from outside, every shape centred at the origin. The same arguments give the same
-/// bits on every processor: sines are rounded to multiples of 2^-30, because their last bits depend
-/// on the processor's instruction set. Counts below their least useful value are a programming error
-/// (asserted).
+/// bits on every processor: sines are rounded to multiples of 2^-30, because their last bits depend on the
+/// processor's instruction set. Counts below their least useful value are a programming error (asserted).
 namespace lmdbench {
 
 /// Icosphere: 20 * 4^subdivisions triangles, nearly equal.
@@ -20,8 +19,8 @@ TriangleMesh make_box(const Vec3& size, int cells = 1);
 /// Torus about the z axis: 2 * ring_cells * tube_cells triangles; convex outside, saddles inside, genus 1.
 TriangleMesh make_torus(double ring_radius, double tube_radius, int ring_cells, int tube_cells);
 
-/// Icosphere with smooth bumps and dents of up to `bump_height`: many separate convex places, like a scanned
-/// object.
+/// Icosphere with smooth bumps and dents of up to `bump_height`: many separate convex
+/// places, like a scanned object.
 TriangleMesh make_blob(double radius, double bump_height, int subdivisions);
 
 /// Bumpy closed shape of 12 * cells^2 triangles whose sides differ by a factor of about `ratio` (> 1): tiny
@@ -38,8 +37,8 @@ TriangleMesh make_needles(double radius, double height, int count, double groove
 /// the outline again and again. The outermost angles are 180 - 360 / count degrees.
 TriangleMesh make_caps(double radius, double height, int count);
 
-/// Open wavy patch over the square [-size/2, size/2]^2, outer side up: 2 * cells^2 triangles, one boundary
-/// loop.
+/// Open wavy patch over the square [-size/2, size/2]^2, outer side up: 2 * cells^2
+/// triangles, one boundary loop.
 TriangleMesh make_patch(double size, int cells, double wave_height);
 
 /// Wedge: a prism along y whose upper edge is sharp: 8 triangles. The base is `width` (x) by `length` (y),

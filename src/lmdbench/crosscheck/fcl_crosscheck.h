@@ -54,8 +54,8 @@ class FclCrosscheck {
   FclCrosscheck(FclCrosscheck&& other) noexcept;
   FclCrosscheck& operator=(FclCrosscheck&& other) noexcept;
 
-  /// Nearest pair, searched from scratch: how FCL itself starts every query. May be called from several
-  /// threads.
+  /// Nearest pair, searched from scratch: how FCL itself starts every query. May be
+  /// called from several threads.
   FclResult distance(const Pose& X_WM) const;
 
   /// The same, started from the bound that the last warm query's triangle pairs give at the new pose. FCL has

@@ -23,9 +23,9 @@ struct FclTriangleDistance {
 /// edges; see fcl_crosscheck.h for the remedy of the first.
 FclTriangleDistance fcl_triangle_distance(const Triangle& a, const Triangle& b);
 
-/// What the kernel answers about one pair of triangles within a query of FclCrosscheck, to the last bit: FCL
-/// then hands it the triangles in their own frames, with the relative pose, and its errors hang on such
-/// roundings.
+/// What the kernel answers about one pair of triangles within a query of FclCrosscheck, to the
+/// last bit: FCL then hands it the triangles in their own frames, with the relative pose, and
+/// its errors hang on such roundings.
 /// @param moving_M  a triangle of the moving mesh, in that mesh's frame, metres
 /// @param fixed_W   a triangle of a fixed mesh, metres
 /// @param scale     FclCrosscheck::scale(); 1 for FclScaling::NONE

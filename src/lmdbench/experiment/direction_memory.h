@@ -8,10 +8,10 @@
 
 namespace lmdbench {
 
-/// Decision E12, ours: triangles that touch have no direction between them, so an LMD at distance 0 keeps the
-/// last valid one: that of the same feature pair a frame ago, else that of the nearest LMD of that frame on
-/// the same fixed mesh, within reach of the cutoff. Without either it stays without direction and exerts no
-/// force.
+/// Decision E12, ours: triangles that touch have no direction between them, so an LMD at distance 0
+/// keeps the last valid one: that of the same feature pair a frame ago, else that of the nearest
+/// LMD of that frame on the same fixed mesh, within reach of the cutoff. Without either it stays
+/// without direction and exerts no force.
 class DirectionMemory {
  public:
   /// @param cutoff how far the borrowed direction's LMD may lie from the one that borrows [m]

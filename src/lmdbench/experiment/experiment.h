@@ -82,9 +82,8 @@ struct Experiment {
 using Override = std::string;
 
 /// Reads, overrides, checks and completes an experiment.
-/// @throws UsageError naming the JSON pointer at fault: not JSON, unknown or repeated key, wrong type, value
-/// out of
-///         range, unknown method or option, options that contradict each other
+/// @throws UsageError naming the JSON pointer at fault: not JSON, unknown or repeated key, wrong type,
+///         value out of range, unknown method or option, options that contradict each other
 Experiment load_experiment(const std::filesystem::path& file, const std::vector<Override>& overrides = {});
 
 /// The same from text; `file` serves messages and relative names.

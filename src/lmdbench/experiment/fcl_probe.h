@@ -24,8 +24,8 @@ struct FclFrame {
   double relative_difference = UNSET;  ///< |FCL - exact| / exact; NaN unless both are separated.
   bool separated = false;              ///< In FCL's opinion.
   bool agrees = false;                 ///< Within the tolerance, or both in contact.
-  /// One a method: (method - FCL) / FCL; NaN in contact or beyond the cutoff; infinite where the method found
-  /// no pair.
+  /// One a method: (method - FCL) / FCL; NaN in contact or beyond the cutoff; infinite
+  /// where the method found no pair.
   std::vector<double> method_difference;
   std::int32_t triangle_moving = -1;  ///< FCL's nearest pair, for arbitration.
   std::int32_t triangle_fixed = -1;

@@ -116,8 +116,8 @@ class MethodRun {
     pending_ = std::move(pending);
   }
 
-  /// Decision E11: the later trackings of section 4.3 run where the search ends, with the pose of that
-  /// moment.
+  /// Decision E11: the later trackings of section 4.3 run where the search ends,
+  /// with the pose of that moment.
   void receive(std::int64_t frame) {
     SearchRecord& search = record_.searches[pending_->index];
     const int later_trackings = global_->trackings_after_search() - 1;

@@ -43,8 +43,8 @@ struct LockstepInput {
   std::function<bool(std::int64_t frame)> keep_lmds;  ///< Frames whose LMD sets are to be kept.
 };
 
-/// Called after every block with frames done and frames to do, over all methods and repetitions; false stops
-/// the run.
+/// Called after every block with frames done and frames to do, over all methods and
+/// repetitions; false stops the run.
 using Progress = std::function<bool(std::int64_t done, std::int64_t total)>;
 
 /// Thrown when `Progress` asked to stop.
@@ -52,8 +52,8 @@ class Interrupted {};
 
 /// Runs every method along all poses, `repetitions` times. Methods take turns block by block, in alternating
 /// order, so that drifts of the machine's speed hit all alike; every repetition starts from fresh instances.
-/// @throws Error with ExitCode::INTERNAL when a repetition's forces, LMDs or counters differ from the first
-/// one's
+/// @throws Error with ExitCode::INTERNAL when a repetition's forces, LMDs or counters differ from the
+///         first one's
 std::vector<MethodRecord> run_lockstep(const std::vector<LockstepMethod>& methods, const LockstepInput& input,
                                        const DriverChoice& driver, const Progress& progress);
 

@@ -12,8 +12,8 @@
 namespace lmdbench {
 namespace {
 
-/// Whether a method tracks locally is a property of its class: asked of an instance on a scene of one
-/// triangle.
+/// Whether a method tracks locally is a property of its class: asked of an instance
+/// on a scene of one triangle.
 bool tracks_locally(const MethodChoice& choice) {
   TriangleMesh mesh;
   mesh.vertices = {Vec3::Zero(), Vec3::UnitX(), Vec3::UnitY()};

@@ -37,8 +37,8 @@ struct PreparedRun {
 };
 
 /// Loads meshes and path. Open and non-manifold meshes and a start in contact are noted, not refused.
-/// @throws InputError for a mesh or path that cannot be used, UsageError for a profile that does not fit the
-/// mesh
+/// @throws InputError for a mesh or path that cannot be used, UsageError for a profile that does not
+///         fit the mesh
 PreparedRun prepare(const Experiment& experiment);
 
 /// The experiment's methods on the prepared scene.

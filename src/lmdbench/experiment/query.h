@@ -20,8 +20,8 @@ struct QueryAnswer {
   double seconds = 0.0;  ///< What the method took.
 };
 
-/// Searches at the pose; methods that track after a search (the improved algorithm's reduction) do so at the
-/// same pose.
+/// Searches at the pose; methods that track after a search (the improved algorithm's
+/// reduction) do so at the same pose.
 QueryAnswer query(Method& method, const TimedPose& pose, double cutoff);
 
 /// One line of JSON without a line end (the contract of `lmdbench query --json`, design section 6). A

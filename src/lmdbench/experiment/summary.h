@@ -27,8 +27,8 @@ struct MethodSummary {
   double recall_adjacent_mean = UNSET;
   double precision_adjacent_mean = UNSET;
   double minimum_distance_error_maximum_m = UNSET;  ///< Largest magnitude.
-  /// Over the probed frames in which the method or truth has a force, so that free flight does not flatter
-  /// the median.
+  /// Over the probed frames in which the method or truth has a force, so that free flight
+  /// does not flatter the median.
   double force_error_median_n = UNSET;
   double force_error_p99_n = UNSET;
   double force_angle_error_median_rad = UNSET;

@@ -40,8 +40,8 @@ struct TruthComparison {
   double force_jump = UNSET;              ///< The method's own |force at the next frame - force| [N].
 };
 
-/// Frames that a probe with this stride looks at: 0, stride, ... as long as the next frame exists. Empty for
-/// stride 0.
+/// Frames that a probe with this stride looks at: 0, stride, ... as long as the next
+/// frame exists. Empty for stride 0.
 std::vector<std::int64_t> probed_frames(std::int64_t frame_count, std::int64_t stride);
 
 /// Computes truth at the given frames.

@@ -20,9 +20,9 @@ struct Wrench {
 };
 
 /// Sums the LMDs' forces (paper, section 4.5): each pushes the moving mesh away along -direction with
-/// `force_magnitude`; LMDs beyond the cutoff and LMDs without a direction (E12) add nothing. Not clipped:
-/// that is the device's business (`phantom/`). Summed in the order of the set, so that sorted sets give the
-/// same bits.
+/// `force_magnitude`; LMDs beyond the cutoff and LMDs without a direction (E12) add nothing. Not
+/// clipped: that is the device's business (`phantom/`). Summed in the order of the set, so that sorted
+/// sets give the same bits.
 /// @param reference_W point about which the torque is taken
 Wrench sum_forces(const LmdSet& lmds, const ForceProfile& profile, const Vec3& reference_W);
 

@@ -33,13 +33,13 @@ void validate_force_profile(const ForceProfile& profile, const std::string& file
 
 /// Length of one LMD's force [N] at distance >= 0 [m]:
 ///   F(d) = F_max for d <= d_sat, else F_max (e^(k s) - 1) / (e^k - 1), s = (cutoff - d) / (cutoff - d_sat),
-/// F_max s for the linear law. Continuous at both ends; zero at and beyond the cutoff; NaN for a NaN
-/// distance.
+///   F_max s for the linear law.
+/// Continuous at both ends; zero at and beyond the cutoff; NaN for a NaN distance.
 /// @pre the profile is valid (`validate_force_profile`)
 double force_magnitude(const ForceProfile& profile, double distance);
 
-/// Stiffness -dF/dd [N/m] of one LMD's force; 0 where the force is constant (saturated, or at and beyond the
-/// cutoff).
+/// Stiffness -dF/dd [N/m] of one LMD's force; 0 where the force is constant (saturated,
+/// or at and beyond the cutoff).
 /// @pre the profile is valid (`validate_force_profile`)
 double force_stiffness(const ForceProfile& profile, double distance);
 

@@ -19,12 +19,12 @@
 // - triangles that cross by a margin are answered by the middle of the segment they share;
 // - an exact intersection test for the others; the same answer where they share a clear segment;
 // - 9 edge pairs and 6 corner-face pairs, each a feasible pair of points; keep the nearest;
-// - where an edge is parallel to a face, or both faces are parallel, and as near: take the middle of the
-// overlap.
+// - where an edge is parallel to a face, or both faces are parallel, and as near: take the middle of
+//   the overlap.
 //
-// Every candidate is feasible, so an error in one can only lose it, never report a distance that is too
-// small, and the candidates cover each other: near the border of two cases both are within rounding of the
-// minimum.
+// Every candidate is feasible, so an error in one can only lose it, never report a distance
+// that is too small, and the candidates cover each other: near the border of two cases both are
+// within rounding of the minimum.
 
 namespace lmdbench::kernel {
 namespace {
@@ -236,8 +236,8 @@ bool have_different_planes(const Query& query) {
 /// The answer for any triangles that share a point: the middle of the shared set.
 TrianglePairDistance answer_intersection(const Query& query, const SharedSegment& shared,
                                          const TrianglePairDistance& nearest) {
-  // Triangles that touch, or that are coplanar, have the middle of what they share as the nearest pair
-  // already.
+  // Triangles that touch, or that are coplanar, have the middle of what they share
+  // as the nearest pair already.
   const bool is_polygon =
       nearest.minimiser_dimension == 2 && std::sqrt(nearest.squared_distance) <= query.tolerance;
   const bool touching = nearest.squared_distance <= 4.0 * query.tolerance * query.tolerance;

@@ -17,8 +17,8 @@ namespace {
 /// Radians added to a half angle: a unit vector and an angle carry a few roundings of one epsilon each.
 constexpr double CONE_WIDENING = 8.0 * std::numeric_limits<double>::epsilon();
 
-/// Angle of two unit vectors. atan2 keeps full precision near 0 and pi, where acos of the dot product loses
-/// half.
+/// Angle of two unit vectors. atan2 keeps full precision near 0 and pi, where acos
+/// of the dot product loses half.
 double angle_between(const Vec3& a, const Vec3& b) {
   return std::atan2(a.cross(b).norm(), a.dot(b));
 }

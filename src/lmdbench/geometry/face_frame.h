@@ -15,9 +15,9 @@ namespace lmdbench::kernel {
 
 /// A triangle's plane, held as its longest edge e = b - a and the altitude h on it, with c = a + u e + h.
 ///
-/// Both are known to a few roundings of the edge's length whatever the aspect ratio, where the cross product
-/// of two edges of a needle loses every digit. Weights of a projected point follow from two divisions along e
-/// and h.
+/// Both are known to a few roundings of the edge's length whatever the aspect ratio, where the
+/// cross product of two edges of a needle loses every digit. Weights of a projected point follow
+/// from two divisions along e and h.
 struct FaceFrame {
   Vec3 a, e, h, ca;        ///< ca = c - a
   double squared_e = 0.0;  ///< |e|^2

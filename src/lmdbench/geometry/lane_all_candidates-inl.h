@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Stage of triangle_distance_batch: nine edge pairs and six corners over faces. Included once for every
-// instruction set.
+// Stage of triangle_distance_batch: nine edge pairs and six corners over faces. Included
+// once for every instruction set.
 #if defined(LMDBENCH_LANE_ALL_CANDIDATES_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef LMDBENCH_LANE_ALL_CANDIDATES_INL
 #undef LMDBENCH_LANE_ALL_CANDIDATES_INL

@@ -76,8 +76,8 @@ std::uint32_t crossing(const LaneBlock& block, LaneResult& result) {
     for (int i = 0; i < 2; ++i) {
       const Vector edge = turned_b.corner.v[i + 1] - turned_b.corner.v[0];
       const Real drop = hn::Sub(h.v[0], h.v[i + 1]);
-      // The edge must not be nearly parallel to the plane, or the chord's end is not where the scalar kernel
-      // has it.
+      // The edge must not be nearly parallel to the plane, or the chord's end is not
+      // where the scalar kernel has it.
       clear = hn::And(clear, hn::Gt(squared(drop), hn::Mul(constant(MIN_SQUARED_SINE),
                                                            hn::Mul(face.squared_n, dot(edge, edge)))));
       part[i] = hn::Div(h.v[0], select(hn::Eq(drop, zero()), one, drop));
@@ -85,8 +85,8 @@ std::uint32_t crossing(const LaneBlock& block, LaneResult& result) {
       on_a[i] = weights_on(face, chord_end[i] - face.origin);
     }
     const Vector chord = chord_end[1] - chord_end[0];
-    // A weight falls along the chord by its length over the altitude, times the sine of its angle to the
-    // edge.
+    // A weight falls along the chord by its length over the altitude, times the
+    // sine of its angle to the edge.
     const Real least_squared_fall = hn::Div(hn::Mul(constant(LEAST_SQUARED_FALL), dot(chord, chord)),
                                             select(face.well_shaped, face.least_squared_altitude, one));
     Real begin = zero(), end = one;

@@ -25,8 +25,8 @@ HWY_INLINE Turned turned(const Three<Vector>& t, const Vector& direction) {
   return turned(t, hn::AndNot(first_is_2, hn::Gt(h1, h0)), first_is_2);
 }
 
-/// The edge from the first corner to the neighbour that is steepest ahead along d; none where neither is
-/// ahead.
+/// The edge from the first corner to the neighbour that is steepest ahead along d;
+/// none where neither is ahead.
 struct Way {
   Vector edge;
   Mask to_second, to_third;

@@ -13,11 +13,11 @@ namespace {
 
 /// Half a unit in the last place of 1: the largest relative error of one rounding.
 constexpr double ROUNDING = 0.5 * std::numeric_limits<double>::epsilon();
-/// The same of the widest type that the processor computes in; where that is double again, its filter decides
-/// nothing.
+/// The same of the widest type that the processor computes in; where that is double
+/// again, its filter decides nothing.
 constexpr long double EXTENDED_ROUNDING = 0.5L * std::numeric_limits<long double>::epsilon();
-/// Error bounds of the filters, relative to the sum of the absolute products (Shewchuk 1997, section 4.3
-/// and 4.4).
+/// Error bounds of the filters, relative to the sum of the absolute products
+/// (Shewchuk 1997, section 4.3 and 4.4).
 constexpr double ORIENT_3D_BOUND = (7.0 + 56.0 * ROUNDING) * ROUNDING;
 constexpr long double EXTENDED_3D_BOUND = (7.0L + 56.0L * EXTENDED_ROUNDING) * EXTENDED_ROUNDING;
 constexpr double ORIENT_2D_BOUND = (3.0 + 16.0 * ROUNDING) * ROUNDING;

@@ -22,9 +22,9 @@ struct PointSegmentDistance {
   SegmentFeature feature = SegmentFeature::EDGE;
 };
 
-/// Closest points of two segments. The invariants are those of TrianglePairDistance: the squared distance is
-/// that of the two points, ends are reported as bit-copies, the overlap of parallel segments is answered by
-/// its middle.
+/// Closest points of two segments. The invariants are those of TrianglePairDistance: the squared
+/// distance is that of the two points, ends are reported as bit-copies, the overlap of parallel
+/// segments is answered by its middle.
 struct SegmentPairDistance {
   double squared_distance = std::numeric_limits<double>::quiet_NaN();
   Vec3 point_a = Vec3::Constant(std::numeric_limits<double>::quiet_NaN());
@@ -35,8 +35,8 @@ struct SegmentPairDistance {
   double minimiser_measure = 0.0;  ///< length of the overlap
 };
 
-/// Point of the segment nearest to `point`. Turning the segment round changes nothing but the names of its
-/// ends.
+/// Point of the segment nearest to `point`. Turning the segment round changes
+/// nothing but the names of its ends.
 PointSegmentDistance point_segment_distance(const Vec3& point, const Segment& segment);
 
 /// Swapping the segments or turning one round gives the same points bit for bit.

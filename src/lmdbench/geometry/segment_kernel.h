@@ -64,8 +64,8 @@ inline PointOnSegment project_on_segment(const Vec3& x, const Vec3& p0, const Ve
   return result;
 }
 
-/// Closest pair given that it has the end `end_of_q` of q, or, where that end is nearest to an end of p, that
-/// end.
+/// Closest pair given that it has the end `end_of_q` of q, or, where that end is
+/// nearest to an end of p, that end.
 inline void pair_from_end_of_q(const Vec3& p0, const Vec3& p1, const Vec3& q0, const Vec3& q1,
                                SegmentFeature end_of_q, double tolerance, PointsOnSegments& result) {
   const Vec3& q = end_of_q == SegmentFeature::V0 ? q0 : q1;
@@ -129,11 +129,11 @@ inline void parallel_segments(const Vec3& p0, const Vec3& p1, const Vec3& q0, co
 
 /// Closest points of the segments p0 p1 and q0 q1, p being the longer one.
 ///
-/// - Split d2 = q1 - q0 and r = q0 - p0 into parts along and across d1 = p1 - p0. Across, the pair of lines
-/// is one
-///   point and one line: t = -(r' . d2') / (d2' . d2') is the nearest point of q's line to p's line. The
-///   textbook denominator |d1|^2 |d2|^2 - (d1 . d2)^2 is the same number but loses the angle below 1e-8; this
-///   form places the points with an error of a few roundings of the segments' length for every angle.
+/// - Split d2 = q1 - q0 and r = q0 - p0 into parts along and across d1 = p1 - p0. Across, the pair of
+///   lines is one point and one line: t = -(r' . d2') / (d2' . d2') is the nearest point of q's line to
+///   p's line. The textbook denominator |d1|^2 |d2|^2 - (d1 . d2)^2 is the same number but loses the angle
+///   below 1e-8; this form places the points with an error of a few roundings of the segments' length for
+///   every angle.
 /// - Clamp t, project on p, clamp, project back (C. Ericson, "Real-Time Collision Detection", 2005, section
 ///   5.1.9): each step is a feasible pair and the last is the minimum of a convex function over the box.
 inline void ordered_segment_distance(const Vec3& p0, const Vec3& p1, const Vec3& q0, const Vec3& q1,
@@ -174,8 +174,8 @@ inline void ordered_segment_distance(const Vec3& p0, const Vec3& p1, const Vec3&
   if (s >= 1.0 || (1.0 - s) * (1.0 - s) * squared_length_p <= squared_tolerance) {
     return pair_from_end_of_p(p1, SegmentFeature::V1, q0, q1, tolerance, result);
   }
-  // Towards an end of q the lines drift apart by squared_across per unit of t, towards an end of the longer p
-  // by more.
+  // Towards an end of q the lines drift apart by squared_across per unit of t, towards
+  // an end of the longer p by more.
   const double least_part = std::min(std::min(t, 1.0 - t), std::min(s, 1.0 - s));
   result.squared_rise = least_part * least_part * squared_across;
   result.p = p0 + s * d1;

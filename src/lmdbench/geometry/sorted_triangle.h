@@ -11,8 +11,8 @@
 
 namespace lmdbench::kernel {
 
-/// Ends of edge k among sorted corners: the lower one first, so an edge has one direction for all its
-/// triangles.
+/// Ends of edge k among sorted corners: the lower one first, so an edge has one
+/// direction for all its triangles.
 inline constexpr std::array<std::array<int, 2>, 3> EDGE_ENDS{{{0, 1}, {1, 2}, {0, 2}}};
 
 /// Corners in lexicographic order with the way back to the caller's numbering: the kernels work on these, so
@@ -22,8 +22,8 @@ struct SortedTriangle {
   std::array<int, 3> original;
 
   explicit SortedTriangle(const Triangle& triangle) {
-    // The rank of a corner is the number of corners below it, equal ones counted by index; no branches, as in
-    // lexicographic_less.
+    // The rank of a corner is the number of corners below it, equal ones counted by index; no
+    // branches, as in lexicographic_less.
     const int below_10 = lexicographic_less(triangle[1], triangle[0]);
     const int below_20 = lexicographic_less(triangle[2], triangle[0]);
     const int below_21 = lexicographic_less(triangle[2], triangle[1]);

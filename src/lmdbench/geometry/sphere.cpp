@@ -19,8 +19,8 @@ namespace {
 // - otherwise the smallest sphere of support + that point replaces both; the radius grows strictly.
 // A last pass sets the radius to the largest distance, so that rounding can never leave a point outside.
 
-/// A point farther out than this part of the radius is outside; the slack keeps rounding from cycling the
-/// pivots.
+/// A point farther out than this part of the radius is outside; the slack keeps
+/// rounding from cycling the pivots.
 constexpr double SPHERE_SHRINK_TOLERANCE = 1e-10;
 /// Generic sets need fewer than 15 pivots; the bound only stops a cycle on degenerate sets.
 constexpr int MAX_PIVOTS = 100;
@@ -39,8 +39,8 @@ bool circumsphere(const std::array<Vec3, 4>& points, int count, Sphere& sphere) 
     sphere = {origin, 0.0};
     return true;
   }
-  // centre - origin = sum of l_i e_i with 2 e_j . (centre - origin) = e_j . e_j for every e_j = points[j] -
-  // origin.
+  // centre - origin = sum of l_i e_i with 2 e_j . (centre - origin) = e_j . e_j for
+  // every e_j = points[j] - origin.
   const int n = count - 1;
   Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 3, 3> gram(n, n);
   Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 3, 1> right(n);
@@ -66,8 +66,8 @@ bool contains_all(const Sphere& sphere, const Support& support) {
   return true;
 }
 
-/// Replaces the support by the subset that carries its smallest sphere; false where rounding hides that
-/// subset.
+/// Replaces the support by the subset that carries its smallest sphere; false where
+/// rounding hides that subset.
 bool smallest_sphere_of_support(Support& support, Sphere& sphere) {
   Sphere best;
   best.radius = std::numeric_limits<double>::infinity();

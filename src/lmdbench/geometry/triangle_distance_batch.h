@@ -11,10 +11,10 @@
 namespace lmdbench {
 
 /// triangle_distance(a[i], b[i]) for every i, several pairs at a time in the widest vectors that the
-/// processor has (chosen at run time; the same bits on every processor). Distances and points agree with
-/// triangle_distance to 1e-12 of the largest coordinate; features, flags and minimiser sets are equal. The
-/// order of corners and arguments may change the last bits of a point here, where triangle_distance gives the
-/// same bits.
+/// processor has (chosen at run time; the same bits on every processor). Distances and points agree
+/// with triangle_distance to 1e-12 of the largest coordinate; features, flags and minimiser sets are
+/// equal. The order of corners and arguments may change the last bits of a point here, where
+/// triangle_distance gives the same bits.
 /// @pre a.size() == b.size() == results.size()
 void triangle_distance_batch(std::span<const Triangle> a, std::span<const Triangle> b,
                              std::span<TrianglePairDistance> results);

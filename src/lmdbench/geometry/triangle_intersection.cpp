@@ -83,8 +83,8 @@ bool segment_meets_triangle(const Segment& p, const Triangle& t, int axis) {
   }
   if (side_0 == 0) return in_triangle_2d(p[0], t, axis);
   if (side_1 == 0) return in_triangle_2d(p[1], t, axis);
-  // The line pierces the plane at one point, which is inside when it turns the same way round all three
-  // edges.
+  // The line pierces the plane at one point, which is inside when it turns the
+  // same way round all three edges.
   const int s0 = orientation_3d(p[0], p[1], t[0], t[1]);
   const int s1 = orientation_3d(p[0], p[1], t[1], t[2]);
   const int s2 = orientation_3d(p[0], p[1], t[2], t[0]);

@@ -13,9 +13,9 @@
 
 namespace lmdbench {
 
-/// A mesh prepared for proximity queries: immutable, shared between methods, instances and threads. What only
-/// some methods need (a hierarchy) is theirs: made when the first of them asks for it, once, and kept beside
-/// the mesh.
+/// A mesh prepared for proximity queries: immutable, shared between methods, instances and
+/// threads. What only some methods need (a hierarchy) is theirs: made when the first of them asks
+/// for it, once, and kept beside the mesh.
 class Body {
  public:
   Body(std::string name, Surface surface) : name_(std::move(name)), surface_(std::move(surface)) {}

@@ -11,9 +11,9 @@
 
 namespace lmdbench {
 
-/// One local minimum distance pair, in world coordinates. Invariant: distance == |point_fixed -
-/// point_moving|; `direction` is the unit vector from point_moving to point_fixed (design, section 2: d = q -
-/// p).
+/// One local minimum distance pair, in world coordinates. Invariant: distance ==
+/// |point_fixed - point_moving|; `direction` is the unit vector from point_moving to
+/// point_fixed (design, section 2: d = q - p).
 struct Lmd {
   double distance = std::numeric_limits<double>::quiet_NaN();                    ///< metres
   Vec3 point_moving = Vec3::Constant(std::numeric_limits<double>::quiet_NaN());  ///< p_W on the moving mesh
@@ -31,8 +31,8 @@ struct Lmd {
 /// All LMDs of a pose. Methods return it sorted by `lmd_less`.
 using LmdSet = std::vector<Lmd>;
 
-/// Order of a reported LMD set: distance, then fixed body and features, so that it depends on the scene
-/// alone.
+/// Order of a reported LMD set: distance, then fixed body and features, so that it
+/// depends on the scene alone.
 bool lmd_less(const Lmd& a, const Lmd& b);
 
 /// Same fixed body and same feature pair.

@@ -10,8 +10,8 @@
 
 namespace lmdbench {
 
-/// Local tracking (paper, sections 3.2.2 and 4.2): one LMD walks to its local minimum over neighbouring
-/// triangles.
+/// Local tracking (paper, sections 3.2.2 and 4.2): one LMD walks to its local minimum over
+/// neighbouring triangles.
 ///   L1  the triangles round both contact points, by their closest features (Fig. 5);
 ///   L2  the distances of all combinations;
 ///   L3  quit when the shortest one is the pair that was there;

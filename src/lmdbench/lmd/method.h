@@ -19,8 +19,8 @@ class Method {
 
   virtual std::string_view name() const = 0;
 
-  /// Whether the method needs local tracking between searches. If not, drivers call `search` in every haptic
-  /// frame.
+  /// Whether the method needs local tracking between searches. If not, drivers call
+  /// `search` in every haptic frame.
   virtual bool tracks_locally() const = 0;
 
   /// How many times `track` runs in the global thread right after a search (paper, section 4.3; decision
@@ -30,8 +30,7 @@ class Method {
   /// Finds an LMD set from scratch.
   /// @param X_WM     pose of the moving mesh
   /// @param lmds     receives the set, sorted by `lmd_less`; for the paper's algorithms these are the
-  /// candidates
-  ///                 before reduction
+  ///                 candidates before reduction
   /// @param counters is added to
   virtual void search(const Pose& X_WM, LmdSet& lmds, WorkCounters& counters) = 0;
 

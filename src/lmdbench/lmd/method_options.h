@@ -38,10 +38,10 @@ struct MethodOptions {
   Reduction reduction = Reduction::PUBLISHED;
   TrackingOrder tracking_order = TrackingOrder::NEAREST_FIRST;
   LineCone line_cone = LineCone::ONE_SIDED;
-  /// Decision E5: how far a 7x7 direction may leave its feature's normal set. Of the sweep 0 .. pi on 1,000
-  /// grazing poses of two bunnies the value with the largest mean F1 score after tracking over the cutoffs
-  /// 0.5, 2 and 5 % of the diagonal, neighbouring features counting as found: the one that favours the
-  /// original.
+  /// Decision E5: how far a 7x7 direction may leave its feature's normal set. Of the sweep 0 ..
+  /// pi on 1,000 grazing poses of two bunnies the value with the largest mean F1 score after
+  /// tracking over the cutoffs 0.5, 2 and 5 % of the diagonal, neighbouring features counting as
+  /// found: the one that favours the original.
   double g5_tolerance_rad = 0.3;
   bool literal_g3 = false;  ///< Ablation of decision E2: keep what the printed inequality keeps.
   bool frame_coherence =

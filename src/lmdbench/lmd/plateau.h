@@ -20,8 +20,8 @@ struct LocalMinimum {
   bool strict = true;
 };
 
-/// Relative difference of two distances, and angle of two directions, below which neighbouring minima are one
-/// plateau.
+/// Relative difference of two distances, and angle of two directions, below which
+/// neighbouring minima are one plateau.
 inline constexpr double PLATEAU_TOLERANCE = 1e-9;
 
 /// Leaves one entry a feature pair, sorted by body and features: the nearest, of those the one with the

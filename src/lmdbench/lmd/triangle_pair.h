@@ -31,8 +31,8 @@ inline Lmd lmd_of_triangle_pair(const Surface& moving, const Surface& fixed, std
   return lmd;
 }
 
-/// The same with the size of its set of minimisers, not judged yet; `direction` is set where the points are
-/// apart.
+/// The same with the size of its set of minimisers, not judged yet; `direction` is
+/// set where the points are apart.
 inline LocalMinimum minimum_of_triangle_pair(const Surface& moving, const Surface& fixed,
                                              std::int32_t fixed_body, std::int32_t t_moving,
                                              std::int32_t t_fixed, const TrianglePairDistance& pair) {

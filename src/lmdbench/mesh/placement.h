@@ -9,10 +9,10 @@
 
 namespace lmdbench {
 
-/// The mesh as experiments and paths place it ("diagonal_m"): moved until the centre of its axis-aligned
-/// bounding box is the origin of its frame, then scaled about the origin until the box's diagonal has the
-/// given length. Every reader of a path must place its meshes with this function, or the path's poses do not
-/// fit.
+/// The mesh as experiments and paths place it ("diagonal_m"): moved until the centre of its
+/// axis-aligned bounding box is the origin of its frame, then scaled about the origin until the
+/// box's diagonal has the given length. Every reader of a path must place its meshes with this
+/// function, or the path's poses do not fit.
 /// @param diagonal metres, > 0
 /// @throws InputError when the mesh has no extent (no vertices, or all of them in one place)
 inline TriangleMesh scaled_to_diagonal(TriangleMesh mesh, double diagonal) {

@@ -9,16 +9,16 @@
 
 namespace lmdbench {
 
-/// Rays whose conical hull contains the polar { n : n . e <= 0 for every e } of a set of directions, widened
-/// by a tolerance: their hull covers { n : |n| = 1, n . e <= tolerance for every e }. Empty where that set
-/// is.
+/// Rays whose conical hull contains the polar { n : n . e <= 0 for every e } of a set of
+/// directions, widened by a tolerance: their hull covers { n : |n| = 1, n . e <= tolerance for
+/// every e }. Empty where that set is.
 ///
-/// The widened set is cut out of the unit sphere by circles n . e = tolerance. It is bounded by arcs of them,
-/// and, as any two circles of directions that are not parallel cross, it has a corner where two circles cross
-/// or it is empty. So all crossings are tried against all directions: no polygon is carried along, no order
-/// matters, and needles, straight edges, flat and coplanar sets need no cases. Cubic in the worst case,
-/// quadratic in practice because a crossing outside is rejected by the direction that rejected the one
-/// before.
+/// The widened set is cut out of the unit sphere by circles n . e = tolerance. It is bounded by arcs of
+/// them, and, as any two circles of directions that are not parallel cross, it has a corner where two
+/// circles cross or it is empty. So all crossings are tried against all directions: no polygon is
+/// carried along, no order matters, and needles, straight edges, flat and coplanar sets need no cases.
+/// Cubic in the worst case, quadratic in practice because a crossing outside is rejected by the
+/// direction that rejected the one before.
 /// @param directions  unit vectors; parallel ones allowed; none at all gives all directions
 /// @param outer       if not zero: rays with n . outer < -tolerance are left out
 /// @param first_only  stop at the first ray: only asks whether the set is empty

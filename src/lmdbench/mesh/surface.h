@@ -48,16 +48,16 @@ struct Surface {
 
   /// Id of a triangle's part.
   FeatureId feature_of(std::int32_t triangle, TriangleFeature part) const;
-  /// Triangles that contain the feature: one for a face, those on the edge, those round the vertex (paper,
-  /// Fig. 5).
+  /// Triangles that contain the feature: one for a face, those on the edge, those
+  /// round the vertex (paper, Fig. 5).
   TriangleList incident_triangles(const FeatureId& feature) const;
   /// Pseudo-normal of the feature: decides the outer side. Of an edge it is the normalised sum of the
   /// incident faces' normals, or zero; made when it is asked for, because next to nobody asks.
   Vec3 pseudo_normal(const FeatureId& feature) const;
   /// A boundary edge, or a vertex on one; a face never is.
   bool is_boundary(const FeatureId& feature) const;
-  /// Memory that all of this takes; certified, improved and exhaustive read no other part of a mesh but their
-  /// own hierarchies.
+  /// Memory that all of this takes; certified, improved and exhaustive read no other part of a
+  /// mesh but their own hierarchies.
   std::size_t bytes() const;
 };
 

@@ -11,8 +11,8 @@
 
 namespace lmdbench {
 
-/// Indexed triangle mesh: what files hold. Frame: the mesh's own; unit: metres after scaling, else the
-/// file's.
+/// Indexed triangle mesh: what files hold. Frame: the mesh's own; unit: metres
+/// after scaling, else the file's.
 struct TriangleMesh {
   std::vector<Vec3> vertices;                          ///< #V by 3.
   std::vector<std::array<std::int32_t, 3>> triangles;  ///< #T by 3, counter-clockwise seen from outside.

@@ -6,8 +6,8 @@
 
 namespace lmdbench {
 
-/// Calls visit(neighbour) for the other ends of a vertex's edges, in the order of its triangles, until visit
-/// returns false.
+/// Calls visit(neighbour) for the other ends of a vertex's edges, in the order of its
+/// triangles, until visit returns false.
 ///
 /// Where each edge at the vertex has two triangles that agree on orientation, one of them runs away from the
 /// vertex, so the corners that follow the vertex are all its neighbours, and come once unless a triangle

@@ -31,22 +31,22 @@ struct PathScene {
 /// A gap counts as reached when it exceeds the wanted one by less than this part of it.
 inline constexpr double GAP_TOLERANCE = 1e-3;
 
-/// Steps of one approach; one that is not through by then (nearly tangential) stays where it is, which is
-/// outside.
+/// Steps of one approach; one that is not through by then (nearly tangential) stays
+/// where it is, which is outside.
 inline constexpr int MAXIMUM_APPROACH_STEPS = 400;
 
-/// Distance from centre to centre at which the moving mesh, coming from outside along `direction_W`, has the
-/// gap for the first time: conservative advancement. A translation by s changes the distance by at most s, so
-/// stepping by the distance minus the gap never gets nearer than the gap, whatever the meshes' shapes. Every
-/// larger centre distance on the ray has at least this gap. 0 when the meshes pass each other without coming
-/// that near.
+/// Distance from centre to centre at which the moving mesh, coming from outside along `direction_W`, has
+/// the gap for the first time: conservative advancement. A translation by s changes the distance by at
+/// most s, so stepping by the distance minus the gap never gets nearer than the gap, whatever the
+/// meshes' shapes. Every larger centre distance on the ray has at least this gap. 0 when the meshes pass
+/// each other without coming that near.
 /// @param direction_W unit, from the fixed mesh's centre to the moving one's
 /// @param gap metres, > 0
 double first_reach(const PathScene& scene, const Vec3& direction_W, const Eigen::Quaterniond& rotation,
                    double gap);
 
-/// Wanted gap at a time, as a fraction of the diagonal (see GapPoint); constant before the first and after
-/// the last.
+/// Wanted gap at a time, as a fraction of the diagonal (see GapPoint); constant before
+/// the first and after the last.
 double wanted_gap(const std::vector<GapPoint>& gaps, double time);
 
 /// Makes a path:
@@ -54,12 +54,12 @@ double wanted_gap(const std::vector<GapPoint>& gaps, double time);
 ///     about its own centre (`Wander`); both are smooth and depend on the seed alone.
 ///  2. In every frame `first_reach` finds the centre distance with the wanted gap.
 ///  3. That distance jumps where the first contact jumps (silhouettes) and has kinks where contacts change
-///     over: `bounded_majorant` lays a motion above it that a hand could make. Above is outside, so gaps only
-///     grow.
+///     over: `bounded_majorant` lays a motion above it that a hand could make. Above is outside, so gaps
+///     only grow.
 ///  4. Every (frame rate / stored rate)-th pose is kept.
 ///
-/// Between stored poses the interpolated path may come nearer than wanted by micrometres: check it
-/// (`measure_gaps`).
+/// Between stored poses the interpolated path may come nearer than wanted by
+/// micrometres: check it (`measure_gaps`).
 Path generate_path(const PathSpec& spec, const PathScene& scene, const ProgressFunction& progress = {});
 
 /// Gaps of a path's frames.

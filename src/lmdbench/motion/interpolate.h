@@ -51,8 +51,8 @@ class PathInterpolator {
   std::vector<Vec3> angular_velocities_;  ///< rad/s at each pose, in the mesh's frame; empty for LINEAR
 };
 
-/// A frame is inside the path when it is late by at most this part of a period: rounding must not lose the
-/// last frame.
+/// A frame is inside the path when it is late by at most this part of a period: rounding
+/// must not lose the last frame.
 inline constexpr double LAST_FRAME_TOLERANCE = 1e-6;
 
 /// Number of haptic frames start + k / rate, k = 0, 1, ..., that lie on the path; at least 1.

@@ -10,8 +10,8 @@
 namespace lmdbench {
 namespace {
 
-/// The passes' shares of the limits; each adds up to 1. The first pass follows the large motions and takes
-/// the speed.
+/// The passes' shares of the limits; each adds up to 1. The first pass follows the
+/// large motions and takes the speed.
 struct Share {
   double speed;
   double acceleration;
@@ -68,8 +68,8 @@ std::vector<double> limit_speeding_up(const std::vector<double>& values, double 
     const std::size_t first = hull[corner];
     const std::size_t last = hull[corner + 1];
     for (std::size_t i = first + 1; i < last; ++i) {
-      // Chord plus parabola, with the parabola taken from the chord's ends: a/2 (t - t0)(t - t1), which is <=
-      // 0.
+      // Chord plus parabola, with the parabola taken from the chord's ends: a/2 (t -
+      // t0)(t - t1), which is <= 0.
       const double u = static_cast<double>(i - first) / static_cast<double>(last - first);
       const double chord = values[first] + (values[last] - values[first]) * u;
       const double sag = 0.5 * acceleration * static_cast<double>(i - first) * static_cast<double>(last - i) *

@@ -12,8 +12,8 @@
 
 namespace lmdbench {
 
-/// A mesh of a path's scene: centred on its bounding box and scaled until the box's diagonal has the given
-/// length.
+/// A mesh of a path's scene: centred on its bounding box and scaled until the box's
+/// diagonal has the given length.
 struct PlacedMesh {
   std::string mesh;       ///< Name in the mesh manifest, or a mesh file.
   double diagonal = 0.0;  ///< metres
@@ -31,14 +31,17 @@ struct GapPoint {
 /// {
 ///   "moving": { "mesh": "bunny-16k", "diagonal_m": 0.15 },
 ///   "fixed": { "mesh": "bunny-16k", "diagonal_m": 0.15 },
-///   "frame_rate_hz": 1000,        gaps are computed and checked at this rate; default 1000
-///   "stored_rate_hz": 250,        rate of the poses in the file, divides the frame rate; default the frame
-///   rate "seed": 1, "start_direction": [1, 0, 0], from the fixed mesh's centre to the moving one's; default
-///   [1, 0, 0] "slide_rate_deg_per_s": 20,   root mean square, of that direction "turn_rate_deg_per_s": 30,
-///   root mean square, of the moving mesh about its centre "radial_speed_m_per_s": 0.15, limits of the motion
-///   towards and away from the fixed mesh "radial_acceleration_m_per_s2": 2, "gap_floor": 0.0002, fraction of
-///   the diagonal that no haptic frame may fall below "gaps": [                     at least two; times
-///   increase from 0, gaps are above the floor
+///   "frame_rate_hz": 1000,              gaps are computed and checked at this rate; default 1000
+///   "stored_rate_hz": 250,              rate of the poses in the file, divides the frame rate;
+///                                       default the frame rate
+///   "seed": 1,
+///   "start_direction": [1, 0, 0],       from the fixed mesh's centre to the moving one's; default [1, 0, 0]
+///   "slide_rate_deg_per_s": 20,         root mean square, of that direction
+///   "turn_rate_deg_per_s": 30,          root mean square, of the moving mesh about its centre
+///   "radial_speed_m_per_s": 0.15,       limits of the motion towards and away from the fixed mesh
+///   "radial_acceleration_m_per_s2": 2,
+///   "gap_floor": 0.0002,                fraction of the diagonal that no haptic frame may fall below
+///   "gaps": [                           at least two; times increase from 0, gaps are above the floor
 ///     { "time_s": 0, "gap": 0.1 }, { "time_s": 1.5, "gap": 0.001 }
 ///   ]
 /// }

@@ -25,8 +25,8 @@ constexpr std::size_t COLUMN_COUNT = 8;
 constexpr std::size_t QUOTED_LENGTH = 40;  ///< Of a broken word in a message: the file may be binary.
 constexpr std::string_view BLANKS = " \t\r";
 
-/// |q|^2 of a quaternion that was normalised in double precision stays within this of 1: such a one keeps its
-/// bits.
+/// |q|^2 of a quaternion that was normalised in double precision stays within this of 1: such a one
+/// keeps its bits.
 constexpr double UNIT_ROUNDING = 8.0 * std::numeric_limits<double>::epsilon();
 
 /// What is wrong with a pose and what to do about it; empty when nothing is.

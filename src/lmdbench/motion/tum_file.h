@@ -15,11 +15,11 @@ namespace lmdbench {
 /// error of the data.
 inline constexpr double QUATERNION_LENGTH_TOLERANCE = 1e-3;
 
-/// Reads a TUM trajectory: lines `time x y z qx qy qz qw` (seconds, metres), separated by blanks or tabs; `#`
-/// begins a comment line; empty lines are skipped; LF or CRLF. Numbers are read with '.' whatever the locale.
-/// A quaternion that is unit to rounding keeps its bits, so reading what `write_tum` wrote gives the same
-/// path bit for bit; one within QUATERNION_LENGTH_TOLERANCE is normalised. Signs of quaternions are kept as
-/// written.
+/// Reads a TUM trajectory: lines `time x y z qx qy qz qw` (seconds, metres), separated by blanks or
+/// tabs; `#` begins a comment line; empty lines are skipped; LF or CRLF. Numbers are read with '.'
+/// whatever the locale. A quaternion that is unit to rounding keeps its bits, so reading what
+/// `write_tum` wrote gives the same path bit for bit; one within QUATERNION_LENGTH_TOLERANCE is
+/// normalised. Signs of quaternions are kept as written.
 /// @throws InputError naming file, line and remedy: not a number, NaN or infinity, wrong number of columns,
 ///         time not strictly increasing, quaternion not of unit length, no pose at all, unreadable file
 Path read_tum(const std::filesystem::path& file);

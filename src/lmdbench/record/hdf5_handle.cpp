@@ -20,8 +20,8 @@ void silence_hdf5() {
 std::string last_hdf5_error() {
   std::string text;
   H5Ewalk2(H5E_DEFAULT, H5E_WALK_DOWNWARD, &keep_description, &text);
-  // The file driver buries the system's message in a dump of its arguments: "..., error message = 'No space
-  // ...', ..."
+  // The file driver buries the system's message in a dump of its arguments: "..., error
+  // message = 'No space ...', ..."
   constexpr std::string_view SYSTEM_MESSAGE = "error message = '";
   if (const std::size_t start = text.find(SYSTEM_MESSAGE); start != std::string::npos) {
     const std::size_t first = start + SYSTEM_MESSAGE.size();

@@ -44,8 +44,8 @@ class Hdf5Handle {
   Close close_ = nullptr;
 };
 
-/// Stops HDF5 from printing its error stack. The setting belongs to the calling thread, so call it before
-/// every use.
+/// Stops HDF5 from printing its error stack. The setting belongs to the calling thread,
+/// so call it before every use.
 void silence_hdf5();
 
 /// The innermost message of the last failed HDF5 call of this thread, such as "No space left on device".

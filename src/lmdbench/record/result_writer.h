@@ -24,11 +24,10 @@ struct DatasetInfo {
 /// to the disk and gives it the final name: an earlier result of that name is whole until then, and an
 /// interrupted run never looks like a finished one. The `.part` file is made at once, so that a wrong place
 /// is reported before a long run.
-/// @throws EnvironmentError when the file cannot be made, written or renamed, or when another run is writing
-/// it
-/// @throws std::invalid_argument for a shape that does not fit, a path that is not absolute or was written
-/// before, and
-///         missing units or long name: mistakes of the calling code
+/// @throws EnvironmentError when the file cannot be made, written or renamed, or when another run is
+///         writing it
+/// @throws std::invalid_argument for a shape that does not fit, a path that is not absolute or was
+///         written before, and missing units or long name: mistakes of the calling code
 class ResultWriter {
  public:
   explicit ResultWriter(std::filesystem::path file);

@@ -53,8 +53,8 @@ Cone node_cone(const Cone& merged_children, std::span<const std::int32_t> triang
     half_angle = std::max(half_angle, std::acos(cosine) + leaf_half_angles[static_cast<std::size_t>(t)]);
   }
   if (half_angle >= merged_children.half_angle()) return merged_children;
-  // acos loses half the digits near 0; merging with a degenerate cone of the same axis would not widen
-  // enough.
+  // acos loses half the digits near 0; merging with a degenerate cone of the same
+  // axis would not widen enough.
   constexpr double ROUNDING = 4e-8;
   half_angle += ROUNDING;
   return {axis, std::cos(half_angle), std::sin(half_angle)};

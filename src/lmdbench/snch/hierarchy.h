@@ -10,9 +10,9 @@
 
 namespace lmdbench {
 
-/// Node of a spatialized normal cone hierarchy (paper, section 3.1): a bounding sphere with a cone of
-/// normals, both in the mesh's frame. Angles are kept as cosine and sine, so that node tests need no inverse
-/// trigonometry.
+/// Node of a spatialized normal cone hierarchy (paper, section 3.1): a bounding sphere with a
+/// cone of normals, both in the mesh's frame. Angles are kept as cosine and sine, so that node
+/// tests need no inverse trigonometry.
 struct HierarchyNode {
   Vec3 centre;               ///< S, metres
   double radius;             ///< rho, metres
@@ -25,8 +25,8 @@ struct HierarchyNode {
   bool is_leaf() const { return first_child < 0; }
 };
 
-/// Binary hierarchy whose leaves hold one triangle each. nodes[0] is the root; empty for a mesh without
-/// triangles.
+/// Binary hierarchy whose leaves hold one triangle each. nodes[0] is the root; empty
+/// for a mesh without triangles.
 struct Hierarchy {
   std::vector<HierarchyNode> nodes;
 

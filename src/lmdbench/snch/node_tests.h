@@ -9,10 +9,10 @@
 #include <cmath>
 
 /// Node tests of the global search (paper, sections 3.2.1 and 4.1). Every test answers "may this node pair
-/// hold an LMD within the cutoff?" from bounds alone and is conservative: a node's cone holds every outward
-/// direction of an LMD on the surface below it, its sphere every point. Angles are compared through cosines,
-/// cos(a + b) = cos a cos b - sin a sin b, valid while a + b < pi; a sum of pi or more covers every direction
-/// and passes.
+/// hold an LMD within the cutoff?" from bounds alone and is conservative: a node's cone holds every
+/// outward direction of an LMD on the surface below it, its sphere every point. Angles are compared
+/// through cosines, cos(a + b) = cos a cos b - sin a sin b, valid while a + b < pi; a sum of pi or more
+/// covers every direction and passes.
 namespace lmdbench {
 
 /// A node of the moving hierarchy brought to the world frame.
@@ -68,8 +68,8 @@ inline bool direction_cone_misses(double along, double tangent, double radii, do
   return along < tangent * cone_cosine - radii * cone_sine;
 }
 
-/// G3.a and G3.b (section 4.1) as rejection conditions. Decision E3: overlapping spheres have no sigma, the
-/// pair passes.
+/// G3.a and G3.b (section 4.1) as rejection conditions. Decision E3: overlapping spheres have no sigma,
+/// the pair passes.
 inline bool rejected_by_direction(const WorldNode& a, const HierarchyNode& b, const NodePair& pair) {
   const double squared_tangent = pair.squared_distance - pair.radii * pair.radii;
   if (squared_tangent <= 0.0) return false;
@@ -92,8 +92,8 @@ inline bool rejected_by_solution_line(const WorldNode& a, const HierarchyNode& b
          direction_cone_misses(along_b, tangent, pair.radii, b.cone_cosine, b.cone_sine);
 }
 
-/// Ablation of decision E2: "pass only when satisfying" taken literally, which keeps the pairs that G3 should
-/// reject.
+/// Ablation of decision E2: "pass only when satisfying" taken literally, which keeps
+/// the pairs that G3 should reject.
 inline bool rejected_by_literal_direction(const WorldNode& a, const HierarchyNode& b, const NodePair& pair) {
   const double squared_tangent = pair.squared_distance - pair.radii * pair.radii;
   if (squared_tangent <= 0.0) return false;

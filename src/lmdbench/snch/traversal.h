@@ -20,9 +20,9 @@ struct TraversalCounters {
   std::uint64_t leaf_pairs = 0;
 };
 
-/// Simultaneous descent through two hierarchies (paper, section 3.2.1): a pair that passes G1, G2 and G3 has
-/// its children tested against each other, four tests, until both nodes are leaves. Keeps its stack between
-/// searches.
+/// Simultaneous descent through two hierarchies (paper, section 3.2.1): a pair that passes G1, G2
+/// and G3 has its children tested against each other, four tests, until both nodes are leaves.
+/// Keeps its stack between searches.
 class DualTraversal {
  public:
   /// Calls `visit_leaves(triangle_moving, triangle_fixed)` for each leaf pair that passes.

@@ -139,8 +139,8 @@ TEST(Exhaustive, EqualsTheLiteralDefinition) {
   EXPECT_GT(total, 20u);
 }
 
-/// What an LMD is, tested by sampling: no point of either surface near the pair's points is nearer to the
-/// other.
+/// What an LMD is, tested by sampling: no point of either surface near the pair's
+/// points is nearer to the other.
 TEST(Exhaustive, NoNeighbouringPointIsNearer) {
   std::mt19937_64 random(6);
   const Scene scene = make_scene(make_blob(0.04, 0.01, 2), make_torus(0.05, 0.02, 20, 10), 0.03);

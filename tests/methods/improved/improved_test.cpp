@@ -184,8 +184,8 @@ TEST_F(ImprovedTest, TheCacheSavesDistancesOfNeighbours) {
   });
 }
 
-/// Decision E2: the printed inequality of G3 keeps the wrong pairs. It shows where the leaves' spheres are
-/// apart.
+/// Decision E2: the printed inequality of G3 keeps the wrong pairs. It shows where
+/// the leaves' spheres are apart.
 TEST_F(ImprovedTest, LiteralG3LosesAlmostEverything) {
   std::mt19937_64 random(22);
   const Scene scene = make_scene(make_blob(0.04, 0.01, 4), make_blob(0.05, 0.012, 4), 0.03);

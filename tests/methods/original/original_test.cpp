@@ -21,8 +21,8 @@ Triangle random_triangle(std::mt19937_64& random, double size) {
           centre + size * testing::random_direction(random)};
 }
 
-/// Radius of the smallest disc about one feature point that reaches every point of the triangle: what 7x7 can
-/// lose.
+/// Radius of the smallest disc about one feature point that reaches every point of the
+/// triangle: what 7x7 can lose.
 double covering_radius(const Triangle& t) {
   double radius = 0.0;
   for (int i = 0; i <= 40; ++i) {

@@ -16,8 +16,8 @@ namespace lmdbench {
 
 namespace {
 
-/// Distance, relative to the coordinates, at or below which a direction is dominated by the rounding of the
-/// points.
+/// Distance, relative to the coordinates, at or below which a direction is dominated
+/// by the rounding of the points.
 constexpr double RELATIVE_TOUCH = 1e-9;
 /// PairFilter::margin: above the error of a direction at half the touch distance (4 * 2.2e-16 / 5e-10).
 constexpr double FILTER_MARGIN = 1e-5;
@@ -25,16 +25,16 @@ constexpr double FILTER_MARGIN = 1e-5;
 constexpr double RELATIVE_TINY = 1e-8;
 /// Motions of a frame that are larger than this many cutoffs are jumps: next to nothing would be kept.
 constexpr double LARGEST_PACE = 1.0;
-/// Two minima whose distances differ by more than this part of them cannot be on one plateau (its tolerance
-/// is 1e-9).
+/// Two minima whose distances differ by more than this part of them cannot be on one
+/// plateau (its tolerance is 1e-9).
 constexpr double APART = 1e-6;
 
 /// Pairs between the one that is decided and the one whose data is fetched; twice that for the indices,
 /// without which the rest is not known.
 constexpr std::size_t FETCH_DISTANCE = 4;
 
-/// Brings a feature's indices near; a mesh that does not fit into a processor's cache is slow to follow
-/// otherwise.
+/// Brings a feature's indices near; a mesh that does not fit into a processor's cache
+/// is slow to follow otherwise.
 void fetch_indices(const Surface& surface, const FeatureId& feature) {
   const auto index = static_cast<std::size_t>(feature.index);
   switch (feature.kind) {

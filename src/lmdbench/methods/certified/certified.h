@@ -17,8 +17,8 @@
 
 namespace lmdbench {
 
-/// The third algorithm (design section 4): the exact and complete LMD set in every frame, without a
-/// second rate.
+/// The third algorithm (design section 4): the exact and complete LMD set in every
+/// frame, without a second rate.
 ///
 /// 1. Both meshes have a wide hierarchy over their features with non-empty outward polar cone
 ///    (wide_hierarchy.h). Descending both finds every feature pair that bounds cannot reject
@@ -29,29 +29,28 @@ namespace lmdbench {
 ///
 /// Why the set equals `exhaustive`'s. *Precision*: an LMD is reported only if it passes the truth's own
 /// first-order test (step 3), at the points of a triangle pair's exact distance or of a strict minimum.
-/// *Recall*: take a triangle pair that the truth accepts, with features f and g, points p and q and distance
-/// d.
+/// *Recall*: take a triangle pair that the truth accepts, with features f and g, points p and q and
+/// distance d.
 /// - d > touch (1e-9 of the coordinates). Then q - p is an accurate direction, and it lies in f's and g's
-/// polar cones
-///   up to 2e-6 (the truth's tolerance and the rounding of p and q). So both have a cap (polar_cap.h, empty
-///   only with that slack) and are leaves; the pair passes every bound above it (wide_node_test.h), and the
-///   filter, whose margin is larger than the slack. If the filter finds every condition to hold by more than
+///   polar cones up to 2e-6 (the truth's tolerance and the rounding of p and q). So both have a cap
+///   (polar_cap.h, empty only with that slack) and are leaves; the pair passes every bound above it
+///   (wide_node_test.h), and the filter, whose margin is larger than the slack. If the filter finds every condition to hold by more than
 ///   the margin, (p, q) is the strict minimum of *every* incident triangle pair, |x - y|^2 being convex on
 ///   each, and its points depend on the two features alone; else all incident triangle pairs are evaluated,
 ///   the accepted one among them.
 /// - d <= touch, or the triangles intersect. Directions mean nothing there, but the two faces touch within
-///   the touch distance: every triangle is a leaf, even one without area, and the touch test looks at no
-///   cone.
+///   the touch distance: every triangle is a leaf, even one without area, and the touch test looks at
+///   no cone.
 ///
 /// The merging of plateaus is the truth's, and it sees the same minima.
 ///
-/// Frame coherence: where the pose moves by little, step 1 is not made anew. Every test of the last frames is
-/// kept with the number of frames that it stands if the motion goes on as forecast (wide_lifetime.h), and so
-/// are the answers of step 2 (PairFilter). What a frame does again is what has run out, and whatever the
-/// motion, as it turns out, has deviated too far for (motion_forecast.h); what may be an LMD is decided in
-/// every frame. Where the pose jumps, and where next to nothing stands (coherence_gauge.h), the frame is
-/// searched from scratch and nothing is kept. The set is the same either way; the work counters tell what was
-/// done.
+/// Frame coherence: where the pose moves by little, step 1 is not made anew. Every test of the last
+/// frames is kept with the number of frames that it stands if the motion goes on as forecast
+/// (wide_lifetime.h), and so are the answers of step 2 (PairFilter). What a frame does again is what has
+/// run out, and whatever the motion, as it turns out, has deviated too far for (motion_forecast.h); what
+/// may be an LMD is decided in every frame. Where the pose jumps, and where next to nothing stands
+/// (coherence_gauge.h), the frame is searched from scratch and nothing is kept. The set is the same
+/// either way; the work counters tell what was done.
 class Certified : public Method {
  public:
   /// @param kernel form of the node test where the frame is searched from scratch

@@ -15,8 +15,8 @@ namespace {
 /// Squared sine of the angle below which edges count as parallel: beyond it the feet of the common
 /// perpendicular are exact to about 2e-16 / 1e-8 of the edges, well within the margin.
 constexpr double PARALLEL_SQUARED_SINE = 1e-8;
-/// Half width, as a sine, of the band of directions in which a nearly parallel edge or face pair is
-/// borderline.
+/// Half width, as a sine, of the band of directions in which a nearly parallel edge
+/// or face pair is borderline.
 constexpr double PARALLEL_BAND = 2e-4;
 
 /// Distances that differ from the cutoff by less than this part of it are left to the exact kernel.
@@ -89,8 +89,8 @@ struct Test {
   }
 
   /// Whether d moves away from a corner.
-  /// @param turn_share angle that a unit of sine stands, for a d that only turns; 0 where d changes like a
-  /// point
+  /// @param turn_share angle that a unit of sine stands, for a d that only turns; 0 where d changes like
+  ///                   a point
   PairAnswer away_from(const Side& side, const Vec3& d_S, double squared_d, const Vec3& to_corner,
                        double turn_share) const {
     const double along = d_S.dot(to_corner);
@@ -223,8 +223,8 @@ struct Test {
     const double s = (uv * vr - vv * ur) / determinant;
     const double t = (uu * vr - uv * ur) / determinant;
     if (outside(s) || outside(t)) {
-      // The end beyond the other edge's plane through the common perpendicular, and how fast that plane can
-      // turn.
+      // The end beyond the other edge's plane through the common perpendicular, and
+      // how fast that plane can turn.
       const double sine = std::sqrt(determinant / (uu * vv));
       const Vec3 d = r + s * u - t * v;
       const double length_u = std::sqrt(uu), length_v = std::sqrt(vv);

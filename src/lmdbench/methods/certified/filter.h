@@ -48,9 +48,9 @@ struct PairFilter {
   ///   edge or face, is linear. Two edges at the angle alpha: the plane through one edge and the common
   ///   perpendicular n also turns, by no more than n; n turns by phi <= (pi / 3) theta / sin(alpha) while
   ///   theta <= sin(alpha) / 2, which is a lever of its own, and phi |Delta| is a spread;
-  /// - d leaves a cone by d . e > 0 for a unit e: linear where d is the difference of two points, or of a
-  ///   point and its foot on an edge; where d is along a face's normal or n, it changes by |d| times the
-  ///   angle.
+  /// - d leaves a cone by d . e > 0 for a unit e: linear where d is the difference of two points, or of
+  ///   a point and its foot on an edge; where d is along a face's normal or n, it changes by |d| times
+  ///   the angle.
   ///
   /// @param lever of the moving feature: its radius about its centre and two cutoffs [m]
   PairAnswer operator()(const FeatureId& on_moving, const FeatureId& on_fixed, double lever) const;

@@ -22,8 +22,8 @@ class TriangleGrid {
  public:
   explicit TriangleGrid(const TriangleMesh& mesh);
 
-  /// Calls `visit(triangle)` once for each triangle whose box is within `distance` [m] of `box`; order: cell
-  /// by cell.
+  /// Calls `visit(triangle)` once for each triangle whose box is within `distance` [m]
+  /// of `box`; order: cell by cell.
   template <class Visitor>
   void for_each_near(const Eigen::AlignedBox3d& box, double distance, Visitor&& visit) {
     if (boxes_.empty() || bounds_.squaredExteriorDistance(box) > distance * distance) return;

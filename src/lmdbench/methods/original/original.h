@@ -13,8 +13,8 @@
 
 namespace lmdbench {
 
-/// The original algorithm (Johnson and Cohen 2001; Johnson and Willemsen 2003, 2004; as told in the paper,
-/// section 3.2).
+/// The original algorithm (Johnson and Cohen 2001; Johnson and Willemsen 2003, 2004; as told in the
+/// paper, section 3.2).
 ///   Global search: G1, G2 and G3 (dual solution line cone) on the nodes; at the leaves the least of 7x7
 ///   point distances (G4), whose vector is verified against the normals of both feature points (G5). Local
 ///   tracking: L1..L4 with 7x7 distances.

@@ -15,8 +15,8 @@ constexpr double UNKNOWN = std::numeric_limits<double>::infinity();
 /// Deviations are learnt from forecasts that are no older than this [frames], with room.
 constexpr std::uint32_t JUDGED_FRAMES = 20;
 constexpr double ROOM = 1.25;
-/// Share of what was learnt that is left after a frame: one bad forecast is not held against the next for
-/// long.
+/// Share of what was learnt that is left after a frame: one bad forecast is not
+/// held against the next for long.
 constexpr double MEMORY = 0.9;
 /// Largest norm of the rotation's change since an epoch's start. Between two frames of an epoch it is then at
 /// most twice that, for which the angle is the norm over sqrt(2) to within ANGLE_ROUNDING: the angle is 2
@@ -28,11 +28,11 @@ constexpr double LEAST = 1e-30;
 /// What a test has let through is kept until its plan ends: over motions of more cutoffs than this, too much
 /// of it would be kept for nothing.
 constexpr double PLAN_CUTOFFS = 8.0;
-/// A horizon saves repeated tests, but keeps more of them: the best of a few tried on recorded paths. Frames,
-/// cutoffs, radians.
+/// A horizon saves repeated tests, but keeps more of them: the best of a few tried on recorded
+/// paths. Frames, cutoffs, radians.
 constexpr double LARGEST_HORIZON = 4.0, HORIZON_CUTOFFS = 1.0, HORIZON_TURN = 0.01;
-/// Relative rounding of the quantities below, generously, and of what is computed from them in single
-/// precision.
+/// Relative rounding of the quantities below, generously, and of what is computed
+/// from them in single precision.
 constexpr double ROUNDING = 1e-12;
 constexpr double SINGLE_ROUNDING = 1e-5;
 

@@ -29,9 +29,9 @@
 ///
 ///   F(D) - grad F . Delta - theta * lever > 0
 ///
-/// whatever the size of Delta; and the one of angles while theta is below its slack. Delta and theta grow by
-/// the forecast (motion_forecast.h), which gives a number of frames; what the motion may deviate by is
-/// subtracted first.
+/// whatever the size of Delta; and the one of angles while theta is below its slack. Delta and
+/// theta grow by the forecast (motion_forecast.h), which gives a number of frames; what the motion
+/// may deviate by is subtracted first.
 namespace lmdbench {
 
 /// The forecast as one query needs it, in single precision.

@@ -15,8 +15,8 @@ namespace {
 
 /// End directions that are shorter than this before they are made unit are rounding.
 constexpr double LEAST_END = 1e-6;
-/// A constraint that is looser than this (a sine) is dropped; caps of needle-like triangles get wider, never
-/// wrong.
+/// A constraint that is looser than this (a sine) is dropped; caps of needle-like
+/// triangles get wider, never wrong.
 constexpr double LARGEST_SLACK = 0.1;
 /// Heights of triangles below this part of their length are rounding: such a triangle constrains nothing.
 constexpr double LEAST_HEIGHT = 1e-12;

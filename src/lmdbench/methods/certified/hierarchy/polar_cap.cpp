@@ -18,8 +18,8 @@ using polar::Constraint, polar::Scratch;
 /// Crossings of planes that are closer to parallel than this (a sine) are left out: their neighbours bound
 /// the cone to within the slack.
 constexpr double LEAST_CROSSING = 1e-6;
-/// Planes whose angle has a larger sine than this cross clearly: most candidates can be rejected without a
-/// root.
+/// Planes whose angle has a larger sine than this cross clearly: most candidates can
+/// be rejected without a root.
 constexpr double CLEAR_CROSSING = 0.2;
 /// Which of the two crossings x and -x of two planes some constraint rejects for certain. The planes
 /// themselves reject neither. x need not be unit, and is at least CLEAR_CROSSING long; no constraint has more

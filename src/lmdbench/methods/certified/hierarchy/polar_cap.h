@@ -27,11 +27,11 @@ inline constexpr double POLAR_SLACK = 2e-6;
 /// Cap of a feature, or nothing when the polar cone is empty even with the slack: such a feature (a reflex
 /// edge, a saddle vertex, a pit) carries no LMD. A face without area carries none either.
 ///
-/// The cone { n : n.e <= s |e| for all e } with e the edge directions (and the negated pseudo-normal where
-/// the feature has an outer side) is a spherical polygon. Its corners lie where two of the planes cross;
-/// those crossings that satisfy the other constraints up to the slack, amplified by how obliquely the two
-/// planes cross, bound it. Boundary and non-manifold features have no outer side and usually get all
-/// directions.
+/// The cone { n : n.e <= s |e| for all e } with e the edge directions (and the negated pseudo-normal
+/// where the feature has an outer side) is a spherical polygon. Its corners lie where two of the
+/// planes cross; those crossings that satisfy the other constraints up to the slack, amplified by
+/// how obliquely the two planes cross, bound it. Boundary and non-manifold features have no outer
+/// side and usually get all directions.
 std::optional<PolarCap> polar_cap(const Surface& surface, const FeatureId& feature);
 
 }  // namespace lmdbench

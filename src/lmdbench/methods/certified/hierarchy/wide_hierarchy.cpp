@@ -55,8 +55,8 @@ class Deduplicator {
   std::uint32_t mark_ = 0;  ///< Fewer lists than nodes, of which there are fewer than 2^29.
 };
 
-/// What a thread needs for itself. Not to be held while other tasks are waited for: this thread may work on
-/// them.
+/// What a thread needs for itself. Not to be held while other tasks are waited for:
+/// this thread may work on them.
 struct Scratch {
   Deduplicator deduplicator;
   LaneCaps caps;
@@ -265,8 +265,8 @@ class Builder {
     LaneVectors offsets{};
     find_lane_centres(points, axes, steps, offsets);
 
-    // Corners were moved to the origin in double precision; that rounding is 1e-16 of the mesh and is added
-    // too.
+    // Corners were moved to the origin in double precision; that rounding is 1e-16
+    // of the mesh and is added too.
     const double rounding =
         4.0 * std::numeric_limits<double>::epsilon() * (result_.radius + result_.origin.norm());
     for (std::size_t i = 0; i < lanes.size(); ++i) {

@@ -106,9 +106,9 @@ struct WideBuildOptions {
       0.3;  ///< Length that a unit of axis difference counts as, in units of the set's extent.
 };
 
-/// Hierarchy over the features of a mesh that can carry an LMD (non-empty outward polar cone), each owned by
-/// one lane of one node, and over every triangle without area. nodes[0] has one child, the root; empty for an
-/// empty mesh.
+/// Hierarchy over the features of a mesh that can carry an LMD (non-empty outward polar cone),
+/// each owned by one lane of one node, and over every triangle without area. nodes[0] has one
+/// child, the root; empty for an empty mesh.
 struct WideHierarchy {
   std::vector<WideNode> nodes;
   Vec3 origin = Vec3::Zero();  ///< Mesh-frame point that is the origin of the nodes' coordinates.

@@ -16,8 +16,8 @@ namespace {
 /// Features that one task looks at. The blocks' results are joined in order, so that threads do not matter.
 constexpr std::size_t BLOCK = 2048;
 
-/// Cone of the normals of all faces round the feature's vertices: what a hierarchy over triangles would have
-/// to use.
+/// Cone of the normals of all faces round the feature's vertices: what a hierarchy over
+/// triangles would have to use.
 PolarCap one_ring_cap(const Surface& surface, const FeatureId& feature) {
   std::vector<Vec3> normals;
   const FeatureCorners corners(surface, feature);

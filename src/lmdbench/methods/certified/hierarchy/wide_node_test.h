@@ -27,8 +27,8 @@
 ///
 ///   G1  |D| <= cutoff + r + r'   and   z <= cutoff + slab
 ///   G2  -u . u' >= cos(phi + phi')
-///   G3  z >= -slab   and   |D across u| cos(phi) <= (r + r') cos(phi) + sin(phi) min(z + slab, cutoff
-///   cos(phi))
+///   G3  z >= -slab   and
+///       |D across u| cos(phi) <= (r + r') cos(phi) + sin(phi) min(z + slab, cutoff cos(phi))
 ///
 /// G3 needs no sigma = arcsin((r + r') / |D|): it holds for overlapping spheres too (decision E3) and is
 /// tighter there. It needs no division, and the only square root is the slab's. The touch test is |D| <=

@@ -122,8 +122,8 @@ class Partition {
   /// predict for every comparison.
   void select_by_bins(Places places, std::size_t count, int axis, float low, float bins_per_metre) {
     const auto bin_of = [=](const Place& place) {
-      // Of a set without extent all are in the last bin: then the factor is infinite, and the product may be
-      // no number.
+      // Of a set without extent all are in the last bin: then the factor is infinite, and
+      // the product may be no number.
       const float bin = (place.centre[axis] - low) * bins_per_metre;
       return bin < static_cast<float>(BINS - 1) ? static_cast<std::size_t>(bin) : BINS - 1;
     };

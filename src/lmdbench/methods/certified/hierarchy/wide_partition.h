@@ -14,8 +14,8 @@ struct WideDivision {
   std::size_t unit;      ///< Sets are divided at multiples of this.
   std::size_t children;  ///< At most the width.
 
-  /// Full nodes: the unit is a power of the width, so that below the root only one path of nodes is partly
-  /// empty.
+  /// Full nodes: the unit is a power of the width, so that below the root only one
+  /// path of nodes is partly empty.
   WideDivision(std::size_t size, const WideBuildOptions& options);
 };
 

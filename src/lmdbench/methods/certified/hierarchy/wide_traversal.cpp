@@ -211,8 +211,8 @@ WideQuery::WideQuery(const WideHierarchy& a, const WideHierarchy& b, const Rigid
   if (!possible) return;
   a_in_b = WideTransform(X_BA.rotation, p_BA);
   b_in_a = WideTransform(X_BA.rotation.transpose(), -(X_BA.rotation.transpose() * p_BA));
-  // The rounding of the two origins in the mesh frames is that of double precision, but grows with their
-  // coordinates.
+  // The rounding of the two origins in the mesh frames is that of double precision, but
+  // grows with their coordinates.
   const double far_away = 1e-15 * (X_BA.translation.norm() + a.origin.norm() + b.origin.norm());
   limits.cutoff = round_up_to_single(std::min(cutoff, 2.0 * size));
   limits.touch = round_up_to_single(touch);

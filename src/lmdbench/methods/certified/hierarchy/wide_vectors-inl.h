@@ -30,8 +30,8 @@ HWY_INLINE std::uint32_t mask_bits(Lanes lanes, Mask mask, std::uint32_t first) 
   return (bytes[0] & all) << first;
 }
 
-/// Brings a node near that will be tested soon: a mesh that does not fit into a processor's cache is slow to
-/// descend otherwise.
+/// Brings a node near that will be tested soon: a mesh that does not fit into a processor's
+/// cache is slow to descend otherwise.
 HWY_INLINE void fetch(const WideNode& node) {
   constexpr std::size_t CACHE_LINE = 64;
   const auto* const bytes = reinterpret_cast<const char*>(&node);
