@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/lmd/first_order.h>
+#include <lmdbench/methods/certified/hierarchy/wide_hierarchy.h>
 #include <lmdbench/methods/registry.h>
 #include <lmdbench/snch/minimum_distance.h>
 
