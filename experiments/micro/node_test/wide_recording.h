@@ -78,7 +78,7 @@ class WideNodeTest : public NodeTest {
   }
   static bool same(const WideLifetimes& a, const WideLifetimes& b) {
     return a.used == b.used && a.lmd == b.lmd && a.touch == b.touch && a.frames == b.frames &&
-           a.allowance == b.allowance;
+           a.deviation_budget == b.deviation_budget;
   }
 
   Scene scene_;  ///< Keeps the nodes alive.

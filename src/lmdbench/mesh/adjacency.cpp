@@ -27,7 +27,7 @@ void for_each_vertex(const std::array<std::int32_t, 3>& corners, Visit visit) {
   if (corners[2] != corners[0] && corners[2] != corners[1]) visit(corners[2]);
 }
 
-IndexRows triangles_of_vertices(const TriangleMesh& mesh) {
+CsrRows triangles_of_vertices(const TriangleMesh& mesh) {
   std::vector<std::int32_t> offsets(mesh.vertices.size() + 1, 0);
   for (const auto& corners : mesh.triangles)
     for_each_vertex(corners, [&](std::int32_t vertex) { ++offsets[static_cast<std::size_t>(vertex) + 1]; });
@@ -45,7 +45,7 @@ IndexRows triangles_of_vertices(const TriangleMesh& mesh) {
 
 /// For every side the first side on the same edge. An edge is met at its smaller vertex, so every vertex has
 /// only the few sides to sort that it is the smaller end of, and vertices can be treated apart.
-std::vector<SideIndex> first_sides(const TriangleMesh& mesh, const IndexRows& vertex_triangles) {
+std::vector<SideIndex> first_sides(const TriangleMesh& mesh, const CsrRows& vertex_triangles) {
   std::vector<SideIndex> first(3 * mesh.triangles.size());
   const auto vertex_count = static_cast<std::int32_t>(mesh.vertices.size());
   const tbb::blocked_range<std::int32_t> all(0, vertex_count, GRAIN);

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <lmdbench/mesh/csr_rows.h>
 #include <lmdbench/mesh/edge_triangles.h>
-#include <lmdbench/mesh/index_rows.h>
 #include <lmdbench/mesh/triangle_mesh.h>
 
 #include <array>
@@ -18,7 +18,7 @@ struct Adjacency {
   std::vector<std::array<std::int32_t, 3>>
       triangle_edges;            ///< #T by 3; side k joins corners k and (k + 1) % 3.
   EdgeTriangles edge_triangles;  ///< #E lists of triangles, ascending.
-  IndexRows vertex_triangles;    ///< #V rows of triangles, ascending.
+  CsrRows vertex_triangles;      ///< #V rows of triangles, ascending.
 
   std::int32_t edge_count() const { return static_cast<std::int32_t>(edges.size()); }
   /// Memory that all of this takes.

@@ -256,17 +256,17 @@ TEST(PairFilter, NothingIsAnLmdWhileTheRejectionStands) {
     for (const WidePair& pair : scratch.lmd_pairs) {
       const auto [centre, radius] = body_of(moving, pair.a.feature_id());
       const PairAnswer answer = first(pair.a.feature_id(), pair.b.feature_id(), radius + 2.0 * cutoff);
-      const PairStanding& standing = answer.standing;
-      if (answer.verdict != PairVerdict::NO_LMD || !(standing.slack > 0.0)) continue;
-      EXPECT_LE(standing.gradient.norm(), 1.0 + 1e-9);
+      const Certificate& certificate = answer.certificate;
+      if (answer.verdict != PairVerdict::NO_LMD || !(certificate.slack > 0.0)) continue;
+      EXPECT_LE(certificate.gradient.norm(), 1.0 + 1e-9);
       for (int trial = 0; trial < 12; ++trial) {
         const double angle = 0.3 * uniform(random) * uniform(random) * uniform(random);
         Vec3 displacement = 0.5 * uniform(random) * uniform(random) * random_direction(random);
         // Motions that lose nothing may be long.
         if (trial % 2 == 0)
-          displacement -= std::max(0.0, displacement.dot(standing.gradient)) * standing.gradient;
-        const double left = standing.slack - standing.gradient.dot(displacement) -
-                            standing.spread * displacement.norm() - standing.lever * angle;
+          displacement -= std::max(0.0, displacement.dot(certificate.gradient)) * certificate.gradient;
+        const double left = certificate.slack - certificate.gradient.dot(displacement) -
+                            certificate.spread * displacement.norm() - certificate.lever_arm * angle;
         Pose after = pose;
         const Eigen::Quaterniond turn(Eigen::AngleAxisd(angle, random_direction(random)));
         after.rotation = (turn * pose.rotation).normalized();
@@ -274,12 +274,12 @@ TEST(PairFilter, NothingIsAnLmdWhileTheRejectionStands) {
         const RigidTransform transform(after);
         const PairFilter second{moving, transform, fixed, cutoff, 1e-9, 1e-5, 1e-8};
         const bool is_lmd = second(pair.a.feature_id(), pair.b.feature_id(), 0.0).verdict == PairVerdict::LMD;
-        if (left > 0.0 && angle < standing.turn) {
+        if (left > 0.0 && angle < certificate.turn) {
           ASSERT_FALSE(is_lmd) << to_string(pair.a.feature_id().kind) << " "
-                               << to_string(pair.b.feature_id().kind) << " slack " << standing.slack
-                               << " left " << left << " turn " << standing.turn;
+                               << to_string(pair.b.feature_id().kind) << " slack " << certificate.slack
+                               << " left " << left << " turn " << certificate.turn;
           ++stood;
-          if (displacement.norm() > 1.5 * standing.slack) ++far;
+          if (displacement.norm() > 1.5 * certificate.slack) ++far;
         } else if (is_lmd) {
           ++ended;
         }

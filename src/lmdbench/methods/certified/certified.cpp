@@ -127,7 +127,7 @@ Certified::Certified(Scene scene, const MethodOptions& options, WideKernel kerne
     : scene_(std::move(scene)), coherent_(options.frame_coherence), kernel_(kernel) {
   double extent = scene_.moving->prepared<WideHierarchy>().radius;
   for (const auto& body : scene_.fixed) extent = std::max(extent, body->prepared<WideHierarchy>().radius);
-  // Without a cutoff that means something there is nothing to save, and levers would be without bound.
+  // Without a cutoff that means something there is nothing to save, and lever arms would be without bound.
   coherent_ = coherent_ && scene_.cutoff <= 10.0 * extent;
   kept_.resize(scene_.fixed.size());
 }
@@ -146,12 +146,12 @@ bool Certified::evaluate(const PairFilter& filter, std::int32_t body, const Tria
   return meets_first_order(filter.moving, filter.X_WM, filter.fixed, minimum);
 }
 
-/// Settles a candidate or leaves its triangle pairs to decide_pending; returns what WideFrontier asks for.
-PairStanding Certified::decide(const PairFilter& filter, std::int32_t body, const WidePair& candidate,
-                               double lever, WorkCounters& counters) {
+/// Settles a candidate or leaves its triangle pairs to decide_pending; returns what TraversalFront asks for.
+Certificate Certified::decide(const PairFilter& filter, std::int32_t body, const WidePair& candidate,
+                              double lever_arm, WorkCounters& counters) {
   const FeatureId on_moving = candidate.a.feature_id(), on_fixed = candidate.b.feature_id();
-  const PairAnswer answer = filter(on_moving, on_fixed, lever);
-  if (answer.verdict == PairVerdict::NO_LMD) return answer.standing;
+  const PairAnswer answer = filter(on_moving, on_fixed, lever_arm);
+  if (answer.verdict == PairVerdict::NO_LMD) return answer.certificate;
   const auto triangles_moving = filter.moving.incident_triangles(on_moving);
   const auto triangles_fixed = filter.fixed.incident_triangles(on_fixed);
   Lmd lmd;
@@ -177,8 +177,8 @@ PairStanding Certified::decide(const PairFilter& filter, std::int32_t body, cons
   return {};
 }
 
-PairStanding Certified::decide_touching(const PairFilter& filter, std::int32_t body,
-                                        const WidePair& candidate, double lever, WorkCounters& counters) {
+Certificate Certified::decide_touching(const PairFilter& filter, std::int32_t body, const WidePair& candidate,
+                                       double lever_arm, WorkCounters& counters) {
   const TrianglePair pair{candidate.a.feature_id().index, candidate.b.feature_id().index};
   const Triangle a = filter.X_WM.triangle(filter.moving.mesh.triangle(pair.moving));
   const Triangle b = filter.fixed.mesh.triangle(pair.fixed);
@@ -187,10 +187,10 @@ PairStanding Certified::decide_touching(const PairFilter& filter, std::int32_t b
   const Vec3& normal_b = filter.fixed.face_normals[static_cast<std::size_t>(pair.fixed)];
   const double margin = 2.0 * filter.touch;
   const ClearGap clear = clear_gap(a, normal_a, b, normal_b, margin);
-  if (clear.gap > 0.0) return {clear.gap - margin, clear.axis, 0.0, lever};
+  if (clear.gap > 0.0) return {clear.gap - margin, clear.axis, 0.0, lever_arm};
   LocalMinimum minimum;
   if (evaluate(filter, body, pair, minimum, counters)) minima_.push_back(minimum);
-  return {minimum.lmd.distance - margin, minimum.lmd.direction, 0.0, lever};
+  return {minimum.lmd.distance - margin, minimum.lmd.direction, 0.0, lever_arm};
 }
 
 void Certified::decide_pending(const PairFilter& filter, std::int32_t body, WorkCounters& counters) {
@@ -258,22 +258,22 @@ void Certified::search(const Pose& X_WM, LmdSet& lmds, WorkCounters& counters) {
                             RELATIVE_TINY * coordinates};
     const WideQuery query(moving, fixed, transform, scene_.cutoff, touch);
     WideCounters work;
-    const auto decide_pair = [&](const WidePair& pair, bool touches, double lever) {
+    const auto decide_pair = [&](const WidePair& pair, bool touches, double lever_arm) {
       ++counters[Counter::LEAF_PAIRS];
-      return touches ? decide_touching(filter, body, pair, lever, counters)
-                     : decide(filter, body, pair, lever, counters);
+      return touches ? decide_touching(filter, body, pair, lever_arm, counters)
+                     : decide(filter, body, pair, lever_arm, counters);
     };
-    WideFrontier& frontier = kept_[i].frontier;
-    if (keep && query.possible && kept_[i].gauge.keep()) {
-      if (frontier.empty()) {
-        frontier.start(moving, fixed, query, motion_, transform, longest, work);
+    TraversalFront& front = kept_[i].front;
+    if (keep && query.possible && kept_[i].policy.keep()) {
+      if (front.empty()) {
+        front.start(moving, fixed, query, motion_, transform, longest, work);
       } else {
-        frontier.advance(moving, fixed, query, motion_, transform, longest, work);
-        kept_[i].gauge.note(work.node_tests, frontier.test_count());
+        front.advance(moving, fixed, query, motion_, transform, longest, work);
+        kept_[i].policy.note(work.node_tests, front.test_count());
       }
-      frontier.for_each_due(moving, motion_, longest, decide_pair);
+      front.for_each_due(moving, motion_, longest, decide_pair);
     } else {
-      frontier.clear();
+      front.clear();
       find_wide_pairs(moving, fixed, query, kernel_, scratch_, work);
       const auto fetch = [&](std::size_t k, const auto& fetch_part) {
         if (k >= scratch_.lmd_pairs.size()) return;

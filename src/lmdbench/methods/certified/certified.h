@@ -6,8 +6,8 @@
 #include <lmdbench/lmd/method_options.h>
 #include <lmdbench/lmd/plateau.h>
 #include <lmdbench/lmd/scene.h>
-#include <lmdbench/methods/certified/coherence/coherence_gauge.h>
-#include <lmdbench/methods/certified/coherence/wide_frontier.h>
+#include <lmdbench/methods/certified/coherence/coherence_policy.h>
+#include <lmdbench/methods/certified/coherence/traversal_front.h>
 #include <lmdbench/methods/certified/filter.h>
 #include <lmdbench/methods/certified/hierarchy/wide_traversal.h>
 
@@ -49,7 +49,7 @@ namespace lmdbench {
 /// (wide_lifetime.h), and so are the answers of step 2 (PairFilter). What a frame does again is what has
 /// run out, and whatever the motion, as it turns out, has deviated too far for (motion_forecast.h); what
 /// may be an LMD is decided in every frame. Where the pose jumps, and where next to nothing stands
-/// (coherence_gauge.h), the frame is searched from scratch and nothing is kept. The set is the same
+/// (coherence_policy.h), the frame is searched from scratch and nothing is kept. The set is the same
 /// either way; the work counters tell what was done.
 class Certified : public Method {
  public:
@@ -70,10 +70,10 @@ class Certified : public Method {
     auto operator<=>(const TrianglePair&) const = default;
   };
 
-  PairStanding decide(const PairFilter& filter, std::int32_t body, const WidePair& candidate, double lever,
-                      WorkCounters& counters);
-  PairStanding decide_touching(const PairFilter& filter, std::int32_t body, const WidePair& candidate,
-                               double lever, WorkCounters& counters);
+  Certificate decide(const PairFilter& filter, std::int32_t body, const WidePair& candidate, double lever_arm,
+                     WorkCounters& counters);
+  Certificate decide_touching(const PairFilter& filter, std::int32_t body, const WidePair& candidate,
+                              double lever_arm, WorkCounters& counters);
   void decide_pending(const PairFilter& filter, std::int32_t body, WorkCounters& counters);
   bool evaluate(const PairFilter& filter, std::int32_t body, const TrianglePair& pair, LocalMinimum& minimum,
                 WorkCounters& counters) const;
@@ -89,8 +89,8 @@ class Certified : public Method {
 
   /// Of one fixed body; empty where nothing is kept.
   struct Kept {
-    WideFrontier frontier;
-    CoherenceGauge gauge;
+    TraversalFront front;
+    CoherencePolicy policy;
   };
   std::vector<Kept> kept_;
   MotionForecast motion_;

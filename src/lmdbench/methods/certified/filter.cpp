@@ -30,12 +30,12 @@ constexpr double LARGEST_TURN = 0.05;
 constexpr double SPREAD = TURN_FACTOR * LARGEST_TURN;
 
 /// Answers combine: one NO_LMD decides, else one BORDERLINE.
-PairAnswer no_lmd(const PairStanding& standing) {
-  return {PairVerdict::NO_LMD, standing};
+PairAnswer no_lmd(const Certificate& certificate) {
+  return {PairVerdict::NO_LMD, certificate};
 }
 const PairAnswer HOLDS{PairVerdict::LMD, {}};
 const PairAnswer CLOSE{PairVerdict::BORDERLINE, {}};
-const PairAnswer NEVER = no_lmd(PairStanding::turned(std::numeric_limits<double>::infinity()));
+const PairAnswer NEVER = no_lmd(Certificate::turned(std::numeric_limits<double>::infinity()));
 /// Without a word on what it stands.
 const PairAnswer NO_LMD_NOW = no_lmd({});
 
@@ -65,16 +65,16 @@ struct Side {
 
 struct Test {
   const PairFilter& filter;
-  double lever;
+  double lever_arm;
   Side moving, fixed;
 
-  Test(const PairFilter& f, double lever_of_motions)
-      : filter(f), lever(lever_of_motions), moving{f.moving, f.X_WM, true}, fixed{f.fixed, f.X_WM, false} {}
+  Test(const PairFilter& f, double arm_of_turns)
+      : filter(f), lever_arm(arm_of_turns), moving{f.moving, f.X_WM, true}, fixed{f.fixed, f.X_WM, false} {}
 
   /// What is left of a length that must fall to zero before anything changes, less what rounding and the
   /// truth's tolerances take. It loses `gradient` times the displacement.
   PairAnswer no_lmd_within(double length, const Vec3& gradient) const {
-    return no_lmd({length - 2.0 * filter.touch, gradient, 0.0, lever});
+    return no_lmd({length - 2.0 * filter.touch, gradient, 0.0, lever_arm});
   }
 
   /// @param d_W between the points, from the moving mesh to the fixed one
@@ -100,7 +100,7 @@ struct Test {
     if (along < 0.0) return HOLDS;
     const double length = std::sqrt(squared_length), component = along / length;
     if (turn_share > 0.0)
-      return no_lmd(PairStanding::turned(turn_share * (component / std::sqrt(squared_d) - filter.margin)));
+      return no_lmd(Certificate::turned(turn_share * (component / std::sqrt(squared_d) - filter.margin)));
     return no_lmd_within(component, side.sign() / length * side.to_world(to_corner));
   }
 
@@ -167,7 +167,7 @@ struct Test {
     if (!settle(answer, in_vertex_cone(of_vertex, vertex, d, 0.0)))
       settle(answer, in_edge_cone(of_edge, edge, parameter, -d, 0.0));
     // d stays square to the edge.
-    answer.standing.gradient -= answer.standing.gradient.dot(u) / squared_length * u;
+    answer.certificate.gradient -= answer.certificate.gradient.dot(u) / squared_length * u;
     return answer;
   }
 
@@ -237,7 +237,7 @@ struct Test {
       // Every point of the edge must stay on its side, so the farthest one is the lever arm.
       const double arm = beyond + d.norm() + std::max(length_u, length_v);
       return no_lmd({beyond * sine - 2.0 * filter.touch, gradient, SPREAD,
-                     (1.0 + SPREAD) * lever + TURN_FACTOR * arm / sine, LARGEST_TURN * sine});
+                     (1.0 + SPREAD) * lever_arm + TURN_FACTOR * arm / sine, LARGEST_TURN * sine});
     }
     PairAnswer answer = HOLDS;
     if (!strictly_inside(s) || !strictly_inside(t)) answer = CLOSE;
@@ -249,8 +249,9 @@ struct Test {
         settle(answer, in_edge_cone(fixed, b, t, -d, sine / TURN_FACTOR))) {
       // d turns smoothly as long as the edges do not pass through each other.
       const double distance = std::sqrt(squared_d);
-      answer.standing = {(1.0 - SPREAD) * distance - 2.0 * filter.touch, d / distance, SPREAD,
-                         (1.0 + SPREAD) * lever, std::min(answer.standing.turn, LARGEST_TURN * sine)};
+      answer.certificate = {(1.0 - SPREAD) * distance - 2.0 * filter.touch, d / distance, SPREAD,
+                            (1.0 + SPREAD) * lever_arm,
+                            std::min(answer.certificate.turn, LARGEST_TURN * sine)};
     }
     return answer;
   }
@@ -273,7 +274,7 @@ struct Test {
     const double band = PARALLEL_BAND * length;
     const double rise = std::abs(u.dot(n));
     if (length > filter.tiny && rise > band)
-      return no_lmd(PairStanding::turned(rise / length - 0.5 * PARALLEL_BAND));
+      return no_lmd(Certificate::turned(rise / length - 0.5 * PARALLEL_BAND));
     const auto& corners = of_face.surface.mesh.triangles[static_cast<std::size_t>(face)];
     const double height = n.dot(e0 - of_face.vertex_W(corners[0]));
     const Vec3 outwards = of_edge.sign() * n;
@@ -286,14 +287,15 @@ struct Test {
     const Vec3& normal_b = fixed.surface.face_normals[static_cast<std::size_t>(b)];
     if (normal_a.isZero(0.0) || normal_b.isZero(0.0)) return NEVER;
     const double apart = (moving.to_world(normal_a) + normal_b).norm();
-    return apart > PARALLEL_BAND ? no_lmd(PairStanding::turned(apart - 0.5 * PARALLEL_BAND)) : CLOSE;
+    return apart > PARALLEL_BAND ? no_lmd(Certificate::turned(apart - 0.5 * PARALLEL_BAND)) : CLOSE;
   }
 };
 
 }  // namespace
 
-PairAnswer PairFilter::operator()(const FeatureId& on_moving, const FeatureId& on_fixed, double lever) const {
-  const Test test(*this, lever);
+PairAnswer PairFilter::operator()(const FeatureId& on_moving, const FeatureId& on_fixed,
+                                  double lever_arm) const {
+  const Test test(*this, lever_arm);
   const std::int32_t a = on_moving.index, b = on_fixed.index;
   switch (on_moving.kind) {
     case FeatureKind::VERTEX:

@@ -4,7 +4,7 @@
 
 #include <lmdbench/geometry/pose.h>
 #include <lmdbench/mesh/surface.h>
-#include <lmdbench/methods/certified/coherence/pair_standing.h>
+#include <lmdbench/methods/certified/coherence/certificate.h>
 
 #include <cstdint>
 
@@ -21,7 +21,7 @@ enum class PairVerdict : std::uint8_t {
 /// What a test answers, and what that stands.
 struct PairAnswer {
   PairVerdict verdict = PairVerdict::BORDERLINE;
-  PairStanding standing;  ///< Of NO_LMD.
+  Certificate certificate;  ///< Of NO_LMD.
 };
 
 /// Quantities that a query fixes.
@@ -47,13 +47,13 @@ struct PairFilter {
   /// - a foot beyond an end or side by h: the distance from the plane through the end or side, square to the
   ///   edge or face, is linear. Two edges at the angle alpha: the plane through one edge and the common
   ///   perpendicular n also turns, by no more than n; n turns by phi <= (pi / 3) theta / sin(alpha) while
-  ///   theta <= sin(alpha) / 2, which is a lever of its own, and phi |Delta| is a spread;
+  ///   theta <= sin(alpha) / 2, which is a lever arm of its own, and phi |Delta| is a spread;
   /// - d leaves a cone by d . e > 0 for a unit e: linear where d is the difference of two points, or of
   ///   a point and its foot on an edge; where d is along a face's normal or n, it changes by |d| times
   ///   the angle.
   ///
-  /// @param lever of the moving feature: its radius about its centre and two cutoffs [m]
-  PairAnswer operator()(const FeatureId& on_moving, const FeatureId& on_fixed, double lever) const;
+  /// @param lever_arm of the moving feature: its radius about its centre and two cutoffs [m]
+  PairAnswer operator()(const FeatureId& on_moving, const FeatureId& on_fixed, double lever_arm) const;
 };
 
 }  // namespace lmdbench

@@ -51,7 +51,7 @@ TriangleGrid::TriangleGrid(const TriangleMesh& mesh) {
         for (int x = first.x(); x <= last.x(); ++x)
           cell_triangles.emplace_back((z * size_.y() + y) * size_.x() + x, t);
   }
-  cells_ = IndexRows(size_.prod(), cell_triangles);
+  cells_ = CsrRows(size_.prod(), cell_triangles);
 }
 
 Eigen::Array3i TriangleGrid::cell_of(const Vec3& point) const {

@@ -3,7 +3,7 @@
 #pragma once
 
 #include <lmdbench/geometry/types.h>
-#include <lmdbench/mesh/index_rows.h>
+#include <lmdbench/mesh/csr_rows.h>
 #include <lmdbench/mesh/triangle_mesh.h>
 
 #include <Eigen/Geometry>
@@ -49,7 +49,7 @@ class TriangleGrid {
   Eigen::Array3i size_ = Eigen::Array3i::Ones();
   Vec3 cells_per_metre_ = Vec3::Zero();
   std::vector<Eigen::AlignedBox3d> boxes_;
-  IndexRows cells_;
+  CsrRows cells_;
   std::vector<std::uint64_t> last_query_;  ///< Stamp of the query that visited the triangle last.
   std::uint64_t query_ = 0;
 };

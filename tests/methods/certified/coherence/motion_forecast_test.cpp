@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include <lmdbench/methods/certified/coherence/forecast_timers.h>
+#include <lmdbench/methods/certified/coherence/certificate_queue.h>
 #include <lmdbench/methods/certified/coherence/motion_forecast.h>
 
 #include <gtest/gtest.h>
@@ -37,7 +37,7 @@ TEST(MotionForecast, NothingIsFartherFromItsForecastThanTheDeviation) {
     RigidTransform X;
     Vec3 velocity;
     Mat3 turn;
-    double creep, spin, longest, deviation_at_start;
+    double creep, spin, longest, used_at_start;
   };
   std::mt19937_64 random(1);
   std::size_t tight = 0, judged = 0;
@@ -54,7 +54,7 @@ TEST(MotionForecast, NothingIsFartherFromItsForecastThanTheDeviation) {
       for (const Plan& plan : plans) {
         const int tau = frame - plan.frame;
         if (tau > plan.longest) continue;
-        const double deviation = forecast.deviation(plan.epoch) + plan.deviation_at_start;
+        const double deviation = forecast.deviation(plan.epoch) + plan.used_at_start;
         const double angle = Eigen::AngleAxisd(Mat3(X.rotation * plan.X.rotation.transpose())).angle();
         EXPECT_LE(angle, tau * plan.spin + deviation / forecast.reach() + TINY);
         for (int k = 0; k < 4; ++k) {
@@ -68,7 +68,7 @@ TEST(MotionForecast, NothingIsFartherFromItsForecastThanTheDeviation) {
       if (forecast.longest_plan() >= 1.0)
         plans.push_back({frame, forecast.epoch(), X, forecast.origin_velocity(), forecast.turn(),
                          forecast.creep(), forecast.spin(), forecast.longest_plan(),
-                         forecast.deviation_at_start()});
+                         forecast.used_at_start()});
       if (plans.size() > MotionForecast::LONGEST_PLAN) plans.erase(plans.begin());
     }
   }
@@ -94,29 +94,29 @@ TEST(MotionForecast, SeesASteadyMotionComing) {
   EXPECT_GT(remembered, 10u);
 }
 
-class ForecastTimersTest : public ::testing::Test {
+class CertificateQueueTest : public ::testing::Test {
  protected:
-  ForecastTimersTest() { forecast.reset(RigidTransform(), 0.1, 0.01); }
+  CertificateQueueTest() { forecast.reset(RigidTransform(), 0.1, 0.01); }
   std::vector<std::uint32_t> next(double x) {
     RigidTransform X;
     X.translation.x() = x;
     forecast.advance(X, 0.0);
     std::vector<std::uint32_t> due;
-    timers.collect(forecast, due);
+    queue.collect(forecast, due);
     return due;
   }
   MotionForecast forecast;
-  ForecastTimers timers;
+  CertificateQueue queue;
 };
 
-TEST_F(ForecastTimersTest, GoOffWhenTheirFramesAreOver) {
+TEST_F(CertificateQueueTest, GoOffWhenTheirFramesAreOver) {
   double x = 0.0;
   EXPECT_TRUE(next(x += 0.001).empty());
-  const std::uint32_t first = timers.add(), second = timers.add(), third = timers.add();
-  timers.plan(first, 3.5, 1.0, forecast);
-  timers.plan(second, 1e9, 1.0, forecast);
-  timers.plan(third, 2.0, 1.0, forecast);
-  timers.drop(third);
+  const std::uint32_t first = queue.add(), second = queue.add(), third = queue.add();
+  queue.plan(first, 3.5, 1.0, forecast);
+  queue.plan(second, 1e9, 1.0, forecast);
+  queue.plan(third, 2.0, 1.0, forecast);
+  queue.drop(third);
   for (int frame = 1; frame <= 70; ++frame) {
     const auto due = next(x += 0.001);
     // After 3 frames the plan still stands, and it does not after 4.
@@ -128,15 +128,15 @@ TEST_F(ForecastTimersTest, GoOffWhenTheirFramesAreOver) {
       EXPECT_TRUE(due.empty()) << frame;
     }
   }
-  EXPECT_EQ(timers.count(), 2u);
-  EXPECT_EQ(timers.add(), third);
+  EXPECT_EQ(queue.count(), 2u);
+  EXPECT_EQ(queue.add(), third);
 }
 
-TEST_F(ForecastTimersTest, GoOffWhenTheMotionDeviates) {
+TEST_F(CertificateQueueTest, GoOffWhenTheMotionDeviates) {
   next(0.001);
-  const std::uint32_t narrow = timers.add(), wide = timers.add();
-  timers.plan(narrow, 50.0, 0.01, forecast);
-  timers.plan(wide, 50.0, 0.1, forecast);
+  const std::uint32_t narrow = queue.add(), wide = queue.add();
+  queue.plan(narrow, 50.0, 0.01, forecast);
+  queue.plan(wide, 50.0, 0.1, forecast);
   EXPECT_TRUE(next(0.002).empty());
   EXPECT_TRUE(next(0.0125).empty());  // 0.0095 from 0.003
   EXPECT_EQ(next(0.004 + 0.011), std::vector<std::uint32_t>{narrow});

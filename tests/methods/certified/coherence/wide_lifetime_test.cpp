@@ -115,7 +115,7 @@ TEST(WideLifetime, NothingIsAnLmdBeforeItsFramesAreOver) {
     const WideLifetimes result = test_lanes_lifetime(node, probe, limits, forecast, test);
     if (result.lmd != 0) continue;
     ++rejected;
-    if (pair.deviation > static_cast<double>(result.allowance)) {
+    if (pair.deviation > static_cast<double>(result.deviation_budget)) {
       ++beyond;
       continue;
     }

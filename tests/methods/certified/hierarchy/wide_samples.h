@@ -109,7 +109,7 @@ inline void expect_same_lifetimes(const WideLifetimes& a, const WideLifetimes& b
   ASSERT_EQ(a.lmd, b.lmd);
   ASSERT_EQ(a.touch, b.touch);
   ASSERT_EQ(a.frames, b.frames);
-  ASSERT_EQ(a.allowance, b.allowance);
+  ASSERT_EQ(a.deviation_budget, b.deviation_budget);
 }
 
 }  // namespace lmdbench::testing

@@ -23,7 +23,7 @@ namespace lmdbench {
 ///   |o_t - o_e - tau v| + |R_t - R_e - tau W - tau^2 / 2 Q| * reach        (Frobenius norm)
 ///
 /// bounds how far any point of the mesh is from its forecast, and leaves room for the angle that the mesh has
-/// turned beyond it, times a lever of the mesh's radius and two cutoffs: reach = 2 (radius + cutoff).
+/// turned beyond it, times a lever arm of the mesh's radius and two cutoffs: reach = 2 (radius + cutoff).
 ///
 /// So everything that is planned by the forecast and stands that deviation is safe, whatever the motion; a
 /// bad forecast costs time, nothing else. New epochs start every few frames.
@@ -51,7 +51,7 @@ class MotionForecast {
   /// Of an epoch's forecast at this frame; infinite where the epoch is no longer remembered.
   double deviation(std::size_t epoch) const { return deviations_[epoch]; }
   /// What plans of this frame have deviated by already.
-  double deviation_at_start() const { return started_ ? 0.0 : deviations_[epoch_]; }
+  double used_at_start() const { return started_ ? 0.0 : deviations_[epoch_]; }
 
   /// How forecasts have deviated lately: about base + drift * tau after tau frames. A guess, not a bound;
   /// metres and metres a frame.

@@ -73,7 +73,7 @@ HWY_INLINE WideLifetimes test_lifetime(const WideNode& node, const WideProbe& pr
   const auto infinite = hn::Set(f, std::numeric_limits<float>::infinity());
   const auto angle_loss = hn::Max(hn::Set(f, forecast.spin * forecast.reach), least);
   const WideTransform& X = forecast.in_moving;
-  auto least_frames = infinite, least_allowance = infinite;
+  auto least_frames = infinite, least_budget = infinite;
   alignas(32) static constexpr std::uint32_t LANE_BITS[WIDE_WIDTH] = {1, 2, 4, 8, 16, 32, 64, 128};
 
   WideLifetimes result;
@@ -83,7 +83,7 @@ HWY_INLINE WideLifetimes test_lifetime(const WideNode& node, const WideProbe& pr
     auto ex = hn::Set(f, -test.probe_velocity[0]);
     auto ey = hn::Set(f, -test.probe_velocity[1]);
     auto ez = hn::Set(f, -test.probe_velocity[2]);
-    auto lever = hn::Set(f, probe.radius + 2.0F * forecast.cutoff);
+    auto lever_arm = hn::Set(f, probe.radius + 2.0F * forecast.cutoff);
     if (test.moving_lanes) {
       const auto row = [&](int i) HWY_ATTR {
         return hn::Add(hn::Add(hn::Add(hn::Mul(hn::Set(f, X.columns[0][i]), bounds.cx),
@@ -94,9 +94,9 @@ HWY_INLINE WideLifetimes test_lifetime(const WideNode& node, const WideProbe& pr
       ex = row(0);
       ey = row(1);
       ez = row(2);
-      lever = hn::Add(bounds.radius, hn::Set(f, 2.0F * forecast.cutoff));
+      lever_arm = hn::Add(bounds.radius, hn::Set(f, 2.0F * forecast.cutoff));
     }
-    const auto extra = hn::Add(hn::Mul(hn::Set(f, forecast.spin), lever), hn::Set(f, forecast.creep));
+    const auto extra = hn::Add(hn::Mul(hn::Set(f, forecast.spin), lever_arm), hn::Set(f, forecast.creep));
 
     const auto z_probe = bounds.z_probe, z_lane = bounds.z_lane;
     const auto growth = VectorBounds::dot(bounds.dx, bounds.dy, bounds.dz, ex, ey, ez);
@@ -176,13 +176,12 @@ HWY_INLINE WideLifetimes test_lifetime(const WideNode& node, const WideProbe& pr
     const auto allowed = [&](auto slack, auto for_frames) HWY_ATTR {
       return hn::Add(hn::Add(hn::Mul(slack, share), base), hn::Mul(drift, for_frames));
     };
-    least_allowance =
-        hn::Min(least_allowance, hn::IfThenElse(dead, allowed(lmd_slack, lmd_frames), infinite));
-    least_allowance =
-        hn::Min(least_allowance, hn::IfThenElse(touch_dead, allowed(touching.slack, touch_frames), infinite));
+    least_budget = hn::Min(least_budget, hn::IfThenElse(dead, allowed(lmd_slack, lmd_frames), infinite));
+    least_budget =
+        hn::Min(least_budget, hn::IfThenElse(touch_dead, allowed(touching.slack, touch_frames), infinite));
   }
   result.frames = hn::GetLane(hn::MinOfLanes(f, least_frames));
-  result.allowance = hn::GetLane(hn::MinOfLanes(f, least_allowance));
+  result.deviation_budget = hn::GetLane(hn::MinOfLanes(f, least_budget));
   return result;
 }
 
@@ -228,7 +227,7 @@ void batch_on_target(const WideHierarchy& a, const WideHierarchy& b, const WideQ
                 result.lmd & final_lanes,
                 result.touch & final_lanes,
                 result.frames,
-                result.allowance};
+                result.deviation_budget};
   }
 }
 
@@ -242,13 +241,13 @@ namespace lmdbench {
 HWY_EXPORT(lifetime_on_target);
 HWY_EXPORT(batch_on_target);
 
-WideForecast::WideForecast(const MotionForecast& motion, const RigidTransform& X_FM, double cutoff_of_levers)
+WideForecast::WideForecast(const MotionForecast& motion, const RigidTransform& X_FM, double cutoff_of_arms)
     : in_fixed(motion.turn(), motion.origin_velocity()),
       in_moving(X_FM.rotation.transpose() * motion.turn(),
                 X_FM.rotation.transpose() * motion.origin_velocity()),
       creep(round_up_to_single(motion.creep())),
       spin(round_up_to_single(motion.spin())),
-      cutoff(round_up_to_single(cutoff_of_levers)),
+      cutoff(round_up_to_single(cutoff_of_arms)),
       base(round_up_to_single(motion.base())),
       drift(round_up_to_single(motion.drift())),
       reach(round_up_to_single(motion.reach())),

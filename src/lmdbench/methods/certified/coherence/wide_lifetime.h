@@ -19,7 +19,7 @@
 /// and q are within the cutoff. With theta the angle that the mesh has turned by, p has moved by Delta and at
 /// most theta |p - c| more; q, seen from the moving mesh, by -Delta and at most theta (|p - c| + cutoff)
 /// more; and a change of frame turns d by at most theta, which is theta * cutoff more. So d differs from what
-/// it was less Delta by at most theta * lever, in the frame of either mesh, with lever = r + 2 cutoff for the
+/// it was less Delta by at most theta * lever_arm, in the frame of either mesh, with lever_arm = r + 2 cutoff for the
 /// radius r of the moving child.
 ///
 /// The left sides above bound all those d together by a function F(D) of the difference D of the children's
@@ -27,7 +27,7 @@
 /// function, the distance from an axis, or their maximum), and it changes by no more than its d do. So after
 /// the motion the inequality holds still while
 ///
-///   F(D) - grad F . Delta - theta * lever > 0
+///   F(D) - grad F . Delta - theta * lever_arm > 0
 ///
 /// whatever the size of Delta; and the one of angles while theta is below its slack. Delta and
 /// theta grow by the forecast (motion_forecast.h), which gives a number of frames; what the motion
@@ -41,7 +41,7 @@ struct WideForecast {
   WideTransform in_fixed, in_moving;
   float creep = 0.0F;   ///< Added to the velocity of any point, for what is not in `turn`; metres a frame.
   float spin = 0.0F;    ///< Radians a frame.
-  float cutoff = 0.0F;  ///< Of the levers [m].
+  float cutoff = 0.0F;  ///< Of the lever arms [m].
   /// Every plan of tau frames stands a deviation of base + drift * tau at least.
   float base = 0.0F;     ///< metres
   float drift = 0.0F;    ///< metres a frame
@@ -73,7 +73,7 @@ struct WideLifetimes {
   /// The others stay rejected for so many frames of the forecast (below 1: perhaps not for the next one) ...
   float frames = std::numeric_limits<float>::infinity();
   /// ... if the motion deviates from it by no more than this [m].
-  float allowance = std::numeric_limits<float>::infinity();
+  float deviation_budget = std::numeric_limits<float>::infinity();
 };
 
 /// What a test needs to know beyond its node and probe.
@@ -108,7 +108,7 @@ struct WideKeptTest {
   std::uint32_t pair;  ///< Index of the kept pair.
   std::uint32_t slot_a, slot_b;
   std::uint32_t used, opened, lmd, touch;
-  float frames, allowance;
+  float frames, deviation_budget;
 };
 
 /// Makes the tests of the pairs that are due.

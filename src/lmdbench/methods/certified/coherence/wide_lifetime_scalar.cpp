@@ -36,7 +36,7 @@ WideLifetimes test_lanes_lifetime_scalar(const WideNode& node, const WideProbe& 
     result.used |= bit;
     const LaneBounds bounds(node, lane, probe, limits.rounding);
     float ex = -test.probe_velocity[0], ey = -test.probe_velocity[1], ez = -test.probe_velocity[2];
-    float lever = probe.radius + 2.0F * forecast.cutoff;
+    float lever_arm = probe.radius + 2.0F * forecast.cutoff;
     if (test.moving_lanes) {
       const auto row = [&](int i) {
         return ((X.columns[0][i] * node.centre[0][lane] + X.columns[1][i] * node.centre[1][lane]) +
@@ -46,9 +46,9 @@ WideLifetimes test_lanes_lifetime_scalar(const WideNode& node, const WideProbe& 
       ex = row(0);
       ey = row(1);
       ez = row(2);
-      lever = bounds.radius + 2.0F * forecast.cutoff;
+      lever_arm = bounds.radius + 2.0F * forecast.cutoff;
     }
-    const float extra = forecast.spin * lever + forecast.creep;
+    const float extra = forecast.spin * lever_arm + forecast.creep;
 
     const float z_probe = bounds.z_probe, z_lane = bounds.z_lane;
     const float* const axis = probe.axis;
@@ -105,8 +105,8 @@ WideLifetimes test_lanes_lifetime_scalar(const WideNode& node, const WideProbe& 
     const auto soon = [&](float slack, float loss) { return slack <= loss * forecast.horizon; };
     const auto stands = [&](float for_frames, float slack) {
       result.frames = std::min(result.frames, for_frames);
-      result.allowance =
-          std::min(result.allowance, (slack * DEVIATION_SHARE + forecast.base) + forecast.drift * for_frames);
+      result.deviation_budget = std::min(
+          result.deviation_budget, (slack * DEVIATION_SHARE + forecast.base) + forecast.drift * for_frames);
     };
     if (soon(length.slack, length.loss) && soon(angle_slack, angle_loss)) {
       result.lmd |= bit;

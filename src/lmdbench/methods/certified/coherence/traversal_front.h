@@ -3,9 +3,9 @@
 #pragma once
 
 #include <lmdbench/geometry/pose.h>
-#include <lmdbench/methods/certified/coherence/forecast_timers.h>
+#include <lmdbench/methods/certified/coherence/certificate.h>
+#include <lmdbench/methods/certified/coherence/certificate_queue.h>
 #include <lmdbench/methods/certified/coherence/motion_forecast.h>
-#include <lmdbench/methods/certified/coherence/pair_standing.h>
 #include <lmdbench/methods/certified/coherence/wide_lifetime.h>
 #include <lmdbench/methods/certified/hierarchy/wide_hierarchy.h>
 #include <lmdbench/methods/certified/hierarchy/wide_traversal.h>
@@ -20,7 +20,7 @@ namespace lmdbench {
 /// A traversal that is kept from frame to frame: the tests that were made, each with the frames that it
 /// stands, and the feature pairs that they let through. Completeness is that of find_wide_pairs: a lane that
 /// no kept test has opened is rejected by one that stands still.
-class WideFrontier {
+class TraversalFront {
  public:
   /// Forgets everything.
   void clear();
@@ -35,19 +35,19 @@ class WideFrontier {
                const MotionForecast& motion, const RigidTransform& X_BA, double cutoff,
                WideCounters& counters);
 
-  /// Calls decide(pair, touches, lever) for every pair that is due; `touches` tells pairs of faces that may
-  /// touch from pairs that may be LMDs. It returns the PairStanding of its decision.
+  /// Calls decide(pair, touches, lever_arm) for every pair that is due; `touches` tells pairs of faces that may
+  /// touch from pairs that may be LMDs. It returns the Certificate of its decision.
   template <class Decide>
   void for_each_due(const WideHierarchy& a, const MotionForecast& motion, double cutoff, Decide&& decide) {
-    leaf_timers_.collect(motion, due_);
+    leaf_queue_.collect(motion, due_);
     for (const std::uint32_t i : due_) {
       const Leaf& leaf = leaves_[i];
-      plan_leaf(a, motion, i, decide(leaf.pair, leaf.touches, lever_of(a, leaf, cutoff)));
+      plan_leaf(a, motion, i, decide(leaf.pair, leaf.touches, lever_arm_of(a, leaf, cutoff)));
     }
   }
 
-  std::size_t test_count() const { return record_timers_.count(); }
-  std::size_t pair_count() const { return leaf_timers_.count(); }
+  std::size_t test_count() const { return test_queue_.count(); }
+  std::size_t pair_count() const { return leaf_queue_.count(); }
 
  private:
   /// What a test let through.
@@ -80,15 +80,15 @@ class WideFrontier {
   void make_requested_tests(const Work& work);
   void apply(const Work& work, const WideKeptTest& test);
 
-  static double lever_of(const WideHierarchy& a, const Leaf& leaf, double cutoff);
+  static double lever_arm_of(const WideHierarchy& a, const Leaf& leaf, double cutoff);
   void plan_leaf(const WideHierarchy& a, const MotionForecast& motion, std::uint32_t index,
-                 const PairStanding& standing);
+                 const Certificate& certificate);
 
   std::vector<WideKeptPair> pairs_;
   std::vector<Record> records_;  ///< What the test of each pair let through.
-  ForecastTimers record_timers_;
+  CertificateQueue test_queue_;
   std::vector<Leaf> leaves_;
-  ForecastTimers leaf_timers_;
+  CertificateQueue leaf_queue_;
   std::vector<std::uint32_t> requested_, dropping_, due_;
   std::vector<WideKeptTest> tests_;
 };

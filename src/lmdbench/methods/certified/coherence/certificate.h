@@ -11,15 +11,15 @@ namespace lmdbench {
 /// What the decision about a pair of features stands. For a motion that displaces the moving feature's centre
 /// (wide_lifetime.h) by Delta and turns the mesh by theta, it holds while
 ///
-///   slack - gradient . Delta - spread |Delta| - lever theta > 0   and   theta < turn
-struct PairStanding {
+///   slack - gradient . Delta - spread |Delta| - lever_arm theta > 0   and   theta < turn
+struct Certificate {
   double slack = -1.0;           ///< metres; negative: must be decided again whatever the motion
   Vec3 gradient = Vec3::Zero();  ///< In the world, no longer than 1.
   double spread = 0.0;
-  double lever = 0.0;                                     ///< metres
+  double lever_arm = 0.0;                                 ///< metres
   double turn = std::numeric_limits<double>::infinity();  ///< radians
 
-  static PairStanding turned(double angle) {
+  static Certificate turned(double angle) {
     return {std::numeric_limits<double>::infinity(), Vec3::Zero(), 0.0, 0.0, angle};
   }
 };

@@ -12,7 +12,7 @@ namespace lmdbench {
 /// where a third of them is repeated in every frame (motions that are large for the geometry) a search from
 /// scratch is as cheap. Then nothing is kept for a while, longer each time; work counters alone decide, so
 /// that results and counters do not depend on the machine.
-class CoherenceGauge {
+class CoherencePolicy {
  public:
   /// Whether this frame's search is to be kept. Called once a frame.
   bool keep() {

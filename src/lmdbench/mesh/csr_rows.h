@@ -11,17 +11,17 @@
 
 namespace lmdbench {
 
-/// Lists of indices in compressed rows: row i is items[offsets[i]] .. items[offsets[i + 1]).
-class IndexRows {
+/// Lists of indices as compressed sparse rows (CSR): row i is items[offsets[i]] .. items[offsets[i + 1]).
+class CsrRows {
  public:
-  IndexRows() = default;
+  CsrRows() = default;
 
   /// @param offsets one more than rows, ascending, from 0 to the number of items
-  IndexRows(std::vector<std::int32_t> offsets, std::vector<std::int32_t> items)
+  CsrRows(std::vector<std::int32_t> offsets, std::vector<std::int32_t> items)
       : offsets_(std::move(offsets)), items_(std::move(items)) {}
 
   /// Groups `pairs` of (row, item) into `row_count` rows; within a row items keep the order of `pairs`.
-  IndexRows(std::int32_t row_count, std::span<const std::pair<std::int32_t, std::int32_t>> pairs)
+  CsrRows(std::int32_t row_count, std::span<const std::pair<std::int32_t, std::int32_t>> pairs)
       : offsets_(static_cast<std::size_t>(row_count) + 1, 0), items_(pairs.size()) {
     for (const auto& [row, item] : pairs) ++offsets_[static_cast<std::size_t>(row) + 1];
     std::partial_sum(offsets_.begin(), offsets_.end(), offsets_.begin());

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include <lmdbench/methods/certified/coherence/wide_frontier.h>
+#include <lmdbench/methods/certified/coherence/traversal_front.h>
 
 #include <algorithm>
 #include <bit>
@@ -19,17 +19,17 @@ Vec3 centre_of(const WideNode& node, std::uint32_t lane) {
 
 }  // namespace
 
-void WideFrontier::clear() {
+void TraversalFront::clear() {
   pairs_.clear();
   records_.clear();
-  record_timers_.clear();
+  test_queue_.clear();
   leaves_.clear();
-  leaf_timers_.clear();
+  leaf_queue_.clear();
   requested_.clear();
 }
 
-std::uint32_t WideFrontier::add_record(const Work& work, std::uint32_t slot_a, std::uint32_t slot_b) {
-  const std::uint32_t index = record_timers_.add();
+std::uint32_t TraversalFront::add_record(const Work& work, std::uint32_t slot_a, std::uint32_t slot_b) {
+  const std::uint32_t index = test_queue_.add();
   const WideKeptPair pair(work.a, work.b, slot_a, slot_b);
   if (index == records_.size()) {
     pairs_.push_back(pair);
@@ -43,48 +43,49 @@ std::uint32_t WideFrontier::add_record(const Work& work, std::uint32_t slot_a, s
   return index;
 }
 
-std::uint32_t WideFrontier::add_leaf(const Work& work, std::uint32_t slot_a, const WidePair& pair,
-                                     bool touches) {
-  const std::uint32_t index = leaf_timers_.add();
+std::uint32_t TraversalFront::add_leaf(const Work& work, std::uint32_t slot_a, const WidePair& pair,
+                                       bool touches) {
+  const std::uint32_t index = leaf_queue_.add();
   if (index == leaves_.size()) leaves_.emplace_back();
   leaves_[index] = {pair, slot_a, touches};
-  leaf_timers_.plan_now(index, work.motion);
+  leaf_queue_.plan_now(index, work.motion);
   return index;
 }
 
-double WideFrontier::lever_of(const WideHierarchy& a, const Leaf& leaf, double cutoff) {
+double TraversalFront::lever_arm_of(const WideHierarchy& a, const Leaf& leaf, double cutoff) {
   return static_cast<double>(a.nodes[leaf.slot_a / WIDE_WIDTH].radius[leaf.slot_a % WIDE_WIDTH]) +
          2.0 * cutoff;
 }
 
-void WideFrontier::plan_leaf(const WideHierarchy& a, const MotionForecast& motion, std::uint32_t index,
-                             const PairStanding& standing) {
-  if (!(standing.slack > 0.0 && standing.turn > 0.0)) {
-    leaf_timers_.plan(index, 0.0, 0.0, motion);
+void TraversalFront::plan_leaf(const WideHierarchy& a, const MotionForecast& motion, std::uint32_t index,
+                               const Certificate& certificate) {
+  if (!(certificate.slack > 0.0 && certificate.turn > 0.0)) {
+    leaf_queue_.plan(index, 0.0, 0.0, motion);
     return;
   }
   const Leaf& leaf = leaves_[index];
   const Vec3 c = centre_of(a.nodes[leaf.slot_a / WIDE_WIDTH], leaf.slot_a % WIDE_WIDTH);
   const Vec3 velocity = motion.turn() * c + motion.origin_velocity();
-  const double loss = standing.gradient.dot(velocity) + standing.spread * velocity.norm() +
-                      standing.lever * motion.spin() + (1.0 + standing.spread) * motion.creep();
+  const double loss = certificate.gradient.dot(velocity) + certificate.spread * velocity.norm() +
+                      certificate.lever_arm * motion.spin() + (1.0 + certificate.spread) * motion.creep();
   // As the node test does it. A deviation of t + a * reach (MotionForecast::deviation) displaces the centre
-  // by t + a * radius at most and turns by 0.72 a; for levers above half the reach that is not all, and the
+  // by t + a * radius at most and turns by 0.72 a; for lever arms above half the reach that is not all, and the
   // spread counts it again: `weight` makes up for both.
   const double share = static_cast<double>(DEVIATION_SHARE);
-  const double weight = (1.0 + standing.spread) * std::max(1.0, 2.0 * standing.lever / motion.reach());
+  const double weight =
+      (1.0 + certificate.spread) * std::max(1.0, 2.0 * certificate.lever_arm / motion.reach());
   const auto frames_of = [&](double slack, double loss_a_frame) {
     return (slack * (1.0 - share) - motion.base()) / (std::max(loss_a_frame, LEAST_LOSS) + motion.drift());
   };
-  const double slack = standing.slack / weight, turn = standing.turn * motion.reach();
+  const double slack = certificate.slack / weight, turn = certificate.turn * motion.reach();
   const double frames =
       std::min({frames_of(slack, loss / weight), frames_of(turn, motion.spin() * motion.reach()),
                 static_cast<double>(MotionForecast::LONGEST_PLAN)});
-  const double allowance = share * std::min(slack, turn) + motion.base() + motion.drift() * frames;
-  leaf_timers_.plan(index, frames, allowance, motion);
+  const double deviation_budget = share * std::min(slack, turn) + motion.base() + motion.drift() * frames;
+  leaf_queue_.plan(index, frames, deviation_budget, motion);
 }
 
-void WideFrontier::drop_record(std::uint32_t record) {
+void TraversalFront::drop_record(std::uint32_t record) {
   dropping_.push_back(record);
   while (!dropping_.empty()) {
     const std::uint32_t index = dropping_.back();
@@ -93,19 +94,19 @@ void WideFrontier::drop_record(std::uint32_t record) {
     for (std::uint32_t left = dropped.opened_lanes; left != 0; left &= left - 1)
       dropping_.push_back(dropped.below[static_cast<std::size_t>(std::countr_zero(left))]);
     for (std::uint32_t left = dropped.lmd_lanes; left != 0; left &= left - 1)
-      leaf_timers_.drop(dropped.below[static_cast<std::size_t>(std::countr_zero(left))]);
+      leaf_queue_.drop(dropped.below[static_cast<std::size_t>(std::countr_zero(left))]);
     for (std::uint32_t left = dropped.touch_lanes; left != 0; left &= left - 1)
-      leaf_timers_.drop(dropped.touching[static_cast<std::size_t>(std::countr_zero(left))]);
+      leaf_queue_.drop(dropped.touching[static_cast<std::size_t>(std::countr_zero(left))]);
     records_[index].in_use = false;
-    record_timers_.drop(index);
+    test_queue_.drop(index);
   }
 }
 
-void WideFrontier::apply(const Work& work, const WideKeptTest& test) {
+void TraversalFront::apply(const Work& work, const WideKeptTest& test) {
   // Records move in memory when one is added: by index, and nothing kept across.
   const std::uint32_t index = test.pair;
-  record_timers_.plan(index, static_cast<double>(test.frames), static_cast<double>(test.allowance),
-                      work.motion);
+  test_queue_.plan(index, static_cast<double>(test.frames), static_cast<double>(test.deviation_budget),
+                   work.motion);
   ++work.counters.node_tests;
   work.counters.node_pairs += static_cast<std::uint64_t>(std::popcount(test.used));
 
@@ -135,7 +136,7 @@ void WideFrontier::apply(const Work& work, const WideKeptTest& test) {
   for (std::uint32_t change = test.lmd ^ before.lmd_lanes; change != 0; change &= change - 1) {
     const auto lane = static_cast<std::uint32_t>(std::countr_zero(change));
     if ((test.lmd >> lane & 1u) == 0) {
-      leaf_timers_.drop(before.below[lane]);
+      leaf_queue_.drop(before.below[lane]);
     } else {
       records_[index].below[lane] = add_leaf(work, slot_a_of(lane), pair_of(lane), false);
     }
@@ -143,7 +144,7 @@ void WideFrontier::apply(const Work& work, const WideKeptTest& test) {
   for (std::uint32_t change = test.touch ^ before.touch_lanes; change != 0; change &= change - 1) {
     const auto lane = static_cast<std::uint32_t>(std::countr_zero(change));
     if ((test.touch >> lane & 1u) == 0) {
-      leaf_timers_.drop(before.touching[lane]);
+      leaf_queue_.drop(before.touching[lane]);
     } else {
       records_[index].touching[lane] = add_leaf(work, slot_a_of(lane), pair_of(lane), true);
     }
@@ -153,7 +154,7 @@ void WideFrontier::apply(const Work& work, const WideKeptTest& test) {
   records_[index].touch_lanes = test.touch;
 }
 
-void WideFrontier::make_requested_tests(const Work& work) {
+void TraversalFront::make_requested_tests(const Work& work) {
   while (!requested_.empty()) {
     test_batch(work.a, work.b, work.query, work.forecast, pairs_, requested_, tests_);
     requested_.clear();
@@ -166,19 +167,19 @@ void WideFrontier::make_requested_tests(const Work& work) {
   }
 }
 
-void WideFrontier::start(const WideHierarchy& a, const WideHierarchy& b, const WideQuery& query,
-                         const MotionForecast& motion, const RigidTransform& X_BA, double cutoff,
-                         WideCounters& counters) {
+void TraversalFront::start(const WideHierarchy& a, const WideHierarchy& b, const WideQuery& query,
+                           const MotionForecast& motion, const RigidTransform& X_BA, double cutoff,
+                           WideCounters& counters) {
   clear();
   const Work work{a, b, query, motion, WideForecast(motion, X_BA, cutoff), counters};
   add_record(work, 0, 0);
   make_requested_tests(work);
 }
 
-void WideFrontier::advance(const WideHierarchy& a, const WideHierarchy& b, const WideQuery& query,
-                           const MotionForecast& motion, const RigidTransform& X_BA, double cutoff,
-                           WideCounters& counters) {
-  record_timers_.collect(motion, requested_);
+void TraversalFront::advance(const WideHierarchy& a, const WideHierarchy& b, const WideQuery& query,
+                             const MotionForecast& motion, const RigidTransform& X_BA, double cutoff,
+                             WideCounters& counters) {
+  test_queue_.collect(motion, requested_);
   make_requested_tests({a, b, query, motion, WideForecast(motion, X_BA, cutoff), counters});
 }
 

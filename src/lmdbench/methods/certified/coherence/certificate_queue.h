@@ -14,20 +14,20 @@ namespace lmdbench {
 
 /// Things that must be done again after a number of frames, if the motion goes as forecast, or as soon as it
 /// deviates too far. Named by indices, which are used again once dropped.
-class ForecastTimers {
+class CertificateQueue {
  public:
-  ForecastTimers() { clear(); }
+  CertificateQueue() { clear(); }
 
   void clear();
-  std::size_t count() const { return allowances_.size() - free_.size(); }
+  std::size_t count() const { return budgets_.size() - free_.size(); }
 
   /// A new thing, without a plan.
   std::uint32_t add();
   void drop(std::uint32_t index);
 
   /// @param frames    of the forecast after which the thing is due; at least the next frame is
-  /// @param allowance deviation that it stands [m]
-  void plan(std::uint32_t index, double frames, double allowance, const MotionForecast& forecast);
+  /// @param deviation_budget deviation that it stands [m]
+  void plan(std::uint32_t index, double frames, double deviation_budget, const MotionForecast& forecast);
   void plan_now(std::uint32_t index, const MotionForecast& forecast) {
     by_frame_.move_to(index, forecast.frame() % FRAMES);
   }
@@ -40,11 +40,11 @@ class ForecastTimers {
   static constexpr std::uint32_t FRAMES = 64;
   static_assert(MotionForecast::LONGEST_PLAN + 1 < FRAMES);
 
-  std::vector<float> allowances_;  ///< Deviations from their epoch's forecast that plans stand [m].
+  std::vector<float> budgets_;  ///< Deviations from their epoch's forecast that plans stand [m].
   std::vector<std::uint32_t> free_;
   IndexLists by_frame_{FRAMES};
   IndexLists by_epoch_{static_cast<std::uint32_t>(MotionForecast::EPOCHS)};
-  std::array<float, MotionForecast::EPOCHS> least_allowances_{};  ///< Over the plans of an epoch, or less.
+  std::array<float, MotionForecast::EPOCHS> least_budgets_{};  ///< Over the plans of an epoch, or less.
 };
 
 }  // namespace lmdbench

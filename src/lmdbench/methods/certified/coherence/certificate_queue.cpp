@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include <lmdbench/methods/certified/coherence/forecast_timers.h>
+#include <lmdbench/methods/certified/coherence/certificate_queue.h>
 
 #include <algorithm>
 #include <limits>
@@ -18,59 +18,59 @@ constexpr float HEADROOM = 1.5F;
 
 }  // namespace
 
-void ForecastTimers::clear() {
-  allowances_.clear();
+void CertificateQueue::clear() {
+  budgets_.clear();
   free_.clear();
   by_frame_.clear();
   by_epoch_.clear();
-  least_allowances_.fill(UNLIMITED);
+  least_budgets_.fill(UNLIMITED);
 }
 
-std::uint32_t ForecastTimers::add() {
+std::uint32_t CertificateQueue::add() {
   if (free_.empty()) {
-    allowances_.push_back(UNLIMITED);
+    budgets_.push_back(UNLIMITED);
     by_frame_.add();
     by_epoch_.add();
-    return static_cast<std::uint32_t>(allowances_.size() - 1);
+    return static_cast<std::uint32_t>(budgets_.size() - 1);
   }
   const std::uint32_t index = free_.back();
   free_.pop_back();
   return index;
 }
 
-void ForecastTimers::drop(std::uint32_t index) {
+void CertificateQueue::drop(std::uint32_t index) {
   by_frame_.remove(index);
   by_epoch_.remove(index);
   free_.push_back(index);
 }
 
-void ForecastTimers::plan(std::uint32_t index, double frames, double allowance,
-                          const MotionForecast& forecast) {
+void CertificateQueue::plan(std::uint32_t index, double frames, double deviation_budget,
+                            const MotionForecast& forecast) {
   const double whole = std::clamp(frames * (1.0 - FRAME_ROUNDING), 0.0, forecast.longest_plan());
-  // What is due in the next frame anyhow needs no allowance.
-  if (whole < 1.0) allowance = UNLIMITED;
+  // What is due in the next frame anyhow needs no deviation budget.
+  if (whole < 1.0) deviation_budget = UNLIMITED;
   by_frame_.move_to(index, (forecast.frame() + 1 + static_cast<std::uint32_t>(whole)) % FRAMES);
   const std::size_t epoch = forecast.epoch();
   by_epoch_.move_to(index, static_cast<std::uint32_t>(epoch));
-  allowances_[index] =
-      static_cast<float>((allowance - forecast.deviation_at_start()) * (1.0 - FRAME_ROUNDING));
-  least_allowances_[epoch] = std::min(least_allowances_[epoch], allowances_[index]);
+  budgets_[index] =
+      static_cast<float>((deviation_budget - forecast.used_at_start()) * (1.0 - FRAME_ROUNDING));
+  least_budgets_[epoch] = std::min(least_budgets_[epoch], budgets_[index]);
 }
 
-void ForecastTimers::collect(const MotionForecast& forecast, std::vector<std::uint32_t>& due) {
+void CertificateQueue::collect(const MotionForecast& forecast, std::vector<std::uint32_t>& due) {
   for (std::size_t epoch = 0; epoch < MotionForecast::EPOCHS; ++epoch) {
     const auto deviation = static_cast<float>(forecast.deviation(epoch));
-    if (!(deviation > least_allowances_[epoch])) continue;
+    if (!(deviation > least_budgets_[epoch])) continue;
     const float limit = deviation * HEADROOM;
     float least = UNLIMITED;
     by_epoch_.for_each(static_cast<std::uint32_t>(epoch), [&](std::uint32_t index) {
-      if (allowances_[index] < limit) {
+      if (budgets_[index] < limit) {
         plan_now(index, forecast);
       } else {
-        least = std::min(least, allowances_[index]);
+        least = std::min(least, budgets_[index]);
       }
     });
-    least_allowances_[epoch] = least;
+    least_budgets_[epoch] = least;
   }
   due.clear();
   by_frame_.for_each(forecast.frame() % FRAMES, [&](std::uint32_t index) {
