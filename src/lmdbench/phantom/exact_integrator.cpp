@@ -1,0 +1,102 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/phantom/exact_integrator.h>
+
+#include <boost/math/tools/toms748_solve.hpp>
+
+#include <cmath>
+#include <cstdint>
+#include <limits>
+
+namespace lmdbench {
+namespace {
+
+constexpr int LOOKS = 8;
+
+/// More events than this in one servo period are a device that shivers about zero within rounding: it is
+/// stuck.
+constexpr int MOST_EVENTS = 64;
+
+}  // namespace
+
+ExactIntegrator::ExactIntegrator(const AxisModel& model, double period)
+    : model_(model),
+      period_(period),
+      slipping_(make_regime(model.slipping)),
+      stuck_(make_regime(model.stuck)) {}
+
+ExactIntegrator::Regime ExactIntegrator::make_regime(const AxisMatrix& matrix) const {
+  return {matrix, lasting_axis_flow(matrix, model_.power, period_), axis_transition(matrix, period_ / LOOKS)};
+}
+
+double ExactIntegrator::margin(const AxisState& state, bool stuck) const {
+  if (stuck) return model_.friction_n - std::abs(model_.standing_force.dot(state));
+  // Friction points against the motion, so the product is positive until the velocity has changed its sign.
+  return -at(state, AxisSlot::VELOCITY) * at(state, AxisSlot::FRICTION_FORCE);
+}
+
+std::optional<double> ExactIntegrator::event_time(const Regime& regime, const AxisState& state, bool stuck,
+                                                  double duration) const {
+  const double look = period_ / LOOKS;
+  double before = 0.0;
+  double margin_before = margin(state, stuck);
+  AxisState there = state;
+  while (before < duration) {
+    const bool last = before + look >= duration;
+    const double after = last ? duration : before + look;
+    there = last ? AxisState(axis_transition(regime.matrix, after - before) * there)
+                 : AxisState(regime.one_look * there);
+    const double margin_after = margin(there, stuck);
+    if (margin_after < 0.0) {
+      // A device that has just turned back starts with velocity 0: then it has turned again at once.
+      if (!(margin_before > 0.0)) return before;
+      const auto function = [&](double t) {
+        return margin(axis_transition(regime.matrix, t) * state, stuck);
+      };
+      std::uintmax_t iterations = 64;
+      const auto [low, high] = boost::math::tools::toms748_solve(
+          function, before, after, margin_before, margin_after,
+          boost::math::tools::eps_tolerance<double>(std::numeric_limits<double>::digits), iterations);
+      return high;
+    }
+    before = after;
+    margin_before = margin_after;
+  }
+  return std::nullopt;
+}
+
+bool ExactIntegrator::settle_friction(AxisState& state) const {
+  const double velocity = at(state, AxisSlot::VELOCITY);
+  const double force = model_.standing_force.dot(state);
+  double& friction = at(state, AxisSlot::FRICTION_FORCE);
+  const bool stuck = velocity == 0.0 && std::abs(force) < model_.friction_n;
+  // While stuck, friction balances whatever acts; it does no work, so its value does not matter.
+  friction = stuck ? 0.0 : -std::copysign(model_.friction_n, velocity != 0.0 ? velocity : force);
+  return stuck;
+}
+
+void ExactIntegrator::advance(AxisState& state, EnergyFlows& flows) {
+  if (model_.friction_n == 0.0) {
+    flows += slipping_.period.flows(state);
+    state = slipping_.period.transition * state;
+    return;
+  }
+  double remaining = period_;
+  for (int events = 0; remaining > 0.0; ++events) {
+    const bool stuck = settle_friction(state) || events >= MOST_EVENTS;
+    if (events >= MOST_EVENTS) at(state, AxisSlot::VELOCITY) = at(state, AxisSlot::FRICTION_FORCE) = 0.0;
+    const Regime& regime = stuck ? stuck_ : slipping_;
+    const std::optional<double> event =
+        events >= MOST_EVENTS ? std::nullopt : event_time(regime, state, stuck, remaining);
+    const double duration = event.value_or(remaining);
+    const bool whole = duration == period_;
+    const AxisFlow partial = whole ? AxisFlow{} : axis_flow(regime.matrix, model_.power, duration);
+    const AxisFlow& flow = whole ? regime.period : partial;
+    flows += flow.flows(state);
+    state = flow.transition * state;
+    if (event && !stuck) at(state, AxisSlot::VELOCITY) = 0.0;
+    remaining -= duration;
+  }
+}
+
+}  // namespace lmdbench

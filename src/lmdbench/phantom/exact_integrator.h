@@ -1,0 +1,49 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <lmdbench/phantom/axis_flow.h>
+#include <lmdbench/phantom/axis_integrator.h>
+
+#include <optional>
+
+namespace lmdbench {
+
+/// Integrates an axis exactly: by matrix exponentials between the events of Coulomb friction.
+///  1. A device at rest whose net force is within the friction stays stuck until the force has grown beyond
+///  it.
+///  2. A device that slips has the full friction against its motion until its velocity reaches zero; there it
+///     sticks or turns back, which the net force decides.
+/// The instant of an event is found to the last bits of the period by bracketing (TOMS 748) between eight
+/// looks a period: a velocity that dips below zero and returns within an eighth of the period goes unseen.
+class ExactIntegrator final : public AxisIntegrator {
+ public:
+  /// @param period servo period [s]
+  ExactIntegrator(const AxisModel& model, double period);
+
+  void advance(AxisState& state, EnergyFlows& flows) override;
+
+ private:
+  /// One of the two regimes of the equations.
+  struct Regime {
+    AxisMatrix matrix;
+    AxisFlow period;      ///< Over the whole servo period.
+    AxisMatrix one_look;  ///< Transition over an eighth of it.
+  };
+
+  Regime make_regime(const AxisMatrix& matrix) const;
+  /// What is positive while the regime lasts.
+  double margin(const AxisState& state, bool stuck) const;
+  /// When the regime ends within `duration`, just behind its end; nothing where it lasts.
+  std::optional<double> event_time(const Regime& regime, const AxisState& state, bool stuck,
+                                   double duration) const;
+  /// Puts the friction force of the present motion into the state. @return whether the device is stuck
+  bool settle_friction(AxisState& state) const;
+
+  AxisModel model_;
+  double period_;
+  Regime slipping_;
+  Regime stuck_;
+};
+
+}  // namespace lmdbench

@@ -1,0 +1,153 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/base/error.h>
+#include <lmdbench/phantom/axis_flow.h>
+#include <lmdbench/phantom/stability_boundary.h>
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
+#include <boost/math/tools/toms748_solve.hpp>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <cstdint>
+#include <limits>
+#include <numbers>
+#include <vector>
+
+namespace lmdbench {
+namespace {
+
+using Complex = std::complex<double>;
+
+/// Looks at the unit circle between 0 and half a turn: evenly, and evenly in the logarithm from the slowest
+/// oscillation that is looked for.
+constexpr int EVEN_LOOKS = 4096;
+constexpr int LOOKS_A_DELAYED_FRAME = 64;  ///< Each delayed frame turns H by half a turn more.
+constexpr int LOGARITHMIC_LOOKS = 4096;
+constexpr double SLOWEST_ANGLE = 1e-8;  ///< [rad] a servo period: one oscillation in 10^9 frames.
+
+/// The sampled axis: s_(n+1) = phi s_n + gamma F_n; the device's position is s[0].
+struct SampledAxis {
+  Eigen::MatrixXd phi;
+  Eigen::VectorXd gamma;
+};
+
+SampledAxis sample(const SampledLoop& loop) {
+  if (!(std::isfinite(loop.period_s) && loop.period_s > 0.0))
+    throw UsageError("", "period_s", fmt::format("{} is not usable", loop.period_s), "give a period above 0");
+  if (loop.delay_frames < 0)
+    throw UsageError("", "delay_frames", fmt::format("{} is negative", loop.delay_frames), "give at least 0");
+  const AxisMatrix transition = axis_transition(make_axis_model(loop.dynamics).slipping, loop.period_s);
+  const bool grip = loop.dynamics.hand && loop.dynamics.hand->has_grip();
+  const int size = grip ? 4 : 2;
+  return {transition.topLeftCorner(size, size),
+          transition.col(static_cast<int>(AxisSlot::RENDERED_FORCE)).head(size)};
+}
+
+/// H(e^(i angle)): sensed position per rendered force, delay included.
+Complex response(const SampledAxis& axis, std::int64_t delay, double angle) {
+  const Complex z = std::polar(1.0, angle);
+  Eigen::MatrixXcd matrix = -axis.phi.cast<Complex>();
+  matrix.diagonal().array() += z;
+  const Eigen::VectorXcd state = matrix.partialPivLu().solve(axis.gamma.cast<Complex>());
+  return state[0] * std::polar(1.0, -angle * static_cast<double>(delay));
+}
+
+std::vector<double> looks(std::int64_t delay) {
+  std::vector<double> angles;
+  const double pi = std::numbers::pi;
+  const std::int64_t even = EVEN_LOOKS + LOOKS_A_DELAYED_FRAME * delay;
+  for (std::int64_t i = 1; i < even; ++i)
+    angles.push_back(pi * static_cast<double>(i) / static_cast<double>(even));
+  const double decades = std::log(pi / SLOWEST_ANGLE);
+  for (int i = 0; i < LOGARITHMIC_LOOKS; ++i)
+    angles.push_back(SLOWEST_ANGLE * std::exp(decades * i / LOGARITHMIC_LOOKS));
+  std::sort(angles.begin(), angles.end());
+  angles.push_back(pi);
+  return angles;
+}
+
+double total_damping(const DeviceDynamics& dynamics) {
+  double sum = dynamics.damping_n_s_per_m;
+  if (dynamics.hand) sum += dynamics.hand->damping_n_s_per_m + dynamics.hand->grip_damping_n_s_per_m;
+  return sum;
+}
+
+}  // namespace
+
+double critical_stiffness(const SampledLoop& loop) {
+  const SampledAxis axis = sample(loop);
+  if (total_damping(loop.dynamics) == 0.0) return 0.0;
+  double largest_inverse = 0.0;  // of 1 / K, so that no crossing is an infinite K
+  const auto consider = [&](double angle) {
+    largest_inverse = std::max(largest_inverse, -response(axis, loop.delay_frames, angle).real());
+  };
+  double before = 0.0;
+  double imaginary_before = 0.0;
+  for (const double angle : looks(loop.delay_frames)) {
+    const double imaginary = response(axis, loop.delay_frames, angle).imag();
+    if (imaginary_before * imaginary < 0.0) {
+      std::uintmax_t iterations = 100;
+      const auto [low, high] = boost::math::tools::toms748_solve(
+          [&](double a) { return response(axis, loop.delay_frames, a).imag(); }, before, angle,
+          imaginary_before, imaginary,
+          boost::math::tools::eps_tolerance<double>(std::numeric_limits<double>::digits - 2), iterations);
+      consider(0.5 * (low + high));
+    }
+    before = angle;
+    imaginary_before = imaginary;
+  }
+  consider(std::numbers::pi);  // H is real there: a crossing of the real axis that changes no sign
+  return 1.0 / largest_inverse;
+}
+
+double spectral_radius(const SampledLoop& loop, double stiffness) {
+  const SampledAxis axis = sample(loop);
+  const Eigen::Index size = axis.phi.rows();
+  const Eigen::Index delay = loop.delay_frames;
+  Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(size + delay, size + delay);
+  matrix.topLeftCorner(size, size) = axis.phi;
+  if (delay == 0) {
+    matrix.col(0).head(size) -= stiffness * axis.gamma;
+  } else {
+    matrix.col(size + delay - 1).head(size) = axis.gamma;
+    matrix(size, 0) = -stiffness;
+    for (Eigen::Index i = 1; i < delay; ++i) matrix(size + i, size + i - 1) = 1.0;
+  }
+  return matrix.eigenvalues().cwiseAbs().maxCoeff();
+}
+
+double sufficient_stiffness(const SampledLoop& loop) {
+  double damping = loop.dynamics.damping_n_s_per_m;
+  if (loop.dynamics.hand && !loop.dynamics.hand->has_grip()) damping += loop.dynamics.hand->damping_n_s_per_m;
+  return damping / (loop.period_s * (0.5 + static_cast<double>(loop.delay_frames)));
+}
+
+double critical_stiffness_without_delay(double mass_kg, double damping_n_s_per_m, double period_s) {
+  const double b = damping_n_s_per_m;
+  const double x = b * period_s / mass_kg;
+  const double one_minus_a = -std::expm1(-x);
+  // 1 - a - a x = e^-x (e^x - 1 - x), which loses its digits where damping is weak: there the series of e^x.
+  double remainder = 0.0;
+  if (x < 0.5) {
+    double term = x * x / 2.0;
+    for (int n = 3; term > remainder * std::numeric_limits<double>::epsilon() * 0.25; ++n) {
+      remainder += term;
+      term *= x / n;
+    }
+  } else {
+    remainder = std::expm1(x) - x;
+  }
+  const double complex_pair = b * b * one_minus_a / (mass_kg * std::exp(-x) * remainder);
+  const double a = std::exp(-x);
+  const double at_minus_one =
+      2.0 * b * b * (1.0 + a) / (b * period_s * (1.0 + a) - 2.0 * mass_kg * one_minus_a);
+  // The difference in its denominator is positive, tanh(x/2) < x/2, and vanishes to third order: no boundary
+  // there.
+  return at_minus_one > 0.0 ? std::min(complex_pair, at_minus_one) : complex_pair;
+}
+
+}  // namespace lmdbench

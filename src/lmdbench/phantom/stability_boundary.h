@@ -1,0 +1,47 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <lmdbench/phantom/axis_model.h>
+
+#include <cstdint>
+
+/// The exact stability boundary of the sampled loop: the device of `axis_model.h` against a wall of stiffness
+/// K whose force is held for a servo period T and arrives `delay_frames` periods late. Coulomb friction and
+/// quantisation are left out: the boundary is the linear loop's.
+///
+/// With s_(n+1) = Phi s_n + Gamma F_n (matrix exponential) and F_n = -K x_(n-d), the loop is stable while
+/// every eigenvalue of
+///   [ Phi s + Gamma f_d ; f_1 = -K x, f_2 = f_1 of the period before, ... ]
+/// lies within the unit circle. A wall of vanishing stiffness is stable, so the critical stiffness is the
+/// least K > 0 for which an eigenvalue lies on the circle, z = e^(i theta): there 1 + K H(z) = 0 with H(z) =
+/// z^-d C (z I - Phi)^-1 Gamma, so H is real and negative and K = -1 / H. Every theta in (0, pi] with a real
+/// negative H is bracketed and solved for; the least K of them is the boundary.
+namespace lmdbench {
+
+struct SampledLoop {
+  DeviceDynamics dynamics;
+  double period_s = 1e-3;
+  std::int64_t delay_frames = 0;
+};
+
+/// Least stiffness [N/m] at which an eigenvalue reaches the unit circle. Infinity where none does for any
+/// stiffness; 0 where the loop has no damping at all and so diverges at every stiffness.
+/// @throws UsageError as `make_axis_model`, or for a period that is not positive or a negative delay
+double critical_stiffness(const SampledLoop& loop);
+
+/// Largest modulus of the loop's eigenvalues at stiffness K [N/m], without those that the wall cannot reach
+/// (hand's path).
+double spectral_radius(const SampledLoop& loop, double stiffness);
+
+/// The known sufficient bound b / (T/2 + t_d) [N/m] with all damping of device and hand (Gil et al. 2007;
+/// Colgate's condition K < 2 b / T for no delay). A hand behind a grip does not count: its damping is not at
+/// the device.
+double sufficient_stiffness(const SampledLoop& loop);
+
+/// Closed form without hand and delay, where the loop's pair of complex eigenvalues reaches the circle before
+/// a real eigenvalue reaches -1: K = b^2 (1 - a) / (m (1 - a - a b T / m)), a = e^(-b T / m). The other
+/// crossing is at K = 2 b^2 (1 + a) / (b T (1 + a) - 2 m (1 - a)); the lesser of the two is the boundary.
+double critical_stiffness_without_delay(double mass_kg, double damping_n_s_per_m, double period_s);
+
+}  // namespace lmdbench
