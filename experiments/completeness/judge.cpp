@@ -24,7 +24,8 @@ const Lmd* find_pair(const LmdSet& set, const Lmd& wanted) {
 }  // namespace
 
 Judgement& Judgement::operator+=(const Judgement& other) {
-  pairs += other.pairs;
+  same += other.same;
+  neighbours += other.neighbours;
   duplicates += other.duplicates;
   poses += other.poses;
   wrong_poses += other.wrong_poses;
@@ -37,8 +38,9 @@ Judgement judge(const LmdSet& truth, const LmdSet& reported, const Scene& scene,
                 std::string& objection) {
   Judgement result;
   result.poses = 1;
-  result.pairs = micro::count_matches(truth, reported, micro::Match::FEATURE_PAIR, scene);
-  result.duplicates = reported.size() - result.pairs.reported;
+  result.same = agreement(truth, reported, Match::SAME_FEATURES, scene);
+  result.neighbours = agreement(truth, reported, Match::NEIGHBOURING_FEATURES, scene);
+  result.duplicates = reported.size() - distinct_pairs(reported).size();
   objection.clear();
   const auto object = [&](const std::string& what) { objection += (objection.empty() ? "" : "; ") + what; };
   if (result.duplicates > 0) object(fmt::format("{} duplicates", result.duplicates));

@@ -2,10 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <lmdbench/lmd/lmd.h>
+#include <lmdbench/lmd/agreement.h>
 #include <lmdbench/lmd/scene.h>
-
-#include <micro/match.h>
 
 #include <string>
 
@@ -17,8 +15,9 @@ inline constexpr double POSITION_TOLERANCE = 1e-12;
 
 /// How far reported LMD sets are from the true ones, summed over poses.
 struct Judgement {
-  micro::MatchCount pairs;     ///< By feature pair.
-  std::size_t duplicates = 0;  ///< LMDs beyond one a feature pair.
+  Agreement same;              ///< Same features.
+  Agreement neighbours;        ///< Neighbouring features count.
+  std::size_t duplicates = 0;  ///< LMDs beyond one a feature pair; `same` counts them as wrong.
   std::size_t poses = 0;
   std::size_t wrong_poses = 0;             ///< Poses with anything wrong.
   double worst_distance_difference = 0.0;  ///< Over matched pairs, relative to the diagonal.

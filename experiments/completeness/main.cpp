@@ -78,29 +78,18 @@ void choose_pair(const std::string& pair, micro::SceneChoice& scene) {
   scene.fixed = pair.substr(colon + 1);
 }
 
-/// NaN (no LMD at all) becomes null.
-nlohmann::json share(double value) {
-  return std::isnan(value) ? nlohmann::json() : nlohmann::json(value);
-}
-
 nlohmann::json to_json(const Judgement& judgement) {
   return {{"poses", judgement.poses},
           {"wrong_poses", judgement.wrong_poses},
-          {"true_lmds", judgement.pairs.truths},
-          {"found", judgement.pairs.found},
-          {"reported", judgement.pairs.reported},
-          {"right", judgement.pairs.right},
+          {"set", micro::error_json(judgement.same, judgement.neighbours)},
           {"duplicates", judgement.duplicates},
-          {"recall", share(judgement.pairs.recall())},
-          {"precision", share(judgement.pairs.precision())},
           {"worst_distance_difference_diagonals", judgement.worst_distance_difference},
           {"worst_point_difference_diagonals", judgement.worst_point_difference}};
 }
 
 std::string numbers(const Judgement& judgement) {
-  return fmt::format("{} | {} | {} | {} | {} | {:.1e} | {:.1e}", judgement.pairs.truths,
-                     judgement.pairs.missed(), judgement.pairs.reported - judgement.pairs.right,
-                     judgement.duplicates, judgement.wrong_poses, judgement.worst_distance_difference,
+  return fmt::format("{} | {} | {} | {} | {} | {:.1e} | {:.1e}", judgement.same.true_lmds,
+                     judgement.same.missed(), judgement.same.wrong(), judgement.duplicates, judgement.wrong_poses, judgement.worst_distance_difference,
                      judgement.worst_point_difference);
 }
 

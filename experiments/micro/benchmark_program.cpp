@@ -31,10 +31,11 @@ bool accept(benchmark::State& state, const std::string& objection) {
 
 bool accept(benchmark::State& state, const LmdError& error) {
   if (!accept(state, error.objection)) return false;
-  if (error.feature_pairs.truths > 0) {
-    state.counters["recall"] = error.feature_pairs.recall();
-    state.counters["precision"] = error.feature_pairs.precision();
+  if (error.same.true_lmds > 0) {
+    state.counters["recall"] = error.same.recall();
+    state.counters["precision"] = error.same.precision();
     state.counters["recall_adjacent"] = error.neighbours.recall();
+    state.counters["precision_adjacent"] = error.neighbours.precision();
   }
   state.counters["worst_minimum_error"] = error.worst_minimum_error;
   return true;

@@ -24,11 +24,10 @@ void LmdError::add(Exactness exactness, const std::string& where, const Scene& s
     if (objection.empty()) objection = where + ": " + what;
   };
   if (lmds != nullptr) {
-    const MatchCount count = count_matches(truth, *lmds, Match::FEATURE_PAIR, scene);
-    feature_pairs += count;
-    neighbours += count_matches(truth, *lmds, Match::ADJACENT, scene);
-    const bool complete = count.missed() == 0 && count.right == lmds->size();
-    if (exactness == Exactness::COMPLETE_SET && !complete) object("not the true LMD set");
+    const Agreement here = agreement(truth, *lmds, Match::SAME_FEATURES, scene);
+    same += here;
+    neighbours += agreement(truth, *lmds, Match::NEIGHBOURING_FEATURES, scene);
+    if (exactness == Exactness::COMPLETE_SET && !here.exact()) object("not the true LMD set");
   }
   if (truth.empty()) return;
   const double true_minimum = minimum_distance(truth);

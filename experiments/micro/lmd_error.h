@@ -3,9 +3,8 @@
 #pragma once
 
 #include <lmdbench/geometry/pose.h>
+#include <lmdbench/lmd/agreement.h>
 #include <lmdbench/lmd/scene.h>
-
-#include <micro/match.h>
 
 #include <cstddef>
 #include <cstdint>
@@ -32,8 +31,8 @@ inline constexpr double MINIMUM_TOLERANCE = 1e-6;
 /// The error that the time of an implementation bought, over all poses.
 struct LmdError {
   std::string objection;           ///< Why it must not be timed; empty when it does what it promises.
-  MatchCount feature_pairs;        ///< Empty counts for peers without an LMD set.
-  MatchCount neighbours;           ///< The same, neighbouring features counting as found.
+  Agreement same;                  ///< Same features; empty counts for peers without an LMD set.
+  Agreement neighbours;            ///< Neighbouring features count.
   std::size_t minimum_missed = 0;  ///< Poses where the minimum distance is not the true one.
   /// Largest relative overestimate of the minimum distance; infinite where nothing was
   /// found though there was an LMD.

@@ -52,4 +52,17 @@ void write_report(const std::string& file, const nlohmann::json& report) {
   if (!file.empty()) write_file_atomically(file, report.dump(2) + '\n');
 }
 
+nlohmann::json error_json(const Agreement& same, const Agreement& neighbours) {
+  return {{"true_lmds", same.true_lmds},
+          {"found", same.found},
+          {"found_adjacent", neighbours.found},
+          {"reported", same.reported},
+          {"right", same.right},
+          {"right_adjacent", neighbours.right},
+          {"recall", same.recall()},
+          {"recall_adjacent", neighbours.recall()},
+          {"precision", same.precision()},
+          {"precision_adjacent", neighbours.precision()}};
+}
+
 }  // namespace lmdbench::micro

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <lmdbench/lmd/agreement.h>
+
 #include <micro/bodies.h>
 #include <nlohmann/json_fwd.hpp>
 
@@ -47,5 +49,8 @@ int run_program(CLI::App& app, int argc, const char* const* argv, const std::fun
 /// Writes the report, so that the file is the old or the new one at any time; nothing when no file is named.
 /// @throws Error when it cannot be written
 void write_report(const std::string& file, const nlohmann::json& report);
+
+/// Recall and precision under the names of results/README.md, with the counts that they are ratios of.
+nlohmann::json error_json(const Agreement& same, const Agreement& neighbours);
 
 }  // namespace lmdbench::micro

@@ -1,11 +1,10 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/base/statistics.h>
+
 #include <micro/timing.h>
 
-#include <algorithm>
-#include <cmath>
 #include <ctime>
-#include <limits>
 
 namespace lmdbench::micro {
 
@@ -41,16 +40,6 @@ std::vector<std::vector<double>> time_interleaved(const std::vector<TimedTask>& 
   for (std::size_t t = 0; t < tasks.size(); ++t)
     for (std::size_t pose = 0; pose < pose_count; ++pose) seconds[t][pose] = median(samples[t][pose]);
   return seconds;
-}
-
-double quantile(std::vector<double> values, double share) {
-  if (values.empty()) return std::numeric_limits<double>::quiet_NaN();
-  std::sort(values.begin(), values.end());
-  const double position = share * static_cast<double>(values.size() - 1);
-  const auto below = static_cast<std::size_t>(std::floor(position));
-  const std::size_t above = std::min(below + 1, values.size() - 1);
-  const double weight = position - static_cast<double>(below);
-  return (1.0 - weight) * values[below] + weight * values[above];
 }
 
 }  // namespace lmdbench::micro

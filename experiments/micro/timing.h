@@ -26,10 +26,4 @@ double thread_seconds();
 std::vector<std::vector<double>> time_interleaved(const std::vector<TimedTask>& tasks, std::size_t pose_count,
                                                   std::size_t repetitions);
 
-/// Value below which `share` of the values lie, interpolated linearly; NaN for none.
-double quantile(std::vector<double> values, double share);
-inline double median(std::vector<double> values) {
-  return quantile(std::move(values), 0.5);
-}
-
 }  // namespace lmdbench::micro

@@ -34,14 +34,9 @@ void print_table(const std::string& title, const std::vector<VariantResult>& res
   fmt::print("|---|---|---|---|---|---|---|---|\n");
   for (const VariantResult& result : results)
     fmt::print("| {} | {} of {} | {:.4f} | {:.4f} | {:.4f} | {:.4f} | {} | {} |\n", result.variant.label,
-               result.feature_pairs.found, result.feature_pairs.truths, result.feature_pairs.recall(),
-               result.feature_pairs.precision(), result.adjacent.recall(), result.adjacent.precision(),
+               result.same.found, result.same.true_lmds, result.same.recall(),
+               result.same.precision(), result.neighbours.recall(), result.neighbours.precision(),
                result.poses_with_loss, result.minimum_missed);
-}
-
-nlohmann::json to_json(const micro::MatchCount& count) {
-  return {
-      {"truths", count.truths}, {"found", count.found}, {"reported", count.reported}, {"right", count.right}};
 }
 
 nlohmann::json to_json(const VariantResult& result) {
@@ -49,8 +44,7 @@ nlohmann::json to_json(const VariantResult& result) {
           {"method", result.variant.method},
           {"g5_tolerance_rad", result.variant.options.g5_tolerance_rad},
           {"trackings", result.variant.trackings},
-          {"feature_pairs", to_json(result.feature_pairs)},
-          {"adjacent", to_json(result.adjacent)},
+          {"set", micro::error_json(result.same, result.neighbours)},
           {"poses_with_loss", result.poses_with_loss},
           {"minimum_missed", result.minimum_missed}};
 }
@@ -87,7 +81,7 @@ int run(const micro::StudyChoice& choice) {
     const std::vector<VariantResult> original = judge_all(original_variants(), scene, poses, truth);
     print_table(fmt::format("### Improved, cutoff {:g} % of the diagonal", 100.0 * cutoff), improved);
     print_table(fmt::format("### Original, cutoff {:g} % of the diagonal", 100.0 * cutoff), original);
-    cones_conservative = cones_conservative && improved.front().feature_pairs.missed() == 0;
+    cones_conservative = cones_conservative && improved.front().same.missed() == 0;
     nlohmann::json entry = {{"cutoff", cutoff}};
     for (const VariantResult& result : improved) entry["improved"].push_back(to_json(result));
     for (const VariantResult& result : original) entry["original"].push_back(to_json(result));

@@ -82,11 +82,11 @@ VariantResult judge(const Variant& variant, const Scene& scene, const std::vecto
   for (std::size_t i = 0; i < poses.size(); ++i) {
     method->search(poses[i], lmds, counters);
     for (int k = 0; k < variant.trackings; ++k) method->track(poses[i], lmds, counters);
-    const LmdSet reported = within_cutoff(lmds, scene.cutoff);
-    const micro::MatchCount pairs = count_matches(truth[i], reported, micro::Match::FEATURE_PAIR, scene);
-    result.feature_pairs += pairs;
-    result.adjacent += count_matches(truth[i], reported, micro::Match::ADJACENT, scene);
-    if (pairs.missed() > 0) ++result.poses_with_loss;
+    const LmdSet reported = distinct_pairs(within_cutoff(lmds, scene.cutoff));
+    const Agreement same = agreement(truth[i], reported, Match::SAME_FEATURES, scene);
+    result.same += same;
+    result.neighbours += agreement(truth[i], reported, Match::NEIGHBOURING_FEATURES, scene);
+    if (same.missed() > 0) ++result.poses_with_loss;
     if (misses_minimum(truth[i], reported)) ++result.minimum_missed;
   }
   return result;

@@ -2,9 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <lmdbench/lmd/agreement.h>
 #include <lmdbench/methods/registry.h>
-
-#include <micro/match.h>
 
 #include <string>
 #include <vector>
@@ -29,8 +28,8 @@ std::vector<Variant> original_variants();
 /// Sums over all poses at one cutoff.
 struct VariantResult {
   Variant variant;
-  micro::MatchCount feature_pairs;
-  micro::MatchCount adjacent;
+  Agreement same;        ///< Same features, each pair once.
+  Agreement neighbours;  ///< Neighbouring features count, each pair once.
   std::size_t poses_with_loss = 0;  ///< Poses with at least one true LMD whose feature pair is missing.
   /// Poses whose nearest true LMD has no reported LMD at its distance (relative 1e-6):
   /// the force's main part is off.

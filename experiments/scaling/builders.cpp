@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/base/statistics.h>
 #include <lmdbench/lmd/body.h>
 
 #include <CLI/CLI.hpp>
@@ -79,9 +80,9 @@ std::string row(const Variant& variant, const Choice& choice, const Surface& mov
       of_pairs.push_back(static_cast<double>(counts.feature_pairs));
     }
     const char* between = tests.empty() ? "" : " / ";
-    tests += fmt::format("{}{:.0f}", between, micro::median(of_tests));
-    lanes += fmt::format("{}{:.0f}", between, micro::median(of_lanes));
-    pairs += fmt::format("{}{:.0f}", between, micro::median(of_pairs));
+    tests += fmt::format("{}{:.0f}", between, median(of_tests));
+    lanes += fmt::format("{}{:.0f}", between, median(of_lanes));
+    pairs += fmt::format("{}{:.0f}", between, median(of_pairs));
   }
   const auto triangles = static_cast<double>(moving.mesh.triangles.size());
   return fmt::format("| {} | {} | {} | {} | {:.2f} | {:.0f} |\n", variant.name, tests, lanes, pairs,

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/base/error.h>
+#include <lmdbench/base/statistics.h>
 #include <lmdbench/catalogue/manifest.h>
 #include <lmdbench/lmd/body.h>
 #include <lmdbench/mesh/placement.h>
@@ -138,11 +139,7 @@ class Bodies {
 
 nlohmann::json to_json(const Series& series) {
   nlohmann::json result = {{"seconds", series.seconds}, {"objection", series.objection}};
-  if (series.error.truths > 0) {
-    result["recall"] = series.error.recall();
-    result["precision"] =
-        std::isnan(series.error.precision()) ? nlohmann::json() : nlohmann::json(series.error.precision());
-  }
+  if (series.same.true_lmds > 0) result["set"] = micro::error_json(series.same, series.neighbours);
   for (std::size_t c = 0; c < COUNTER_COUNT && !series.counters.empty(); ++c) {
     const auto counter = static_cast<Counter>(c);
     nlohmann::json values;
@@ -154,8 +151,8 @@ nlohmann::json to_json(const Series& series) {
 
 void print_head(const Study& study, const Measurement& measurement) {
   fmt::print(
-      "\n### {}\n\nMedian / p99 over poses [us]; recall in brackets where it is below 1"
-      " (original and improved: neighbouring features count).\n\n",
+      "\n### {}\n\nMedian / p99 over poses [us]; in brackets where they are below 1: recall, recall with "
+      "neighbouring features counting.\n\n",
       study.about);
   fmt::print("| meshes | triangles | gap [%] | cutoff [%] | LMDs |");
   for (const Series& series : measurement.series) fmt::print(" {} |", series.name);
@@ -168,11 +165,12 @@ void print_row(const Point& point, const Scene& scene, const Measurement& measur
   std::vector<double> lmds(measurement.lmd_counts.begin(), measurement.lmd_counts.end());
   fmt::print("| {} on {} | {} | {:g} | {:g} | {:g} |", point.moving.label(), point.fixed.label(),
              scene.moving->surface().mesh.triangles.size(), 100.0 * point.gap, 100.0 * point.cutoff,
-             micro::median(lmds));
+             median(lmds));
   for (const Series& series : measurement.series) {
-    fmt::print(" {:.1f} / {:.1f}", 1e6 * micro::median(series.seconds),
-               1e6 * micro::quantile(series.seconds, 0.99));
-    if (series.error.missed() > 0) fmt::print(" ({:.3f})", series.error.recall());
+    fmt::print(" {:.1f} / {:.1f}", 1e6 * median(series.seconds),
+               1e6 * quantile(series.seconds, 0.99));
+    if (series.same.missed() > 0)
+      fmt::print(" ({:.3f}, {:.3f})", series.same.recall(), series.neighbours.recall());
     fmt::print("{} |", series.objection.empty() ? "" : " WRONG");
   }
   fmt::print("\n");
@@ -185,7 +183,7 @@ double slope(const nlohmann::json& points, const std::string& name) {
   for (const auto& point : points) {
     const double x = std::log(point.at("moving_triangles").get<double>());
     const double y =
-        std::log(micro::median(point.at("methods").at(name).at("seconds").get<std::vector<double>>()));
+        std::log(median(point.at("methods").at(name).at("seconds").get<std::vector<double>>()));
     n += 1.0, sum_x += x, sum_y += y, sum_xx += x * x, sum_xy += x * y;
   }
   return (n * sum_xy - sum_x * sum_y) / (n * sum_xx - sum_x * sum_x);

@@ -28,6 +28,13 @@ bool same_set(const LmdSet& a, const LmdSet& b) {
   return std::equal(a.begin(), a.end(), b.begin(), b.end(), same_feature_pair);
 }
 
+/// Each pair once: what the paper's searches leave are candidates.
+void judge(Series& series, const LmdSet& truth, const LmdSet& lmds, const Scene& scene) {
+  const LmdSet reported = distinct_pairs(lmds);
+  series.same += agreement(truth, reported, Match::SAME_FEATURES, scene);
+  series.neighbours += agreement(truth, reported, Match::NEIGHBOURING_FEATURES, scene);
+}
+
 /// `certified` with the slide that leads to each pose.
 class CertifiedRunner {
  public:
@@ -122,7 +129,7 @@ Measurement measure(const Scene& scene, const std::vector<Pose>& poses, const Me
         series.objection = fmt::format("pose {}: {}", i, wrong);
       if (!same_set(truth[i], runner.lmds()))
         series.objection = fmt::format("pose {}: not the set that is found from scratch", i);
-      series.error += micro::count_matches(truth[i], runner.lmds(), micro::Match::FEATURE_PAIR, scene);
+      judge(series, truth[i], runner.lmds(), scene);
     }
     result.series.push_back(series);
     micro::TimedTask task{name, [&runner](std::size_t pose) { runner.search(pose); }};
@@ -145,7 +152,7 @@ Measurement measure(const Scene& scene, const std::vector<Pose>& poses, const Me
     for (std::size_t i = 0; i < poses.size(); ++i) {
       peer->run(poses[i]);
       if (const LmdSet* lmds = peer->lmds()) {
-        series.error += micro::count_matches(truth[i], *lmds, micro::Match::ADJACENT, scene);
+        judge(series, truth[i], *lmds, scene);
       } else {
         const std::string wrong =
             minimum_objection(peer->minimum_distance(), choice, std::numeric_limits<double>::infinity());

@@ -2,10 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <lmdbench/lmd/agreement.h>
 #include <lmdbench/lmd/scene.h>
 #include <lmdbench/lmd/work_counters.h>
-
-#include <micro/match.h>
 
 #include <cstdint>
 #include <string>
@@ -18,9 +17,8 @@ struct Series {
   std::string name;
   std::vector<double> seconds;         ///< One a pose: median of the repetitions, processor time.
   std::vector<WorkCounters> counters;  ///< One a pose; only of `certified`.
-  /// Against `certified` from scratch; empty for a nearest pair only. For the paper's algorithms neighbouring
-  /// features count as found, because their candidates are not tracked to the minimum yet.
-  micro::MatchCount error;
+  Agreement same;         ///< With `certified` from scratch, each pair once; empty for a nearest pair only.
+  Agreement neighbours;   ///< The same, neighbouring features count.
   std::string objection;  ///< Why its times do not count; empty when it does what it promises.
 };
 

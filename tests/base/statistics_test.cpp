@@ -12,12 +12,13 @@ namespace {
 
 constexpr double NOT_SET = std::numeric_limits<double>::quiet_NaN();
 
-TEST(Statistics, PercentilesInterpolateAsNumpyDoes) {
-  EXPECT_DOUBLE_EQ(percentile({4, 1, 3, 2}, 0.0), 1.0);
-  EXPECT_DOUBLE_EQ(percentile({4, 1, 3, 2}, 1.0), 4.0);
+TEST(Statistics, QuantilesInterpolateAsNumpyDoes) {
+  EXPECT_DOUBLE_EQ(quantile({4, 1, 3, 2}, 0.0), 1.0);
+  EXPECT_DOUBLE_EQ(quantile({4, 1, 3, 2}, 1.0), 4.0);
   EXPECT_DOUBLE_EQ(median({4, 1, 3, 2}), 2.5);
-  EXPECT_DOUBLE_EQ(percentile({10, 20, 30, 40, 50}, 0.9), 46.0);
-  EXPECT_DOUBLE_EQ(percentile({7}, 0.99), 7.0);
+  EXPECT_DOUBLE_EQ(quantile({10, 20, 30, 40, 50}, 0.9), 46.0);
+  EXPECT_DOUBLE_EQ(quantile({0, 10}, 0.25), 2.5);
+  EXPECT_DOUBLE_EQ(quantile({7}, 0.99), 7.0);
 }
 
 TEST(Statistics, UnsetValuesDoNotCount) {
@@ -34,7 +35,7 @@ TEST(Statistics, NothingLeftIsUnset) {
 
 TEST(Statistics, InfinitiesDoNotBecomeNaN) {
   const double infinity = std::numeric_limits<double>::infinity();
-  EXPECT_EQ(percentile({1, infinity, infinity, infinity}, 0.9), infinity);
+  EXPECT_EQ(quantile({1, infinity, infinity, infinity}, 0.9), infinity);
 }
 
 }  // namespace

@@ -184,8 +184,8 @@ TEST(Run, EveryMethodRunsSideBySide) {
   EXPECT_EQ(run.records[2].result_hash, run.records[3].result_hash) << "certified is exact and complete";
   for (const TruthComparison& row : run.comparisons[3]) {
     EXPECT_EQ(row.force_error, 0.0);
-    EXPECT_TRUE(std::isnan(row.strict.recall) || row.strict.recall == 1.0);
-    EXPECT_TRUE(std::isnan(row.strict.precision) || row.strict.precision == 1.0);
+    EXPECT_TRUE(std::isnan(row.same.recall()) || row.same.recall() == 1.0);
+    EXPECT_TRUE(std::isnan(row.same.precision()) || row.same.precision() == 1.0);
   }
   const auto in_contact = std::count_if(run.truth.begin(), run.truth.end(),
                                         [](const TruthFrame& frame) { return !frame.lmds.empty(); });

@@ -81,9 +81,9 @@ TEST(TruthProbe, APerfectSetHasNoError) {
                 {truth[0].force[linear], truth[1].force[linear], truth[1].force[linear]});
   const auto rows = compare_with_truth(truth, record, ForceLaw::LINEAR, scene);
   for (const TruthComparison& row : rows) {
-    EXPECT_EQ(row.strict.recall, 1.0);
-    EXPECT_EQ(row.strict.precision, 1.0);
-    EXPECT_EQ(row.adjacent.recall, 1.0);
+    EXPECT_EQ(row.same.recall(), 1.0);
+    EXPECT_EQ(row.same.precision(), 1.0);
+    EXPECT_EQ(row.neighbours.recall(), 1.0);
     EXPECT_EQ(row.minimum_distance_error, 0.0);
     EXPECT_EQ(row.force_error, 0.0);
     EXPECT_EQ(row.force_angle_error, 0.0);
@@ -107,8 +107,8 @@ TEST(TruthProbe, ErrorsAreSignedAndUnsetWhereNothingCompares) {
 
   const auto lost =
       compare_with_truth(truth, record_of({{}, {}}, {Vec3::Zero(), Vec3::Zero()}), ForceLaw::LINEAR, scene);
-  EXPECT_EQ(lost[0].strict.recall, 0.0);
-  EXPECT_TRUE(std::isnan(lost[0].strict.precision));
+  EXPECT_EQ(lost[0].same.recall(), 0.0);
+  EXPECT_TRUE(std::isnan(lost[0].same.precision()));
   EXPECT_TRUE(std::isnan(lost[0].minimum_distance_error));
   EXPECT_TRUE(std::isnan(lost[0].force_angle_error));
   EXPECT_NEAR(lost[0].force_error, sideways.y(), 1e-6);

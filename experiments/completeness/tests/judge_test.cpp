@@ -37,8 +37,8 @@ class JudgeTest : public ::testing::Test {
 TEST_F(JudgeTest, HasNothingAgainstTheTruth) {
   const Judgement judgement = judge_now(truth_);
   EXPECT_EQ(judgement.wrong_poses, 0u) << objection_;
-  EXPECT_EQ(judgement.pairs.recall(), 1.0);
-  EXPECT_EQ(judgement.pairs.precision(), 1.0);
+  EXPECT_EQ(judgement.same.recall(), 1.0);
+  EXPECT_EQ(judgement.same.precision(), 1.0);
   EXPECT_EQ(judgement.worst_point_difference, 0.0);
 }
 
@@ -47,14 +47,14 @@ TEST_F(JudgeTest, NamesAMiss) {
   reported.erase(reported.begin() + 1);
   const Judgement judgement = judge_now(reported);
   EXPECT_EQ(judgement.wrong_poses, 1u);
-  EXPECT_EQ(judgement.pairs.missed(), 1u);
+  EXPECT_EQ(judgement.same.missed(), 1u);
   EXPECT_THAT(objection_, HasSubstr("missed vertex 1"));
 }
 
 TEST_F(JudgeTest, NamesWhatIsNoLmd) {
   LmdSet reported = truth_;
   reported[0].feature_moving.index = 7;
-  EXPECT_EQ(judge_now(reported).pairs.right, 2u);
+  EXPECT_EQ(judge_now(reported).same.right, 2u);
   EXPECT_THAT(objection_, HasSubstr("reported vertex 7"));
 }
 

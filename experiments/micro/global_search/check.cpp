@@ -9,7 +9,14 @@ LmdError check_search(const SearchImplementation& implementation, GlobalSearch& 
   LmdError error;
   for (std::size_t i = 0; i < poses.size(); ++i) {
     search.run(poses[i]);
-    error.add(implementation.exactness, "pose " + std::to_string(i), scene, truth[i], search.lmds(),
+    // What the paper's searches leave are candidates, a pair once for every triangle pair that found it.
+    const LmdSet* lmds = search.lmds();
+    LmdSet candidates;
+    if (lmds != nullptr && implementation.exactness == Exactness::APPROXIMATE) {
+      candidates = distinct_pairs(*lmds);
+      lmds = &candidates;
+    }
+    error.add(implementation.exactness, "pose " + std::to_string(i), scene, truth[i], lmds,
               search.minimum_distance());
   }
   return error;

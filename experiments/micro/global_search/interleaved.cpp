@@ -1,5 +1,7 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/base/statistics.h>
+
 #include <CLI/CLI.hpp>
 #include <fmt/core.h>
 #include <micro/global_search/check.h>
@@ -54,16 +56,19 @@ std::vector<Row> measure(const Scene& scene, const std::vector<Pose>& poses, con
 void print(const std::vector<Row>& rows, double cutoff) {
   fmt::print("\nCutoff {:g} % of the diagonal\n\n", 100.0 * cutoff);
   fmt::print(
-      "| implementation | median [ms] | p99 [ms] | FCL cold / this | recall | precision | minimum missed | "
-      "worst minimum error |\n");
-  fmt::print("|---|---|---|---|---|---|---|---|\n");
+      "| implementation | median [ms] | p99 [ms] | FCL cold / this | recall | recall, adjacent | precision | "
+      "precision, adjacent | minimum missed | worst minimum error |\n");
+  fmt::print("|---|---|---|---|---|---|---|---|---|---|\n");
   for (const Row& row : rows) {
-    const bool has_set = row.error.feature_pairs.truths > 0;
-    fmt::print(
-        "| {} | {:.4f} | {:.4f} | {:.2f} | {} | {} | {} | {:.2g} |{}\n", row.name, row.median_ms, row.p99_ms,
-        row.ratio_to_fcl, has_set ? fmt::format("{:.4f}", row.error.feature_pairs.recall()) : "-",
-        has_set ? fmt::format("{:.4f}", row.error.feature_pairs.precision()) : "-", row.error.minimum_missed,
-        row.error.worst_minimum_error, row.error.objection.empty() ? "" : " WRONG: " + row.error.objection);
+    const auto share = [&](double value) {
+      return row.error.same.true_lmds > 0 ? fmt::format("{:.4f}", value) : "-";
+    };
+    fmt::print("| {} | {:.4f} | {:.4f} | {:.2f} | {} | {} | {} | {} | {} | {:.2g} |{}\n", row.name,
+               row.median_ms, row.p99_ms, row.ratio_to_fcl, share(row.error.same.recall()),
+               share(row.error.neighbours.recall()), share(row.error.same.precision()),
+               share(row.error.neighbours.precision()), row.error.minimum_missed,
+               row.error.worst_minimum_error,
+               row.error.objection.empty() ? "" : " WRONG: " + row.error.objection);
   }
 }
 
@@ -72,10 +77,7 @@ nlohmann::json to_json(const Row& row) {
           {"median_ms", row.median_ms},
           {"p99_ms", row.p99_ms},
           {"fcl_cold_ratio", row.ratio_to_fcl},
-          {"true_lmds", row.error.feature_pairs.truths},
-          {"found", row.error.feature_pairs.found},
-          {"reported", row.error.feature_pairs.reported},
-          {"right", row.error.feature_pairs.right},
+          {"set", error_json(row.error.same, row.error.neighbours)},
           {"minimum_missed", row.error.minimum_missed},
           {"worst_minimum_error", row.error.worst_minimum_error},
           {"objection", row.error.objection}};

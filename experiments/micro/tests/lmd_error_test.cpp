@@ -26,7 +26,7 @@ TEST_F(LmdErrorTest, AcceptsTheTruth) {
   ASSERT_GE(truth().size(), 1U);
   const LmdError result = error(Exactness::COMPLETE_SET, &truth(), truth()[0].distance);
   EXPECT_EQ(result.objection, "");
-  EXPECT_EQ(result.feature_pairs.recall(), 1.0);
+  EXPECT_EQ(result.same.recall(), 1.0);
   EXPECT_EQ(result.worst_minimum_error, 0.0);
 }
 
@@ -35,7 +35,7 @@ TEST_F(LmdErrorTest, ObjectsToAnIncompleteSetWhereCompletenessIsPromised) {
   EXPECT_EQ(error(Exactness::COMPLETE_SET, &nothing, NAN).objection, "here: not the true LMD set");
   const LmdError approximate = error(Exactness::APPROXIMATE, &nothing, NAN);
   EXPECT_EQ(approximate.objection, "");
-  EXPECT_EQ(approximate.feature_pairs.recall(), 0.0);
+  EXPECT_EQ(approximate.same.recall(), 0.0);
   EXPECT_TRUE(std::isinf(approximate.worst_minimum_error));
 }
 

@@ -3,18 +3,11 @@
 #include <gtest/gtest.h>
 #include <micro/timing.h>
 
-#include <cmath>
+#include <string>
+#include <vector>
 
 namespace lmdbench::micro {
 namespace {
-
-TEST(Quantile, InterpolatesBetweenValues) {
-  EXPECT_DOUBLE_EQ(median({3.0, 1.0, 2.0}), 2.0);
-  EXPECT_DOUBLE_EQ(median({4.0, 1.0, 2.0, 3.0}), 2.5);
-  EXPECT_DOUBLE_EQ(quantile({0.0, 10.0}, 0.25), 2.5);
-  EXPECT_DOUBLE_EQ(quantile({7.0}, 0.99), 7.0);
-  EXPECT_TRUE(std::isnan(median({})));
-}
 
 TEST(TimeInterleaved, RunsEveryTaskAtEveryPoseInRotatingOrder) {
   std::vector<std::string> order;

@@ -20,11 +20,11 @@ std::vector<double> set_values(std::vector<double> values) {
 
 }  // namespace
 
-double percentile(std::vector<double> values, double p) {
+double quantile(std::vector<double> values, double share) {
   values = set_values(std::move(values));
   if (values.empty()) return std::numeric_limits<double>::quiet_NaN();
   std::sort(values.begin(), values.end());
-  const double position = p * static_cast<double>(values.size() - 1);
+  const double position = share * static_cast<double>(values.size() - 1);
   const auto below = static_cast<std::size_t>(position);
   const std::size_t above = std::min(below + 1, values.size() - 1);
   const double fraction = position - static_cast<double>(below);
@@ -35,7 +35,7 @@ double percentile(std::vector<double> values, double p) {
 }
 
 double median(std::vector<double> values) {
-  return percentile(std::move(values), 0.5);
+  return quantile(std::move(values), 0.5);
 }
 
 double mean(const std::vector<double>& values) {

@@ -6,11 +6,12 @@
 
 namespace lmdbench {
 
-/// The share p in [0, 1] of the values lies at or below the result, linearly interpolated between neighbours
-/// (numpy's default). NaN values are unset and do not count; NaN when nothing is left.
-double percentile(std::vector<double> values, double p);
+/// The one definition of quantiles, of results, studies and benchmarks alike: `share` in [0, 1] of the values
+/// lies at or below the result, linearly interpolated between neighbours (numpy's default). NaN values are
+/// unset and do not count; NaN when nothing is left.
+double quantile(std::vector<double> values, double share);
 
-/// percentile(values, 0.5)
+/// quantile(values, 0.5)
 double median(std::vector<double> values);
 
 /// Mean of the values that are set; NaN when none is.

@@ -3,6 +3,7 @@
 #include <lmdbench/base/error.h>
 #include <lmdbench/experiment/direction_memory.h>
 #include <lmdbench/experiment/lockstep.h>
+#include <lmdbench/experiment/two_rate.h>
 #include <lmdbench/force/aggregate.h>
 
 #include <fmt/format.h>
@@ -11,6 +12,8 @@
 #include <algorithm>
 #include <chrono>
 #include <optional>
+#include <utility>
+#include <vector>
 
 namespace lmdbench {
 namespace {
@@ -45,23 +48,16 @@ void add_feature(Hash& hash, const FeatureId& feature) {
   hash.add(feature.index);
 }
 
-/// A search under way in the (simulated) global thread.
-struct PendingSearch {
-  LmdSet lmds;
-  std::size_t index = 0;  ///< Into the record's searches.
-  std::int64_t frame = 0;
-};
-
-/// One method in one repetition. The global and the local thread own an instance each, as real threads would.
+/// One method in one repetition.
 class MethodRun {
  public:
   MethodRun(const LockstepMethod& method, const LockstepInput& input, const DriverChoice& driver)
-      : input_(input),
-        driver_(driver),
-        profile_(method.profile),
-        global_(method.make()),
-        local_(method.make()),
-        memory_(method.profile.cutoff) {
+      : input_(input), profile_(method.profile), memory_(method.profile.cutoff) {
+    std::unique_ptr<Method> first = method.make();
+    if (first->tracks_locally())
+      two_rate_.emplace(std::move(first), method.make(), driver);
+    else
+      every_frame_ = std::move(first);
     record_.label = method.label;
     record_.repetitions.resize(1);
     record_.frames.reserve(input.poses.size());
@@ -69,23 +65,45 @@ class MethodRun {
 
   void step(std::int64_t frame) {
     FrameRecord result;
-    const Pose& X_WM = pose(frame);
-    double seconds = 0.0;
-    if (local_->tracks_locally()) {
-      if (pending_ && frame == pending_->frame + driver_.search_latency_frames) receive(frame);
-      if (frame % driver_.search_every_frames == 0) {
-        start_search(frame);
-        if (driver_.search_latency_frames == 0) receive(frame);
-      }
-      seconds = timed([&] { local_->track(X_WM, working_, result.counters); });
+    frame_counters_ = &result.counters;
+    if (every_frame_) {
+      const Pose& X_WM = pose(frame);
+      found_.clear();
+      run(Stage::LOCAL_UPDATE, [&](WorkCounters& counters) { every_frame_->search(X_WM, found_, counters); });
+      result.lmd_count_before_reduction = static_cast<double>(found_.size());
+      result.lmd_age = 0.0;
     } else {
-      working_.clear();
-      seconds = timed([&] { local_->search(X_WM, working_, result.counters); });
-      candidates_ = static_cast<std::int64_t>(working_.size());
-      searched_frame_ = frame;
+      two_rate_->step(frame, pose(frame), *this);
+      if (const auto& origin = two_rate_->origin()) {
+        result.lmd_count_before_reduction = static_cast<double>(origin->candidates);
+        result.lmd_age = static_cast<double>(frame - origin->frame) / input_.frame_rate_hz;
+      }
     }
-    times().local_update.push_back(seconds);
-    finish_frame(frame, std::move(result));
+    finish_frame(frame, every_frame_ ? found_ : two_rate_->working_set(), std::move(result));
+  }
+
+  // As observer of the clock: times and counters of each stage.
+  void search_starts(std::int64_t frame) {
+    record_.searches.push_back({.frame = frame});
+    for (std::vector<double>* of_searches :
+         {&times().global_search, &times().first_reduction, &times().second_tracking})
+      of_searches->push_back(UNSET);
+  }
+  template <typename Work>
+  void run(Stage stage, Work&& work) {
+    if (stage == Stage::LOCAL_UPDATE) {
+      times().local_update.push_back(timed([&] { work(*frame_counters_); }));
+      return;
+    }
+    // A search arrives before the next one starts, so all other stages belong to the last one.
+    std::vector<double>& column = stage == Stage::GLOBAL_SEARCH     ? times().global_search
+                                  : stage == Stage::FIRST_REDUCTION ? times().first_reduction
+                                                                    : times().second_tracking;
+    column.back() = timed([&] { work(record_.searches.back().counters); });
+  }
+  void search_ends(const TwoRate::Search& search) {
+    record_.searches.back().candidates = search.candidates;
+    record_.searches.back().kept_after_reduction = search.kept_after_reduction;
   }
 
   MethodRecord take_record() {
@@ -99,43 +117,9 @@ class MethodRun {
   const Pose& pose(std::int64_t frame) const { return input_.poses[static_cast<std::size_t>(frame)]; }
   RepetitionTimes& times() { return record_.repetitions.front(); }
 
-  void start_search(std::int64_t frame) {
-    SearchRecord search;
-    search.frame = frame;
-    PendingSearch pending{{}, record_.searches.size(), frame};
-    times().global_search.push_back(
-        timed([&] { global_->search(pose(frame), pending.lmds, search.counters); }));
-    search.candidates = static_cast<std::int64_t>(pending.lmds.size());
-    double reduction = UNSET;
-    if (global_->trackings_after_search() > 0)
-      reduction = timed([&] { global_->track(pose(frame), pending.lmds, search.counters); });
-    times().first_reduction.push_back(reduction);
-    times().second_tracking.push_back(UNSET);
-    search.kept_after_reduction = static_cast<std::int64_t>(pending.lmds.size());
-    record_.searches.push_back(search);
-    pending_ = std::move(pending);
-  }
-
-  /// Decision E11: the later trackings of section 4.3 run where the search ends,
-  /// with the pose of that moment.
-  void receive(std::int64_t frame) {
-    SearchRecord& search = record_.searches[pending_->index];
-    const int later_trackings = global_->trackings_after_search() - 1;
-    if (later_trackings > 0) {
-      times().second_tracking[pending_->index] = timed([&] {
-        for (int i = 0; i < later_trackings; ++i)
-          global_->track(pose(frame), pending_->lmds, search.counters);
-      });
-    }
-    working_ = std::move(pending_->lmds);
-    candidates_ = search.candidates;
-    searched_frame_ = pending_->frame;
-    pending_.reset();
-  }
-
   /// From the working set to force, record and hash; not timed.
-  void finish_frame(std::int64_t frame, FrameRecord result) {
-    LmdSet lmds = within_cutoff(working_, profile_.cutoff);
+  void finish_frame(std::int64_t frame, const LmdSet& working, FrameRecord result) {
+    LmdSet lmds = within_cutoff(working, profile_.cutoff);
     std::stable_sort(lmds.begin(), lmds.end(),
                      lmd_less);  // summation in an order that the scene alone decides
     result.contact_without_direction = memory_.complete(lmds);
@@ -149,9 +133,6 @@ class MethodRun {
     result.effective_stiffness = wrench.stiffness;
     result.lmd_count = static_cast<std::int64_t>(lmds.size());
     result.minimum_distance = minimum_distance(lmds);
-    if (candidates_) result.lmd_count_before_reduction = static_cast<double>(*candidates_);
-    if (searched_frame_)
-      result.lmd_age = static_cast<double>(frame - *searched_frame_) / input_.frame_rate_hz;
 
     for (int axis = 0; axis < 3; ++axis) result_hash_.add(result.force[axis]);
     result_hash_.add(result.lmd_count);
@@ -166,15 +147,12 @@ class MethodRun {
   }
 
   const LockstepInput& input_;
-  const DriverChoice& driver_;
   const ForceProfile profile_;
-  std::unique_ptr<Method> global_;
-  std::unique_ptr<Method> local_;
+  std::optional<TwoRate> two_rate_;      ///< Unset for a method without local tracking, ...
+  std::unique_ptr<Method> every_frame_;  ///< ... which searches in every frame instead.
   DirectionMemory memory_;
-  LmdSet working_;
-  std::optional<PendingSearch> pending_;
-  std::optional<std::int64_t> candidates_;      ///< Of the search that the working set comes from.
-  std::optional<std::int64_t> searched_frame_;  ///< When that search started; unset before the first arrival.
+  LmdSet found_;                            ///< Of `every_frame_`.
+  WorkCounters* frame_counters_ = nullptr;  ///< Of the frame under way.
   MethodRecord record_;
   Hash result_hash_;
   Hash work_hash_;

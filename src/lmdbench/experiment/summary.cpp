@@ -52,10 +52,10 @@ void summarise_errors(MethodSummary& summary, const MethodRecord& record, ForceL
   const auto index = static_cast<std::size_t>(law);
   for (std::size_t i = 0; i < truth.size(); ++i) {
     const TruthComparison& row = comparisons[i];
-    recall.push_back(row.strict.recall);
-    precision.push_back(row.strict.precision);
-    recall_adjacent.push_back(row.adjacent.recall);
-    precision_adjacent.push_back(row.adjacent.precision);
+    recall.push_back(row.same.recall());
+    precision.push_back(row.same.precision());
+    recall_adjacent.push_back(row.neighbours.recall());
+    precision_adjacent.push_back(row.neighbours.precision());
     distance.push_back(std::abs(row.minimum_distance_error));
     angle.push_back(row.force_angle_error);
     const bool pushed = !truth[i].force[index].isZero(0.0) ||
@@ -71,10 +71,10 @@ void summarise_errors(MethodSummary& summary, const MethodRecord& record, ForceL
   summary.precision_adjacent_mean = mean(precision_adjacent);
   summary.minimum_distance_error_maximum_m = maximum(distance);
   summary.force_error_median_n = median(force);
-  summary.force_error_p99_n = percentile(force, P99);
+  summary.force_error_p99_n = quantile(force, P99);
   summary.force_angle_error_median_rad = median(angle);
-  summary.force_jump_p99_n = percentile(jump, P99);
-  summary.true_force_jump_p99_n = percentile(true_jump, P99);
+  summary.force_jump_p99_n = quantile(jump, P99);
+  summary.true_force_jump_p99_n = quantile(true_jump, P99);
 }
 
 void summarise_times(MethodSummary& summary, const MethodRecord& record) {
@@ -83,7 +83,7 @@ void summarise_times(MethodSummary& summary, const MethodRecord& record) {
   for (const SearchRecord& search : record.searches) found.push_back(search.candidates > 0);
   const std::vector<double> local = measured(record, &RepetitionTimes::local_update, contact);
   summary.local_update_median_s = median(local);
-  summary.local_update_p99_s = percentile(local, P99);
+  summary.local_update_p99_s = quantile(local, P99);
   summary.global_search_median_s = median(measured(record, &RepetitionTimes::global_search, found));
   summary.first_reduction_median_s = median(measured(record, &RepetitionTimes::first_reduction, found));
   summary.second_tracking_median_s = median(measured(record, &RepetitionTimes::second_tracking, found));

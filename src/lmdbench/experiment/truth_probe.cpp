@@ -62,8 +62,6 @@ std::vector<TruthFrame> probe_truth(const Scene& scene, const LockstepInput& inp
 std::vector<TruthComparison> compare_with_truth(const std::vector<TruthFrame>& truth,
                                                 const MethodRecord& record, ForceLaw law,
                                                 const Scene& scene) {
-  std::vector<const Surface*> fixed;
-  for (const auto& body : scene.fixed) fixed.push_back(&body->surface());
   std::vector<TruthComparison> comparisons;
   for (const TruthFrame& here : truth) {
     const LmdSet& lmds = record.lmds.at(here.frame);
@@ -71,8 +69,8 @@ std::vector<TruthComparison> compare_with_truth(const std::vector<TruthFrame>& t
     const FrameRecord& next = record.frames[static_cast<std::size_t>(here.frame) + 1];
     const Vec3& true_force = here.force[static_cast<std::size_t>(law)];
     TruthComparison comparison;
-    comparison.strict = strict_agreement(lmds, here.lmds);
-    comparison.adjacent = adjacent_agreement(lmds, here.lmds, scene.moving->surface(), fixed);
+    comparison.same = agreement(here.lmds, lmds, Match::SAME_FEATURES, scene);
+    comparison.neighbours = agreement(here.lmds, lmds, Match::NEIGHBOURING_FEATURES, scene);
     comparison.minimum_distance_error = minimum_distance(lmds) - minimum_distance(here.lmds);
     comparison.force_error = (frame.force - true_force).norm();
     comparison.force_angle_error = angle_between(frame.force, true_force);

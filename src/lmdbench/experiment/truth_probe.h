@@ -5,7 +5,7 @@
 #include <lmdbench/experiment/lockstep.h>
 #include <lmdbench/experiment/records.h>
 #include <lmdbench/force/force_law.h>
-#include <lmdbench/lmd/matching.h>
+#include <lmdbench/lmd/agreement.h>
 #include <lmdbench/lmd/scene.h>
 
 #include <array>
@@ -32,8 +32,8 @@ struct TruthFrame {
 
 /// One method against one TruthFrame. NaN where a quantity does not exist.
 struct TruthComparison {
-  SetAgreement strict;
-  SetAgreement adjacent;
+  Agreement same;        ///< Same features.
+  Agreement neighbours;  ///< Neighbouring features count.
   double minimum_distance_error = UNSET;  ///< Method's minus true [m]; NaN unless both see an LMD.
   double force_error = UNSET;             ///< Length of the difference [N].
   double force_angle_error = UNSET;       ///< Angle between the forces [rad]; NaN where one vanishes.

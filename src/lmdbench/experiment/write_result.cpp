@@ -124,13 +124,13 @@ void write_truth(ResultWriter& writer, const std::string& group, const std::vect
   using Row = const TruthComparison&;
   write_column(writer, {group + "/frame", "1", "frame that was compared with truth"}, truth,
                [](const TruthFrame& t) { return t.frame; });
-  column("recall", "1", "share of true LMDs found, same features", [](Row r) { return r.strict.recall; });
+  column("recall", "1", "share of true LMDs found, same features", [](Row r) { return r.same.recall(); });
   column("precision", "1", "share of LMDs that are true, same features",
-         [](Row r) { return r.strict.precision; });
+         [](Row r) { return r.same.precision(); });
   column("recall_adjacent", "1", "share of true LMDs found, adjacent features",
-         [](Row r) { return r.adjacent.recall; });
+         [](Row r) { return r.neighbours.recall(); });
   column("precision_adjacent", "1", "share of LMDs that are true, adjacent features",
-         [](Row r) { return r.adjacent.precision; });
+         [](Row r) { return r.neighbours.precision(); });
   column("minimum_distance_error", "m", "minimum distance minus the true one",
          [](Row r) { return r.minimum_distance_error; });
   column("force_error", "N", "length of the difference to the true rendered force under the same law",
