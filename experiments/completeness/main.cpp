@@ -89,7 +89,8 @@ nlohmann::json to_json(const Judgement& judgement) {
 
 std::string numbers(const Judgement& judgement) {
   return fmt::format("{} | {} | {} | {} | {} | {:.1e} | {:.1e}", judgement.same.true_lmds,
-                     judgement.same.missed(), judgement.same.wrong(), judgement.duplicates, judgement.wrong_poses, judgement.worst_distance_difference,
+                     judgement.same.missed(), judgement.same.wrong(), judgement.duplicates,
+                     judgement.wrong_poses, judgement.worst_distance_difference,
                      judgement.worst_point_difference);
 }
 

@@ -34,9 +34,9 @@ void print_table(const std::string& title, const std::vector<VariantResult>& res
   fmt::print("|---|---|---|---|---|---|---|---|\n");
   for (const VariantResult& result : results)
     fmt::print("| {} | {} of {} | {:.4f} | {:.4f} | {:.4f} | {:.4f} | {} | {} |\n", result.variant.label,
-               result.same.found, result.same.true_lmds, result.same.recall(),
-               result.same.precision(), result.neighbours.recall(), result.neighbours.precision(),
-               result.poses_with_loss, result.minimum_missed);
+               result.same.found, result.same.true_lmds, result.same.recall(), result.same.precision(),
+               result.neighbours.recall(), result.neighbours.precision(), result.poses_with_loss,
+               result.minimum_missed);
 }
 
 nlohmann::json to_json(const VariantResult& result) {

@@ -28,8 +28,8 @@ std::vector<Variant> original_variants();
 /// Sums over all poses at one cutoff.
 struct VariantResult {
   Variant variant;
-  Agreement same;        ///< Same features, each pair once.
-  Agreement neighbours;  ///< Neighbouring features count, each pair once.
+  Agreement same;                   ///< Same features, each pair once.
+  Agreement neighbours;             ///< Neighbouring features count, each pair once.
   std::size_t poses_with_loss = 0;  ///< Poses with at least one true LMD whose feature pair is missing.
   /// Poses whose nearest true LMD has no reported LMD at its distance (relative 1e-6):
   /// the force's main part is off.

@@ -167,8 +167,7 @@ void print_row(const Point& point, const Scene& scene, const Measurement& measur
              scene.moving->surface().mesh.triangles.size(), 100.0 * point.gap, 100.0 * point.cutoff,
              median(lmds));
   for (const Series& series : measurement.series) {
-    fmt::print(" {:.1f} / {:.1f}", 1e6 * median(series.seconds),
-               1e6 * quantile(series.seconds, 0.99));
+    fmt::print(" {:.1f} / {:.1f}", 1e6 * median(series.seconds), 1e6 * quantile(series.seconds, 0.99));
     if (series.same.missed() > 0)
       fmt::print(" ({:.3f}, {:.3f})", series.same.recall(), series.neighbours.recall());
     fmt::print("{} |", series.objection.empty() ? "" : " WRONG");
@@ -182,8 +181,7 @@ double slope(const nlohmann::json& points, const std::string& name) {
   double n = 0.0, sum_x = 0.0, sum_y = 0.0, sum_xx = 0.0, sum_xy = 0.0;
   for (const auto& point : points) {
     const double x = std::log(point.at("moving_triangles").get<double>());
-    const double y =
-        std::log(median(point.at("methods").at(name).at("seconds").get<std::vector<double>>()));
+    const double y = std::log(median(point.at("methods").at(name).at("seconds").get<std::vector<double>>()));
     n += 1.0, sum_x += x, sum_y += y, sum_xx += x * x, sum_xy += x * y;
   }
   return (n * sum_xy - sum_x * sum_y) / (n * sum_xx - sum_x * sum_x);

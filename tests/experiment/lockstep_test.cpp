@@ -77,14 +77,15 @@ ForceProfile profile() {
   return {ForceLaw::LINEAR, 1.0, 0.0, 1.0, 4.0};
 }
 
-/// Instances are tagged in the order in which they are made: the driver makes the global one first.
+/// Instances are tagged in the order in which they are made: the driver makes the global one first. A method
+/// without local tracking has one instance.
 LockstepMethod fake(const std::string& label, FakeTraits traits, Log* log,
                     const std::shared_ptr<int>& made = std::make_shared<int>(0)) {
   return {label,
           [=] {
             ++*made;
-            return std::make_unique<FakeMethod>(label + (*made % 2 == 1 ? ".global" : ".local"), traits, log,
-                                                0.0);
+            return std::make_unique<FakeMethod>(
+                label + (traits.tracks_locally && *made % 2 == 1 ? ".global" : ".local"), traits, log, 0.0);
           },
           profile()};
 }

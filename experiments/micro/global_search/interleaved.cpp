@@ -63,12 +63,11 @@ void print(const std::vector<Row>& rows, double cutoff) {
     const auto share = [&](double value) {
       return row.error.same.true_lmds > 0 ? fmt::format("{:.4f}", value) : "-";
     };
-    fmt::print("| {} | {:.4f} | {:.4f} | {:.2f} | {} | {} | {} | {} | {} | {:.2g} |{}\n", row.name,
-               row.median_ms, row.p99_ms, row.ratio_to_fcl, share(row.error.same.recall()),
-               share(row.error.neighbours.recall()), share(row.error.same.precision()),
-               share(row.error.neighbours.precision()), row.error.minimum_missed,
-               row.error.worst_minimum_error,
-               row.error.objection.empty() ? "" : " WRONG: " + row.error.objection);
+    fmt::print(
+        "| {} | {:.4f} | {:.4f} | {:.2f} | {} | {} | {} | {} | {} | {:.2g} |{}\n", row.name, row.median_ms,
+        row.p99_ms, row.ratio_to_fcl, share(row.error.same.recall()), share(row.error.neighbours.recall()),
+        share(row.error.same.precision()), share(row.error.neighbours.precision()), row.error.minimum_missed,
+        row.error.worst_minimum_error, row.error.objection.empty() ? "" : " WRONG: " + row.error.objection);
   }
 }
 

@@ -46,7 +46,8 @@ class TwoRateLoop : public FrameLoop {
 FrameImplementation rendered_tracking(const std::string& label) {
   return {label, Exactness::APPROXIMATE, false, [label](const RecordedPath& path) {
             const LockstepMethod& method = path.method(label);
-            return std::make_unique<Rendered>(std::make_unique<TwoRateLoop>(method, path), method.profile, path);
+            return std::make_unique<Rendered>(std::make_unique<TwoRateLoop>(method, path), method.profile,
+                                              path);
           }};
 }
 

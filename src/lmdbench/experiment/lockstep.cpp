@@ -84,7 +84,7 @@ class MethodRun {
 
   // As observer of the clock: times and counters of each stage.
   void search_starts(std::int64_t frame) {
-    record_.searches.push_back({.frame = frame});
+    record_.searches.emplace_back().frame = frame;
     for (std::vector<double>* of_searches :
          {&times().global_search, &times().first_reduction, &times().second_tracking})
       of_searches->push_back(UNSET);

@@ -72,10 +72,12 @@ class TwoRate {
     LmdSet& lmds = pending_->lmds;
     Search& search = pending_->search;
     observer.search_starts(frame);
-    observer.run(Stage::GLOBAL_SEARCH, [&](WorkCounters& counters) { global_->search(X_WM, lmds, counters); });
+    observer.run(Stage::GLOBAL_SEARCH,
+                 [&](WorkCounters& counters) { global_->search(X_WM, lmds, counters); });
     search.candidates = static_cast<std::int64_t>(lmds.size());
     if (global_->trackings_after_search() > 0)
-      observer.run(Stage::FIRST_REDUCTION, [&](WorkCounters& counters) { global_->track(X_WM, lmds, counters); });
+      observer.run(Stage::FIRST_REDUCTION,
+                   [&](WorkCounters& counters) { global_->track(X_WM, lmds, counters); });
     search.kept_after_reduction = static_cast<std::int64_t>(lmds.size());
     observer.search_ends(search);
   }
