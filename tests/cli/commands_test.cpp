@@ -70,10 +70,13 @@ TEST(RunCommand, JsonSummaryIsOneDocument) {
 }
 
 TEST(RunCommand, InterruptionEndsBySignalAndKeepsTheEarlierResult) {
+  // The program handles the signal before it makes the .part file.
   const ScratchDirectory scratch;
   const std::string result = scratch.write("r.h5", "an earlier result");
-  const Outcome outcome = lmdbench("run " + SHAPES + "--set /driver/repetitions=1000 --out '" + result +
-                                   "' & pid=$!; " + "sleep 1; kill -INT $pid; wait $pid; echo $?");
+  const Outcome outcome =
+      lmdbench("run " + SHAPES + "--set /driver/repetitions=1000 --out '" + result + "' & pid=$!; " +
+               "until [ -e '" + result + ".part' ]; do kill -0 $pid || exit; sleep 0.05; done; " +
+               "kill -INT $pid; wait $pid; echo $?");
   EXPECT_EQ(outcome.out, "130\n") << "a shell's number for the interrupt signal";
   EXPECT_THAT(outcome.err, HasSubstr("interrupted: nothing was written"));
   EXPECT_EQ(read_text(result), "an earlier result");

@@ -75,6 +75,24 @@ TEST_F(ImprovedTest, VisibilityCullsLeafPairsAndNeverAddsCandidates) {
   });
 }
 
+/// Boxes corner to corner: whole faces lie beside each other.
+TEST_F(ImprovedTest, EachVisibilityPolicyCullsOnCoarseMeshes) {
+  const Scene scene = make_scene(make_box({0.1, 0.1, 0.1}), make_box({0.1, 0.1, 0.1}), 0.05);
+  Pose pose;
+  pose.translation = {0.11, 0.12, 0.115};
+  const auto culled = [&](Visibility visibility) {
+    LmdSet candidates;
+    WorkCounters work;
+    Improved(scene, with(visibility, Reduction::PUBLISHED)).search(pose, candidates, work);
+    EXPECT_EQ(work[Counter::LEAF_PAIRS],
+              work[Counter::REJECTED_VISIBILITY] + work[Counter::TRIANGLE_DISTANCES]);
+    return work[Counter::REJECTED_VISIBILITY];
+  };
+  EXPECT_EQ(culled(Visibility::OFF), 0u);
+  EXPECT_GT(culled(Visibility::VERTEX_NORMAL), 0u);
+  EXPECT_GT(culled(Visibility::ORTHOGONAL), culled(Visibility::VERTEX_NORMAL)) << "the other reading of E6";
+}
+
 TEST_F(ImprovedTest, LossFreeReductionKeepsEachMinimumOnce) {
   on_poses(6, [&](const Scene& scene, const Pose& pose, const LmdSet& truth) {
     Improved improved(scene, with(Visibility::OFF, Reduction::LOSS_FREE));

@@ -127,6 +127,65 @@ TEST(WideLifetime, NothingIsAnLmdBeforeItsFramesAreOver) {
   EXPECT_GT(held, 5000u);
 }
 
+/// Two children of which a point each touches at the end of a motion.
+TEST(WideLifetime, NothingTouchesBeforeItsFramesAreOver) {
+  std::mt19937_64 random(6);
+  std::size_t apart = 0, held = 0;
+  for (int i = 0; i < 200000; ++i) {
+    LaneSample a(random), b(random);
+    const Vec3 together = a.point - b.point;  // at the end, in the frame of both
+    b.centre += together;
+    const double frames = 1.0 + 20.0 * uniform(random);
+    const Vec3 velocity = 0.05 * uniform(random) * random_direction(random);
+    // A motion without a turn: at the start, a is that much behind.
+    const bool moving_lanes = i % 2 == 1;
+    const Vec3 displacement = frames * velocity;
+    LaneSample start = a;
+    start.centre -= displacement;
+    WideNode home{}, node{};
+    (moving_lanes ? b : start).store(home, 0);
+    (moving_lanes ? start : b).store(node, 3);
+    const WideTransform same_frame(Mat3::Identity(), Vec3::Zero());
+    const WideProbe probe = make_probe(WideChild(home, 0), same_frame);
+    const double size = 3.0 + b.centre.norm() + displacement.norm();
+    const WideLimits limits{0.2F, 1e-9F, static_cast<float>(POSITION_ROUNDING * size)};
+    WideForecast forecast;
+    forecast.in_moving = WideTransform(Mat3::Zero(), velocity);
+    forecast.creep = static_cast<float>(1e-5 * velocity.norm());
+    forecast.cutoff = 0.2F;
+    forecast.reach = 4.0F;
+    WideLifetimeTest test{moving_lanes, {}, 1u << 3};
+    for (int k = 0; k < 3; ++k) test.probe_velocity[k] = static_cast<float>(velocity[k]);
+    const WideLifetimes result = test_lanes_lifetime(node, probe, limits, forecast, test);
+    if (result.touch != 0) continue;
+    ++apart;
+    ASSERT_LE(static_cast<double>(result.frames), frames * (1.0 + 1e-5)) << i;
+    // The bound is worth something: a good part of the way is covered.
+    if (static_cast<double>(result.frames) > 0.3 * frames) ++held;
+  }
+  EXPECT_GT(apart, 20000u);
+  EXPECT_GT(held, 2000u);
+}
+
+TEST(WideLifetime, TouchingIsAskedForLanesOfFacesAlone) {
+  std::mt19937_64 random(7);
+  LaneSample a(random), b(random);
+  a.centre = b.centre = Vec3::Zero();
+  a.radius = b.radius = a.thickness = b.thickness = 0.1;
+  WideNode home{}, node{};
+  a.store(home, 0);
+  b.store(node, 2);
+  const WideProbe probe = make_probe(WideChild(home, 0), WideTransform(Mat3::Identity(), Vec3::Zero()));
+  WideForecast forecast;
+  forecast.cutoff = 0.2F;
+  forecast.reach = 4.0F;
+  const auto touch = [&](std::uint32_t lanes) {
+    return test_lanes_lifetime(node, probe, {0.2F, 1e-9F, 1e-6F}, forecast, {false, {}, lanes}).touch;
+  };
+  EXPECT_EQ(touch(1u << 2), 1u << 2) << "bodies that overlap may touch, whatever their cones";
+  EXPECT_EQ(touch(1u << 1), 0u);
+}
+
 TEST(WideLifetime, DirectionOfTheMotionCounts) {
   // A lane beyond the cutoff: towards it the rejection stands for few frames, away from it for ever.
   std::mt19937_64 random(1);
