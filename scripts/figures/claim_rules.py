@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from lmdbench_results import median, quantile, true_jumps_per_second, truth_of
+from lmdbench_results import median, quantile, truth_of
 
 REPRODUCED = "reproduced"
 NOT_REPRODUCED = "not reproduced"
@@ -43,45 +43,37 @@ def both(result):
     return result.method("original"), result.method("improved")
 
 
-def contact_of_either(result):
-    original, improved = both(result)
-    return (original.read("lmd_count") > 0) | (improved.read("lmd_count") > 0)
-
-
 def errors(result):
     """What stands beside every time: recall and force error of both methods."""
     texts = []
     for method in both(result):
-        truth = truth_of(method)
-        texts.append(f"{method.label} {100 * truth.pooled_recall():.0f} %, {truth.rms_force_error():.2f} N" if truth
+        texts.append(f"{method.label} {100 * method.number('recall'):.0f} % "
+                     f"({100 * method.number('recall_adjacent'):.0f} % with neighbouring features), "
+                     f"{method.number('force_error_rms_n'):.2f} N" if truth_of(method)
                      else f"{method.label} not measured")
-    return f"(recall and force error, {result.name}: " + "; ".join(texts) + ")"
+    return f"(recall and RMS force error, {result.name}: " + "; ".join(texts) + ")"
 
 
 # K1 ------------------------------------------------------------------------------------------------------------------
 
-ZERO_SHARE, STRONG_SHARE, LARGE_SHARE = 0.05, 0.5, 0.25
+ZERO_SHARE, STRONG_SHARE = 0.05, 0.5
 
 
 def switches(method):
     """Times per second in contact that the force changes within one frame from below 5 % of F_max to above 50 % or
-    back, and changes by more than 25 %."""
+    back."""
     result = method.result
     force = method.force_magnitude() / result.maximum_force()
     low, high = np.minimum(force[1:], force[:-1]), np.maximum(force[1:], force[:-1])
-    seconds = np.count_nonzero(contact_of_either(result)) * float(np.median(np.diff(result.time)))
-    if seconds == 0:
-        return float("nan"), float("nan")
-    switch = np.count_nonzero((low < ZERO_SHARE) & (high > STRONG_SHARE))
-    large = np.count_nonzero(method.force_jumps() > LARGE_SHARE * result.maximum_force())
-    return switch / seconds, large / seconds
+    seconds = result.seconds_in_contact()
+    return np.count_nonzero((low < ZERO_SHARE) & (high > STRONG_SHARE)) / seconds if seconds > 0 else float("nan")
 
 
 def k1(hard):
     original, improved = both(hard)
-    (switch_o, large_o), (switch_i, large_i) = switches(original), switches(improved)
-    true = {method.label: true_jumps_per_second(hard, method.force_law, LARGE_SHARE) if hard.has("/reference/frame")
-            else float("nan") for method in both(hard)}
+    switch_o, switch_i = switches(original), switches(improved)
+    large_o, large_i = (method.number("jumps_per_second") for method in both(hard))
+    true = {method.label: method.number("true_jumps_per_second") for method in both(hard)}
     verdict, because = judge({
         "the improved force is stable: it changes by more than 25 % of F_max a tenth as often": large_i <= 0.1 * large_o,
         "the improved force does not switch between zero and strong": switch_i < 0.1,
@@ -107,10 +99,8 @@ def k1(hard):
 def k2(hard):
     counts = {}
     for method in both(hard):
-        count = method.read("lmd_count")[contact_of_either(hard)]
-        counts[method.label] = {"median": median(count), "p99": quantile(count, 0.99), "maximum": float(count.max())}
-    share = {method.label: float(np.mean(method.read("lmd_count")[contact_of_either(hard)] < 10))
-             for method in both(hard)}
+        counts[method.label] = {name: method.number(f"lmd_count_{name}") for name in ("median", "p99", "maximum")}
+    share = {method.label: float(np.mean(method.read("lmd_count")[hard.in_contact()] < 10)) for method in both(hard)}
     verdict, because = judge({f"{label}'s set stays under 10": value["p99"] < 10 for label, value in counts.items()})
     text = "; ".join(f"{label} median {value['median']:.0f}, 99th percentile {value['p99']:.0f}, most "
                      f"{value['maximum']:.0f}, under 10 in {100 * share[label]:.1f} % of frames"
@@ -125,7 +115,7 @@ def k2(hard):
 
 def k3(soft):
     original, improved = both(soft)
-    contact = contact_of_either(soft)
+    contact = soft.in_contact()
     force_o, force_i = original.force_magnitude()[contact], improved.force_magnitude()[contact]
     mean_o, mean_i = float(np.mean(force_o)), float(np.mean(force_i))
     excess = mean_o / mean_i - 1.0 if mean_i > 0 else float("nan")
@@ -153,9 +143,9 @@ def k4(results):
     parts, texts, numbers = {}, [], {}
     for result in results:
         original, improved = both(result)
-        contact = contact_of_either(result)
+        contact = result.in_contact()
         mean = {m.label: float(np.mean(m.read("lmd_count")[contact])) for m in (original, improved)}
-        seconds = np.count_nonzero(contact) * float(np.median(np.diff(result.time)))
+        seconds = result.seconds_in_contact()
         change = {m.label: float(np.sum(np.abs(np.diff(m.read("lmd_count"))))) / seconds for m in (original, improved)}
         ratio = mean["original"] / mean["improved"] if mean["improved"] > 0 else float("nan")
         parts[f"{result.name}: similar counts"] = 2 / 3 <= ratio <= 1.5
@@ -176,25 +166,22 @@ def k4(results):
 
 def k5(results):
     """On further results with other meshes the dependence on density can be judged as well."""
-    texts, numbers, largest, medians = [], {}, [], []
+    texts, numbers, largest, pooled = [], {}, [], []
     for result in results:
         improved = result.method("improved")
-        candidates, kept = improved.read("candidates").astype(float), improved.read("kept_after_reduction")
-        ratio = candidates[kept > 0] / kept[kept > 0]
+        ratio, most = improved.number("reduction_ratio"), improved.number("reduction_ratio_maximum")
         triangles = result.triangles()
-        largest.append(quantile(ratio, 1.0))
-        medians.append((triangles, median(ratio)))
-        texts.append(f"{result.name}: median {median(ratio):.1f}, 99th percentile {quantile(ratio, 0.99):.1f}, largest "
-                     f"{largest[-1]:.1f} ({triangles:,} triangles)")
-        numbers[result.name] = {"median": median(ratio), "p99": quantile(ratio, 0.99), "largest": largest[-1],
-                                "triangles": triangles}
+        largest.append(most)
+        pooled.append((triangles, ratio))
+        texts.append(f"{result.name}: {ratio:.1f} over all searches, {most:.1f} at most ({triangles:,} triangles)")
+        numbers[result.name] = {"reduction_ratio": ratio, "reduction_ratio_maximum": most, "triangles": triangles}
     top = max(largest)
     parts = {"up to about twenty times (10 to 40)": 10 <= top <= 40}
-    densities = sorted({triangles for triangles, _ in medians})
+    densities = sorted({triangles for triangles, _ in pooled})
     one_density = True
     if len(densities) > 1 and densities[-1] >= 2 * densities[0]:
-        thin = np.mean([value for triangles, value in medians if triangles == densities[0]])
-        dense = np.mean([value for triangles, value in medians if triangles == densities[-1]])
+        thin = np.mean([value for triangles, value in pooled if triangles == densities[0]])
+        dense = np.mean([value for triangles, value in pooled if triangles == densities[-1]])
         parts["larger for denser meshes"] = dense > thin
         one_density = False
     verdict, because = judge(parts)
@@ -204,9 +191,9 @@ def k5(results):
         because = "as far as measured; results of one density do not show the growth with the mesh"
     return Claim("K5", "The reduction process is able to reduce the total number of LMD pairs up to twenty times; with more "
                  "complex meshes the factor is greater (6.1), an order of magnitude in high-poly models (4.2.1).",
-                 "Candidates of a search divided by those left after the first reduction: the largest ratio lies "
-                 "between 10 and 40; the median grows with the triangle count where results of several densities are "
-                 "given.",
+                 "Candidates divided by those left after the first reduction: the largest ratio of a search lies between "
+                 "10 and 40; the ratio of the sums over all searches grows with the triangle count where results of "
+                 "several densities are given.",
                  "; ".join(texts) + ".", verdict, because, numbers)
 
 
@@ -217,18 +204,16 @@ def k6(results):
     parts, texts, numbers = {}, [], {}
     for result in results:
         original, improved = both(result)
-        busy = (original.read("candidates") > 0) | (improved.read("candidates") > 0)
-        base_o = original.median_times("global_search_time")[busy]
-        base_i = improved.median_times("global_search_time")[busy]
-        reduction = improved.median_times("first_reduction_time")[busy]
-        base = median(base_i) / median(base_o)
-        share = reduction / base_i
-        total = median(base_i + reduction) / median(base_o)
+        base_o, base_i = (method.number("global_search_median_s") for method in both(result))
+        base = base_i / base_o
+        total = improved.number("search_with_reduction_median_s") / base_o
+        busy = result.in_contact()[improved.read("global_frame").astype(int)]
+        share = (improved.median_times("first_reduction_time") / improved.median_times("global_search_time"))[busy]
         parts[f"{result.name}: base time almost equal"] = 0.8 <= base <= 1.25
         parts[f"{result.name}: the reduction can take as long as the search"] = quantile(share, 0.99) >= 0.8
         parts[f"{result.name}: total about twice the original"] = 1.5 <= total <= 2.5
         texts.append(
-            f"{result.name}: base {median(base_i) * 1e3:.3f} against {median(base_o) * 1e3:.3f} ms (ratio {base:.2f}); "
+            f"{result.name}: base {base_i * 1e3:.3f} against {base_o * 1e3:.3f} ms (ratio {base:.2f}); "
             f"reduction / search median {median(share):.2f}, 99th percentile {quantile(share, 0.99):.2f}; total ratio "
             f"{total:.2f} {errors(result)}")
         numbers[result.name] = {"base_ratio": base, "reduction_share_median": median(share),
@@ -237,7 +222,7 @@ def k6(results):
     return Claim("K6", "The base time of the global search is almost the same; the reduction after it can take the same time "
                  "as the search itself; search and first reduction are approximately two times longer than the "
                  "original (6.1).",
-                 "Medians over searches with candidates: base ratio 0.8 to 1.25; 99th percentile of reduction / search "
+                 "Medians over searches in contact: base ratio 0.8 to 1.25; 99th percentile of reduction / search "
                  "at least 0.8; total ratio 1.5 to 2.5.",
                  "; ".join(texts) + ".", verdict, because, numbers)
 
@@ -248,9 +233,8 @@ def k6(results):
 def local_ratio(result):
     """Ratio of the medians, the medians, and the ratio of the means: an update that receives a new set of candidates
     is long, and only the mean sees these few."""
-    contact = contact_of_either(result)
-    times = {m.label: m.median_times("local_update_time")[contact] for m in both(result)}
-    middle = {label: median(values) for label, values in times.items()}
+    times = {m.label: m.median_times("local_update_time")[result.in_contact()] for m in both(result)}
+    middle = {m.label: m.number("local_update_median_s") for m in both(result)}
     means = np.mean(times["improved"]) / np.mean(times["original"])
     return middle["improved"] / middle["original"], middle, float(means)
 
@@ -295,7 +279,7 @@ def k9(results):
         improved = result.method("improved")
         samples = improved.times("local_update_time")
         late = float(np.mean(samples > 1e-3))
-        p99 = quantile(samples, 0.99)
+        p99 = improved.number("local_update_p99_s")
         triangles = result.triangles(smallest=True)
         parts[f"{result.name}: over 10,000 triangles a mesh"] = triangles > 10_000
         parts[f"{result.name}: above 1 kHz"] = p99 < 1e-3
@@ -316,10 +300,10 @@ def k10(results, unequal):
     """`unequal`: results on meshes with large or unequal triangles, for the first half of the claim."""
     parts, texts, numbers = {}, [], {}
     for result, dense in [(r, True) for r in results] + [(r, False) for r in unequal]:
-        truth = truth_of(result.method("original"))
-        if truth is None:
+        original = result.method("original")
+        if truth_of(original) is None:
             continue
-        missed, near = 1 - truth.pooled_recall(), 1 - truth.pooled_recall_adjacent()
+        missed, near = 1 - original.number("recall"), 1 - original.number("recall_adjacent")
         texts.append(f"{result.name} ({'dense' if dense else 'large or unequal'}): the original misses "
                      f"{100 * missed:.1f} % of the true LMDs, {100 * near:.1f} % when a neighbouring feature counts")
         numbers[result.name] = {"missed": missed, "missed_adjacent": near, "dense": dense}

@@ -33,50 +33,20 @@ def not_a_number(method):
     return count + (int(np.count_nonzero(~np.isfinite(truth.force_error))) if truth else 0)
 
 
-def started(result, truth):
-    """The probed frames from the first on in which a search can have arrived: none can tell anything before."""
-    latency = int(result.h5["/methods"].attrs["search_latency_frames"])
-    return truth.frames >= latency
-
-
-def frames_wrong(truth, considered):
-    """Probed frames in which the method's set is not the true one."""
-    recall_missing = (truth.true_count > 0) & ~(truth.recall == 1.0)
-    precision_missing = (truth.count > 0) & ~(truth.precision == 1.0)
-    return int(np.count_nonzero((recall_missing | precision_missing)[considered]))
-
-
-def worst(values):
-    values = np.abs(np.asarray(values, dtype=float))
-    values = values[np.isfinite(values)]
-    return float(values.max()) if values.size else float("nan")
-
-
 def measure(method):
-    result, truth = method.result, truth_of(method)
+    result = method.result
     force = result.maximum_force()
-    # Where the meshes touch, a pair at distance 0 has no direction of its own and no force is the true one.
-    considered = started(result, truth)
-    apart = considered & ~(result.read("/reference/minimum_distance") == 0.0)
-    of_truth, of_method = truth.true_count * considered, truth.count * considered
-    row = {
-        "scene": result.name.removeprefix("extreme-"),
-        "method": method.label,
-        "contact_frames": int(np.count_nonzero(method.read("lmd_count") > 0)),
-        "touching_frames": int(np.count_nonzero(method.read("contact_without_direction") > 0)),
-        "lmds_maximum": int(method.read("lmd_count").max()),
-        "probed_frames": int(np.count_nonzero(considered)),
-        "recall": truth.pooled(truth.recall, of_truth),
-        "precision": truth.pooled(truth.precision, of_method),
-        "recall_adjacent": truth.pooled(truth.recall_adjacent, of_truth),
-        "precision_adjacent": truth.pooled(truth.precision_adjacent, of_method),
-        "frames_wrong": frames_wrong(truth, considered),
-        "distance_error_cutoff": worst(truth.minimum_distance_error[considered]) / result.scene("cutoff_m"),
-        "force_error_fmax": worst(truth.force_error[apart]) / force,
-        "force_jump_fmax": worst(method.force_jumps()) / force,
-        "true_force_jump_fmax": worst(result.read(f"/reference/force_jump_{method.force_law}")) / force,
-        "not_a_number": not_a_number(method),
-    }
+    row = {"scene": result.name.removeprefix("extreme-"), "method": method.label,
+           "frames_in_contact": int(result.number("frames_in_contact")),
+           "frames_probed": int(result.number("frames_probed"))}
+    for name in ("frames_touching", "lmd_count_maximum", "frames_wrong"):
+        row[name] = int(method.number(name))
+    for name in ("recall", "precision", "recall_adjacent", "precision_adjacent"):
+        row[name] = method.number(name)
+    row["distance_error_cutoff"] = method.number("minimum_distance_error_maximum_m") / result.scene("cutoff_m")
+    for name in ("force_error", "force_jump", "true_force_jump"):
+        row[name + "_fmax"] = method.number(name + "_maximum_n") / force
+    row["not_a_number"] = not_a_number(method)
     row["why_not"] = why_not(row)
     row["stands"] = not row["why_not"]
     return row
@@ -102,8 +72,8 @@ def cells(row):
     def number(value):
         return NOT_MEASURED if not np.isfinite(value) else ("0" if value == 0 else f"{value:.2g}")
 
-    return [row["scene"], row["method"], f"{row['contact_frames']} ({row['touching_frames']})", str(row["lmds_maximum"]),
-            percent("recall"), percent("precision"), f"{row['frames_wrong']} of {row['probed_frames']}",
+    return [row["scene"], row["method"], f"{row['frames_in_contact']} ({row['frames_touching']})", str(row["lmd_count_maximum"]),
+            percent("recall"), percent("precision"), f"{row['frames_wrong']} of {row['frames_probed']}",
             number(row["distance_error_cutoff"]), number(row["force_error_fmax"]), number(row["force_jump_fmax"]),
             number(row["true_force_jump_fmax"]), str(row["not_a_number"]), "yes" if row["stands"] else "no: " + ", ".join(row["why_not"])]
 
@@ -130,14 +100,14 @@ def standings(rows):
 
 
 LEGEND = f"""\
-Contact frames: frames with an LMD (in parentheses: with triangles that touch and an LMD without a direction of its own).
-LMDs: most in a frame. Recall, precision: pooled over the probed frames, same features (in parentheses: or features that
-share a triangle). Frames wrong: probed frames in which the set is not the true one. Probed frames count from the first
-one in which a search can have arrived. Distance error: the worst. Force error: the worst of the frames in which the
-meshes are apart (in contact no force is the true one), against the true force under the same law. Force jump: the
-largest change from one frame to the next; beside it the largest of the true force in the probed frames. Not a number:
-values that must be numbers and are not. Stands: recall with adjacent features at least {STANDS_RECALL:.0%}, force never off by
-more than {STANDS_FORCE:.0%} of F_max, no value missing; else what is in the way."""
+The numbers are the program's own, defined in results/README.md. Contact frames: the meshes are within the cutoff (in
+parentheses: frames with an LMD at distance 0). LMDs: most in a frame. Recall, precision: pooled over the probed frames,
+same features (in parentheses: neighbouring features count). Frames wrong: probed frames in which the set is not the true
+one. Probed frames count from the first one in which a search can have arrived. Distance error: the largest. Force error:
+the largest, of the probed frames in which the meshes are apart, against the true force under the same law. Force jump: the
+largest change from a probed frame to the next; beside it the largest of the true force. Not a number: values that must be
+numbers and are not. Stands: recall with neighbouring features at least {STANDS_RECALL:.0%}, force never off by more than
+{STANDS_FORCE:.0%} of F_max, no value missing; else what is in the way."""
 
 
 def complaints(rows):
@@ -145,10 +115,10 @@ def complaints(rows):
         place = f"{row['scene']}, {row['method']}"
         if row["not_a_number"]:
             yield f"{place}: {row['not_a_number']} values are not a number"
-        if row["probed_frames"] == 0:
+        if row["frames_probed"] == 0:
             yield f"{place}: no probed frame"
         if row["method"] in EXACT_METHODS and row["frames_wrong"]:
-            yield f"{place}: {row['frames_wrong']} of {row['probed_frames']} sets are not the true one"
+            yield f"{place}: {row['frames_wrong']} of {row['frames_probed']} sets are not the true one"
 
 
 def main(argv):

@@ -124,8 +124,8 @@ def plot_recall(axes, result):
         bins = np.clip(np.digitize(result.time[truth.frames], edges) - 1, 0, RECALL_BINS - 1)
         for shares, options in ((truth.recall, {**look(method), "lw": 1.1}),
                                 (truth.recall_adjacent, {**look(method), "lw": 0.8, "ls": ":"})):
-            recall = [truth.pooled(shares[bins == i], truth.true_count[bins == i]) for i in range(RECALL_BINS)]
-            axes.stairs(np.array(recall) * 100.0, edges, baseline=None, **options)
+            found = [truth.found_in(shares, bins == i) for i in range(RECALL_BINS)]
+            axes.stairs(np.array(found) * 100.0, edges, baseline=None, **options)
 
 
 def key(label, colour, line="-", width=1.2):

@@ -1,9 +1,10 @@
 # SPDX-FileCopyrightText: The lmdbench authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Reads lmdbench result files (see results/README.md) and derives what figures and tables have in common.
+"""Reads lmdbench result files (see results/README.md) for figures and tables.
 
-Nothing here changes a file: raw samples are evidence, every number is derived from them. Times are in seconds here;
-figures and tables show milliseconds.
+Reported numbers (recall, force error, times, ...) are read from the summary that the program wrote, `Method.number` and
+`Result.number`: they have one definition, and it is not here. Raw samples are for what figures draw and for measures that
+have names of their own. Times are in seconds here; figures and tables show milliseconds.
 """
 
 import json
@@ -14,7 +15,7 @@ import h5py
 import numpy as np
 
 FORMAT = "lmdbench-result"
-FORMAT_VERSION = 1
+FORMAT_VERSION = 2
 EXIT_CHECK_FAILED = 1
 EXIT_INPUT_DATA = 3
 EXIT_ENVIRONMENT = 4
@@ -62,41 +63,16 @@ class Method:
         """(N) length of the rendered force [N]."""
         return np.linalg.norm(self.read("force"), axis=1)
 
-    def force_jumps(self):
-        """(N-1) length of the change of force from each frame to the next [N]."""
-        return np.linalg.norm(np.diff(self.read("force"), axis=0), axis=1)
-
-    def search_parts(self):
-        """(searches with candidates) times [s], medians over the repetitions, of search alone and of search with the
-        first reduction, which counts 0 where there is none."""
-        busy = self.read("candidates") > 0
-        search = self.times("global_search_time")[:, busy]
-        both = search + zero_for_nan(self.times("first_reduction_time")[:, busy])
-        return nan_median(search, axis=0), nan_median(both, axis=0)
+    def number(self, name):
+        """A number of the program's summary; NaN where it was not measured."""
+        return self.result.summary_number(f"/methods/{self.label}/summary/{name}")
 
     def searches_every_frame(self):
         """Whether the method has no search of its own rate: its whole set is found anew in the local part."""
         return self.read("global_frame").size == 0
 
-    def time_per_frame(self):
-        """(R, N) processor time [s] per haptic frame, all-in: the local update and the frame's share of the global
-        searches. The paper's global thread is busy between two searches, so a search (with its first reduction and
-        second tracking) is spread evenly over the frames up to the next one."""
-        local = zero_for_nan(self.times("local_update_time"))
-        frames = self.read("global_frame").astype(int)
-        if frames.size == 0:
-            return local
-        search = (
-            zero_for_nan(self.times("global_search_time"))
-            + zero_for_nan(self.times("first_reduction_time"))
-            + zero_for_nan(self.times("second_tracking_time"))
-        )
-        ends = np.append(frames[1:], local.shape[1])
-        per_frame = local.copy()
-        for index, (start, end) in enumerate(zip(frames, ends)):
-            if end > start:
-                per_frame[:, start:end] += search[:, index : index + 1] / (end - start)
-        return per_frame
+    def has_first_reduction(self):
+        return bool(np.any(np.isfinite(self.times("first_reduction_time"))))
 
 
 class Result:
@@ -166,9 +142,19 @@ class Result:
     def repetitions(self):
         return max((method.read("local_update_time").shape[0] for method in self.methods.values()), default=0)
 
-    def contact_frames(self):
-        """(N) frames in which any method has an LMD: the same frames for all, and no time is that of an empty set."""
-        return np.any([method.read("lmd_count") > 0 for method in self.methods.values()], axis=0)
+    def summary_number(self, path):
+        return float(np.ravel(self.read(path))[0])
+
+    def number(self, name):
+        """A number of the program's summary that is no method's."""
+        return self.summary_number(f"/summary/{name}")
+
+    def in_contact(self):
+        """(N) whether the meshes are within the cutoff of each other, by frame."""
+        return self.read("/scene/in_contact").astype(bool)
+
+    def seconds_in_contact(self):
+        return self.number("frames_in_contact") / self.scene("frame_rate_hz")
 
     def scene(self, name):
         """A number of the scene: maximum_force_n, cutoff_m, ..."""
@@ -193,10 +179,6 @@ class Result:
         return {name: self.text_attribute("/provenance/machine", name) for name in self.h5["/provenance/machine"].attrs}
 
 
-def zero_for_nan(values):
-    return np.where(np.isnan(values), 0.0, values)
-
-
 def nan_median(values, axis=None):
     """Median of what was measured; NaN without a warning where nothing was."""
     values = np.asarray(values, dtype=float)
@@ -217,7 +199,7 @@ def median(values):
 
 
 class Truth:
-    """What a method's LMD sets and forces are worth, at the probed frames."""
+    """What a method's LMD sets and forces are worth at each probed frame: for figures over time."""
 
     def __init__(self, method):
         result = method.result
@@ -227,46 +209,15 @@ class Truth:
         if not np.array_equal(self.frames, self.reference_frames):
             raise ResultError(f"{result.file}: /methods/{method.label}/truth/frame and /reference/frame differ")
         self.true_count = result.read("/reference/lmd_count").astype(float)
-        self.count = method.read("lmd_count")[self.frames].astype(float)
         self.recall = method.read(group + "recall")
-        self.precision = method.read(group + "precision")
         self.recall_adjacent = method.read(group + "recall_adjacent")
-        self.precision_adjacent = method.read(group + "precision_adjacent")
         self.force_error = method.read(group + "force_error")
-        self.force_angle_error = method.read(group + "force_angle_error")
-        self.minimum_distance_error = method.read(group + "minimum_distance_error")
-        self.maximum_force = result.maximum_force()
 
-    def pooled(self, shares, counts):
-        """Share over all LMDs of all probed frames, so that a frame with one LMD does not weigh as much as one with
-        twenty; NaN when there were none."""
-        known = ~np.isnan(shares)
-        total = float(np.sum(counts[known]))
-        return float(np.sum(shares[known] * counts[known]) / total) if total > 0 else float("nan")
-
-    def pooled_recall(self):
-        return self.pooled(self.recall, self.true_count)
-
-    def pooled_precision(self):
-        return self.pooled(self.precision, self.count)
-
-    def pooled_recall_adjacent(self):
-        return self.pooled(self.recall_adjacent, self.true_count)
-
-    def pooled_precision_adjacent(self):
-        return self.pooled(self.precision_adjacent, self.count)
-
-    def in_contact(self):
-        """Probed frames in which truth or the method has an LMD: elsewhere every error is 0 and would only dilute."""
-        return (self.true_count > 0) | (self.count > 0)
-
-    def rms_force_error(self):
-        """Root mean square of the force error [N] over the probed frames in contact."""
-        errors = self.force_error[self.in_contact()]
-        return float(np.sqrt(np.mean(errors**2))) if errors.size else float("nan")
-
-    def relative_rms_force_error(self):
-        return self.rms_force_error() / self.maximum_force
+    def found_in(self, shares, chosen):
+        """Share of the true LMDs of the chosen probed frames that the method has; NaN when there are none."""
+        counts = self.true_count[chosen]
+        total = float(np.sum(counts))
+        return float(np.nansum(shares[chosen] * counts) / total) if total > 0 else float("nan")
 
 
 def truth_of(method):
@@ -281,24 +232,6 @@ def reference_force(result, law):
     if not result.has(f"/reference/force_{law}"):
         return np.empty(0, dtype=int), np.empty(0)
     return result.read("/reference/frame").astype(int), np.linalg.norm(result.read(f"/reference/force_{law}"), axis=1)
-
-
-def frame_seconds(result):
-    return float(np.median(np.diff(result.time))) if result.time.size > 1 else float("nan")
-
-
-def jumps_per_second(method, share):
-    """Changes of force from one frame to the next above a share of F_max, per second in contact; NaN without any."""
-    seconds = np.count_nonzero(method.result.contact_frames()) * frame_seconds(method.result)
-    jumps = np.count_nonzero(method.force_jumps() > share * method.result.maximum_force())
-    return jumps / seconds if seconds > 0 else float("nan")
-
-
-def true_jumps_per_second(result, law, share):
-    """The same of the true force, estimated from the probed frames."""
-    contact = result.read("/reference/lmd_count") > 0
-    jumps = result.read(f"/reference/force_jump_{law}")[contact] > share * result.maximum_force()
-    return float(np.mean(jumps)) / frame_seconds(result) if jumps.size else float("nan")
 
 
 def run_script(main):

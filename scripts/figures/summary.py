@@ -2,17 +2,15 @@
 # SPDX-FileCopyrightText: The lmdbench authors
 # SPDX-License-Identifier: BSD-3-Clause
 """What a run showed, in a table that needs no manual: for each experiment and method the time and, in the same row,
-what the time bought. Reads the result files alone."""
+what the time bought. Every number is read from the summary that the program wrote into the result file."""
 
 import argparse
 import os
 
 import numpy as np
 
-from lmdbench_results import (Result, jumps_per_second, median, quantile, run_script, true_jumps_per_second,
-                              truth_of)
+from lmdbench_results import Result, run_script, truth_of
 
-JUMP_SHARE = 0.25  # a change of force within one frame that a hand feels as a jerk, as a share of F_max
 NOT_MEASURED = "-"
 
 
@@ -24,36 +22,36 @@ def significant(value):
     return NOT_MEASURED if not np.isfinite(value) else f"{value:.3g}"
 
 
-def median_and_p99(samples):
+def median_and_p99(method, time):
     """'1.38 (2.10)' in milliseconds."""
-    return f"{significant(median(samples) * 1e3)} ({significant(quantile(samples, 0.99) * 1e3)})"
+    return f"{significant(method.number(time + '_median_s') * 1e3)} ({significant(method.number(time + '_p99_s') * 1e3)})"
 
 
-def percents(share, adjacent):
+def percents(method, name):
+    share, adjacent = method.number(name), method.number(name + "_adjacent")
     return NOT_MEASURED if not np.isfinite(share) else f"{100 * share:.1f} ({100 * adjacent:.1f})"
 
 
+def median_and_most(median, most):
+    return NOT_MEASURED if not np.isfinite(most) else f"{significant(median)} ({most:.0f})"
+
+
 def row(method):
-    truth = truth_of(method)
-    local = method.median_times("local_update_time")[method.result.contact_frames()]
     if method.searches_every_frame():
         search = total = "every frame"
     else:
-        search, total = (median_and_p99(samples) for samples in method.search_parts())
-        if not np.any(np.isfinite(method.times("first_reduction_time"))):
-            total = "none"
-    counts = method.read("lmd_count")
-    contact = counts[counts > 0]
+        search = median_and_p99(method, "global_search")
+        total = median_and_p99(method, "search_with_reduction") if method.has_first_reduction() else "none"
     return [
         method.label,
         search,
         total,
-        median_and_p99(local),
-        f"{significant(median(contact))} ({int(counts.max()) if counts.size else 0})",
-        percents(truth.pooled_recall(), truth.pooled_recall_adjacent()) if truth else NOT_MEASURED,
-        percents(truth.pooled_precision(), truth.pooled_precision_adjacent()) if truth else NOT_MEASURED,
-        f"{number(truth.rms_force_error())}" if truth else NOT_MEASURED,
-        number(jumps_per_second(method, JUMP_SHARE), 1),
+        median_and_p99(method, "local_update"),
+        median_and_most(method.number("lmd_count_median"), method.number("lmd_count_maximum")),
+        percents(method, "recall"),
+        percents(method, "precision"),
+        number(method.number("force_error_rms_n")),
+        number(method.number("jumps_per_second"), 1),
     ]
 
 
@@ -61,12 +59,10 @@ def truth_rows(result):
     """The truth that the methods are compared with, a row a force law in use."""
     if not result.has("/reference/frame"):
         return []
-    counts = result.read("/reference/lmd_count")
-    contact = counts[counts > 0]
-    lmds = f"{significant(median(contact))} ({int(counts.max()) if counts.size else 0})"
-    return [[f"truth, {law} law", *[NOT_MEASURED] * 3, lmds, *[NOT_MEASURED] * 3,
-             number(true_jumps_per_second(result, law, JUMP_SHARE), 1)]
-            for law in dict.fromkeys(method.force_law for method in result.methods.values())]
+    lmds = median_and_most(result.number("true_lmd_count_median"), result.number("true_lmd_count_maximum"))
+    jumps = {method.force_law: method.number("true_jumps_per_second") for method in result.methods.values()}
+    return [[f"truth, {law} law", *[NOT_MEASURED] * 3, lmds, *[NOT_MEASURED] * 3, number(value, 1)]
+            for law, value in jumps.items()]
 
 
 HEADINGS = ("method", "search [ms]", "+ reduction [ms]", "local update [ms]", "LMDs", "recall [%]", "precision [%]",
@@ -102,7 +98,8 @@ def crosscheck_line(result):
 def describe(result):
     truth = next((truth_of(method) for method in result.methods.values()), None)
     lines = [f"{result.name}: {result.experiment.get('title') or 'no title'}"]
-    lines.append(f"{result.time.size} frames, {result.repetitions() - result.warm_up_repetitions} timed repetitions; "
+    lines.append(f"{result.time.size} frames, {result.number('frames_in_contact'):.0f} in contact; "
+                 f"{result.repetitions() - result.warm_up_repetitions} timed repetitions; "
                  + (f"errors against exhaustive truth in {truth.frames.size} frames"
                     if truth else "NO TRUTH PROBE: the times stand without an error")
                  + f"; F_max {result.maximum_force():g} N a contact.")
@@ -112,13 +109,13 @@ def describe(result):
     return "\n".join(lines)
 
 
-LEGEND = f"""\
-Times: median (99th percentile) over the searches that find candidates and over the frames in contact, each the median
-of its timed repetitions. "+ reduction": search with the first reduction. In contact: any of the methods has an LMD.
-LMDs: median in contact (most). Recall, precision: share of the true LMDs that the method knows, of its LMDs that are
-true; the same features (in parentheses: or features that share a triangle with the true ones). Force error: root mean
-square against the true force under the same law, in contact. Jumps: changes of force above {JUMP_SHARE:.0%} of F_max within
-one frame, per second in contact."""
+LEGEND = """\
+The numbers are the program's own, defined in results/README.md. In contact: the meshes are within the cutoff of each other.
+Times: median (99th percentile) over the searches and frames in contact, each the median of its timed repetitions.
+"+ reduction": search with the first reduction. LMDs: median in contact (most). Recall, precision: share of the true LMDs
+that the method knows, of its LMDs that are true; the same features (in parentheses: neighbouring features count). Force
+error: root mean square against the true force under the same law, in contact. Jumps: changes of force above 25 % of F_max
+within one frame, per second in contact."""
 
 
 def main(argv):

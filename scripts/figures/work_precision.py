@@ -12,7 +12,7 @@ import argparse
 import numpy as np
 
 import figure_style as style
-from lmdbench_results import Result, ResultError, median, quantile, run_script, truth_of
+from lmdbench_results import Result, ResultError, run_script, truth_of
 
 import matplotlib.pyplot as plt
 from matplotlib.lines import Line2D
@@ -31,16 +31,14 @@ class Point:
     def __init__(self, result, method):
         self.method = method
         self.experiment = result.name
-        samples = np.median(method.time_per_frame()[:, result.contact_frames()], axis=0) * 1e3
-        self.median_ms = median(samples)
-        self.p99_ms = quantile(samples, 0.99)
-        truth = truth_of(method)
-        if truth is None:
+        self.median_ms = method.number("frame_time_median_s") * 1e3
+        self.p99_ms = method.number("frame_time_p99_s") * 1e3
+        if truth_of(method) is None:
             raise ResultError(f"{result.file}: no truth probe, so its times have no error to stand beside "
                               "(remedy: run with /probes/truth/stride_frames above 0)")
-        self.force_error = truth.relative_rms_force_error()
-        self.missed = 1.0 - truth.pooled_recall()
-        self.missed_adjacent = 1.0 - truth.pooled_recall_adjacent()
+        self.force_error = method.number("force_error_rms_n") / result.maximum_force()
+        self.missed = 1.0 - method.number("recall")
+        self.missed_adjacent = 1.0 - method.number("recall_adjacent")
         forces = method.read("force")
         self.failure = ""
         if not np.all(np.isfinite(forces)) or not np.isfinite(self.force_error):

@@ -4,6 +4,7 @@
 #include <lmdbench/experiment/run.h>
 #include <lmdbench/experiment/summary.h>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -14,7 +15,10 @@
 #include <filesystem>
 #include <fstream>
 #include <map>
+#include <set>
 #include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 namespace lmdbench {
@@ -47,7 +51,8 @@ std::map<std::string, std::vector<char>> deterministic_datasets(const std::files
       id, H5_INDEX_NAME, H5_ITER_INC,
       [](hid_t object, const char* name, const H5O_info_t* info, void* data) -> herr_t {
         const std::string path(name);
-        const bool is_time = path.size() > 5 && path.compare(path.size() - 5, 5, "_time") == 0;
+        const bool is_time =
+            path.ends_with("_time") || (path.find("/summary/") != std::string::npos && path.ends_with("_s"));
         if (info->type != H5O_TYPE_DATASET || is_time || path.rfind("provenance", 0) == 0) return 0;
         const hid_t dataset = H5Dopen2(object, name, H5P_DEFAULT);
         const hid_t type = H5Dget_type(dataset);
@@ -111,10 +116,12 @@ TEST(Run, ResultHasTheContractsShapes) {
   const ScratchDirectory scratch;
   run_to(scratch / "r.h5", shapes());
   const OpenResult result(scratch / "r.h5");
-  const std::size_t N = 320, R = 2, G = 16, T = 16;
+  const std::size_t N = 320, R = 2, G = 16, T = 15;
   using Shape = std::vector<std::size_t>;
   EXPECT_EQ(result.shape("/path/time"), (Shape{N}));
   EXPECT_EQ(result.shape("/path/orientation"), (Shape{N, 4}));
+  EXPECT_EQ(result.shape("/scene/in_contact"), (Shape{N}));
+  EXPECT_EQ(result.shape("/summary/frames_in_contact"), (Shape{1}));
   for (const std::string method : {"/methods/original", "/methods/improved"}) {
     EXPECT_EQ(result.shape(method + "/force"), (Shape{N, 3}));
     EXPECT_EQ(result.shape(method + "/torque"), (Shape{N, 3}));
@@ -132,6 +139,8 @@ TEST(Run, ResultHasTheContractsShapes) {
          {"frame", "recall", "precision", "recall_adjacent", "precision_adjacent", "minimum_distance_error",
           "force_error", "force_angle_error", "force_jump"})
       EXPECT_EQ(result.shape(method + "/truth/" + name), (Shape{T})) << name;
+    for (const SummaryNumber& number : summary_numbers())
+      EXPECT_EQ(result.shape(method + "/summary/" + std::string(number.name)), (Shape{1})) << number.name;
     EXPECT_EQ(result.shape(method + "/lmds/frame_offset"), (Shape{N + 1}));
     const auto offsets = result.integers(method + "/lmds/frame_offset");
     EXPECT_EQ(result.shape(method + "/lmds/point_moving"),
@@ -229,9 +238,9 @@ TEST(Run, StartInPenetrationGoesOnAndTheResultSaysSo) {
   run_to(scratch / "r.h5", shapes({"/path/file=" + (scratch / "path.tum").string(),
                                    "/driver/search_every_frames=5", "/driver/search_latency_frames=0"}));
   const OpenResult result(scratch / "r.h5");
-  EXPECT_EQ(result.integer_attribute("/scene", "starts_in_contact"), 1);
+  EXPECT_EQ(result.integer_attribute("/scene", "starts_touching"), 1);
   EXPECT_THAT(result.strings("/scene/warnings"), Contains(HasSubstr("touch in the first frame")));
-  EXPECT_GT(result.integer_attribute("/methods/improved", "frames_in_contact"), 0);
+  EXPECT_GT(result.doubles("/methods/improved/summary/frames_touching")[0], 0.0);
   for (const double force : result.doubles("/methods/improved/force")) EXPECT_TRUE(std::isfinite(force));
   for (const double force : result.doubles("/methods/original/force")) EXPECT_TRUE(std::isfinite(force));
 }
@@ -289,16 +298,53 @@ TEST(Summary, ShowsErrorsBesideTimes) {
   const Experiment experiment = shapes();
   const RunSummary summary = summarise(experiment, run_experiment(experiment));
   ASSERT_EQ(summary.methods.size(), 2u);
-  EXPECT_EQ(summary.probed_frames, 16);
+  EXPECT_EQ(summary.frames_probed, 15) << "from frame 20 on, where the first search arrives";
+  EXPECT_GT(summary.frames_in_contact, 20);
+  EXPECT_LT(summary.frames_in_contact, 320);
   const std::string text = summary_text(summary);
   EXPECT_LT(text.find("error  recall"), text.find("time   local update"));
+  EXPECT_THAT(text, HasSubstr("force error ")) << "a force alone would be taken for one";
+}
+
+/// What `run` prints, what `run --json` tells and what the result file carries is one number.
+TEST(Summary, IsTheSameInTheFileAndInJson) {
+  const ScratchDirectory scratch;
+  const Experiment experiment = shapes();
+  const RunSummary summary = summarise(experiment, run_to(scratch / "r.h5", experiment));
+  const OpenResult result(scratch / "r.h5");
   const auto json = nlohmann::json::parse(summary_json(summary));
-  for (const auto& method : json["methods"]) {
-    EXPECT_TRUE(method["time"]["local_update_median_s"].is_number());
-    EXPECT_TRUE(method["error"]["force_error_median_n"].is_number());
+  for (std::size_t i = 0; i < summary.methods.size(); ++i) {
+    const MethodSummary& method = summary.methods[i];
+    for (const SummaryNumber& number : summary_numbers()) {
+      const std::string name(number.name);
+      const double value = method.*number.value;
+      EXPECT_THAT(result.doubles("/methods/" + method.label + "/summary/" + name)[0],
+                  ::testing::NanSensitiveDoubleEq(value))
+          << name;
+      const auto& in_json = json["methods"][i][name];
+      if (std::isnan(value))
+        EXPECT_TRUE(in_json.is_null()) << name;
+      else
+        EXPECT_EQ(in_json.get<double>(), value) << name;
+    }
   }
-  EXPECT_TRUE(json["methods"][0]["time"]["first_reduction_median_s"].is_null()) << "the original has none";
+  EXPECT_TRUE(json["methods"][0]["first_reduction_median_s"].is_null()) << "the original has none";
+  EXPECT_TRUE(json["methods"][1]["first_reduction_median_s"].is_number());
+  EXPECT_EQ(json["frames_in_contact"].get<double>(), result.doubles("/summary/frames_in_contact")[0]);
   EXPECT_EQ(json["fcl"]["frames"], 7);
+  EXPECT_THAT(summary_text(summary),
+              HasSubstr(fmt::format("recall {:.3g} ({:.3g})", summary.methods[1].recall,
+                                    summary.methods[1].recall_adjacent)));
+}
+
+TEST(Summary, EachNumberIsNamedOnceWithItsUnit) {
+  std::set<std::string_view> names;
+  for (const SummaryNumber& number : summary_numbers()) {
+    EXPECT_TRUE(names.insert(number.name).second) << number.name;
+    EXPECT_FALSE(number.long_name.empty()) << number.name;
+    for (const auto& [ending, units] : {std::pair{"_n", "N"}, {"_s", "s"}, {"_m", "m"}, {"_rad", "rad"}})
+      EXPECT_EQ(number.name.ends_with(ending), number.units == units) << number.name;
+  }
 }
 
 }  // namespace

@@ -55,6 +55,8 @@ TEST(ProbedFrames, StopBeforeTheLastFrame) {
   EXPECT_THAT(probed_frames(7, 3), ElementsAre(0, 3)) << "frame 6 has no next frame";
   EXPECT_THAT(probed_frames(10, 0), IsEmpty());
   EXPECT_THAT(probed_frames(1, 1), IsEmpty());
+  EXPECT_THAT(probed_frames(10, 3, 3), ElementsAre(3, 6));
+  EXPECT_THAT(probed_frames(10, 3, 4), ElementsAre(6)) << "the same grid, whatever comes first";
 }
 
 TEST(TruthProbe, TrueForceFollowsTheLawAndItsJumpTheNextFrame) {

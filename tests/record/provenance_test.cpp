@@ -34,7 +34,7 @@ TEST(Provenance, IdentifiesTheRun) {
 
   const OpenResult result(directory / "a.h5");
   EXPECT_EQ(result.text_attribute("/", "format"), "lmdbench-result");
-  EXPECT_EQ(result.integer_attribute("/", "format_version"), 1);
+  EXPECT_EQ(result.integer_attribute("/", "format_version"), 2);
   EXPECT_THAT(result.text_attribute("/", "creator"), ContainsRegex("^lmdbench [0-9]+\\.[0-9]+\\.[0-9]+$"));
   std::tm created{};
   const std::string text = result.text_attribute("/", "created_utc");

@@ -33,6 +33,26 @@ TEST(NearestPair, EqualsBruteForce) {
   }
 }
 
+TEST(WithinDistance, IsWhetherTheNearestPairIs) {
+  std::mt19937_64 random(4);
+  const Scene scene = testing::make_scene(make_blob(0.05, 0.01, 2), make_torus(0.05, 0.02, 16, 8), 1.0);
+  const Body &moving = *scene.moving, &fixed = *scene.fixed[0];
+  for (int i = 0; i < 40; ++i) {
+    const Pose pose{0.2 * testing::uniform(random) * testing::random_direction(random),
+                    testing::random_rotation(random)};
+    const double nearest = nearest_pair(moving.surface(), moving.prepared<Hierarchy>(), fixed.surface(),
+                                        fixed.prepared<Hierarchy>(), pose)
+                               .distance;
+    const auto within = [&](double distance) {
+      return within_distance(moving.surface(), moving.prepared<Hierarchy>(), fixed.surface(),
+                             fixed.prepared<Hierarchy>(), pose, distance);
+    };
+    EXPECT_TRUE(within(nearest));
+    EXPECT_TRUE(within(1.5 * nearest + 1e-3));
+    if (nearest > 0.0) EXPECT_FALSE(within(nearest * (1.0 - 1e-12)));
+  }
+}
+
 TEST(NearestPair, FindsNothingBeyondTheBound) {
   const Scene scene = testing::make_scene(make_sphere(0.5, 2), make_sphere(0.5, 2), 1.0);
   const Body &moving = *scene.moving, &fixed = *scene.fixed[0];

@@ -29,7 +29,7 @@ def write_result(file, name="hard", frames=2000, repetitions=5, methods=("origin
     searches = np.arange(0, frames, search_every)
     with h5py.File(file, "w") as h5:
         h5.attrs["format"] = "lmdbench-result"
-        h5.attrs["format_version"] = 1
+        h5.attrs["format_version"] = 2
         h5.attrs["creator"] = "lmdbench 0.0.0"
         h5.attrs["created_utc"] = "2000-01-01T00:00:00Z"
         provenance = h5.create_group("provenance")
@@ -44,7 +44,9 @@ def write_result(file, name="hard", frames=2000, repetitions=5, methods=("origin
         dataset(provenance, "experiment", [json.dumps(experiment)], "1", "the experiment, JSON")
         provenance.create_group("machine").attrs["processor"] = "Synthetic"
         scene = h5.create_group("scene")
-        scene.attrs.update({"maximum_force_n": maximum_force, "cutoff_m": 0.001, "device_maximum_force_n": 10.0})
+        scene.attrs.update({"maximum_force_n": maximum_force, "cutoff_m": 0.001, "device_maximum_force_n": 10.0,
+                            "frame_rate_hz": 1000.0})
+        dataset(scene, "in_contact", (contacts > 0).astype("u1"), "1", "1 where in contact")
         for role in ("moving", "fixed_0"):
             scene.create_group(role).attrs["triangles"] = triangles
         dataset(scene, "warnings", ["synthetic data"], "1", "notes")
@@ -59,6 +61,11 @@ def write_result(file, name="hard", frames=2000, repetitions=5, methods=("origin
             write_method(group, label, frames, repetitions, searches, contacts, true_force, depth, random)
             if truth_stride:
                 write_truth(group, label, probed, contacts, true_force)
+            write_summary(group, label, bool(truth_stride))
+        overall = h5.create_group("summary")
+        for key, value in (("frames_in_contact", np.count_nonzero(contacts)), ("frames_probed", probed.size),
+                           ("true_lmd_count_median", 3.0), ("true_lmd_count_maximum", contacts.max(initial=0))):
+            dataset(overall, key, [float(value)], "1", key)
         if truth_stride:
             reference = h5.create_group("reference")
             dataset(reference, "frame", probed, "1", "probed frames")
@@ -111,6 +118,43 @@ def write_method(group, label, frames, repetitions, searches, contacts, true_for
     dataset(group, "second_tracking_time", 0.1 * reduction, "s", "time of each second tracking")
     dataset(group, "candidates", count[started] * (12 if label == "improved" else 1), "1", "candidates")
     dataset(group, "kept_after_reduction", count[started], "1", "kept")
+
+
+SUMMARY_UNITS = {"_m": "m", "_n": "N", "_rad": "rad", "_s": "s", "_per_second": "1/s"}
+# Known numbers of each method; of the improved one where it is not named.
+LOSSES = {"recall": 0.8, "recall_adjacent": 0.9, "precision": 0.7, "precision_adjacent": 0.95, "frames_wrong": 8.0,
+          "force_error_rms_n": 0.9, "force_error_maximum_n": 2.0, "jumps_per_second": 20.0}
+EXACT = {"recall": 1.0, "recall_adjacent": 1.0, "precision": 1.0, "precision_adjacent": 1.0, "frames_wrong": 0.0,
+         "force_error_rms_n": 0.0, "force_error_maximum_n": 0.0, "jumps_per_second": 0.0}
+COMMON = {"frames_touching": 0.0, "lmd_count_median": 2.0, "lmd_count_p99": 4.0, "lmd_count_maximum": 4.0,
+          "candidates_median": 24.0, "minimum_distance_error_maximum_m": 0.0, "force_error_median_n": 0.0,
+          "force_error_p99_n": 0.0, "force_angle_error_median_rad": 0.0, "force_jump_p99_n": 0.0,
+          "force_jump_maximum_n": 0.0, "true_force_jump_p99_n": 0.0, "true_force_jump_maximum_n": 0.0,
+          "true_jumps_per_second": 0.5}
+REDUCTION = {"reduction_ratio": 12.0, "reduction_ratio_maximum": 14.0}
+TIMES = {  # local update, search, search with reduction, frame
+    "original": (5e-6, 1e-3, 1e-3, 55e-6), "improved": (20e-6, 1.1e-3, 1.98e-3, 119e-6),
+    "certified": (50e-6, np.nan, np.nan, 50e-6), "exhaustive": (40e-3, np.nan, np.nan, 40e-3)}
+
+
+def write_summary(group, label, probed):
+    local, search, both, frame = TIMES[label]
+    numbers = COMMON | (LOSSES if label == "original" else EXACT)
+    if not probed:
+        numbers |= {name: np.nan for name in LOSSES if name != "jumps_per_second"} | {"true_jumps_per_second": np.nan}
+    if label == "improved":
+        numbers |= REDUCTION
+    else:
+        numbers |= {name: np.nan for name in REDUCTION}
+    for name, value in (("local_update", local), ("global_search", search), ("search_with_reduction", both),
+                        ("frame_time", frame)):
+        numbers |= {f"{name}_median_s": value, f"{name}_p99_s": 2.0 * value}
+    numbers |= {"local_update_maximum_s": 3.0 * local, "frame_time_maximum_s": 3.0 * frame,
+                "first_reduction_median_s": both - search, "second_tracking_median_s": 0.1 * (both - search)}
+    summary = group.create_group("summary")
+    for name, value in numbers.items():
+        ending = max((end for end in SUMMARY_UNITS if name.endswith(end)), key=len, default=None)
+        dataset(summary, name, [value], SUMMARY_UNITS.get(ending, "1"), name)
 
 
 def write_truth(group, label, probed, contacts, true_force):

@@ -74,30 +74,21 @@ class ReadingTest(ScriptsTest):
         with self.assertRaisesRegex(ResultError, "short.h5: /methods/original/local_update_time.*remedy"):
             Result(file).method("original").times("local_update_time")
 
-    def test_time_per_frame_loses_nothing(self):
-        method = Result(self.hard).method("improved")
-        parts = ("local_update_time", "global_search_time", "first_reduction_time", "second_tracking_time")
-        everything = sum(np.nansum(method.times(part), axis=1) for part in parts)
-        np.testing.assert_allclose(method.time_per_frame().sum(axis=1), everything, rtol=1e-12)
-
-    def test_a_search_is_spread_over_the_frames_until_the_next(self):
+    def test_numbers_come_from_the_summary(self):
+        """No script may compute under a name of the summary what the program has computed."""
         method = Result(self.hard).method("original")
-        extra = method.time_per_frame() - method.times("local_update_time")
-        search = method.times("global_search_time")
-        np.testing.assert_allclose(extra[:, 20:40], np.repeat(search[:, 1:2] / 20, 20, axis=1), rtol=1e-9)
+        self.assertEqual(method.number("recall"), 0.8)
+        self.assertEqual(Result(self.hard).number("frames_probed"), 40)
+        with self.assertRaisesRegex(ResultError, "summary/no_such_number: is missing"):
+            method.number("no_such_number")
 
-    def test_recall_is_pooled_over_lmds(self):
+    def test_known_lmds_of_a_stretch_are_pooled(self):
         truth = truth_of(Result(self.hard).method("original"))
-        counts = truth.true_count
-        found = counts[~misses(2000)[truth.frames]].sum()
-        self.assertAlmostEqual(truth.pooled_recall(), found / counts.sum())
-        self.assertNotAlmostEqual(truth.pooled_recall(), np.nanmean(truth.recall), places=3)
-
-    def test_force_error_counts_frames_in_contact_only(self):
-        truth = truth_of(Result(self.hard).method("original"))
-        contact = truth.true_count > 0
-        self.assertTrue(0 < contact.sum() < contact.size)
-        self.assertAlmostEqual(truth.rms_force_error(), np.sqrt(np.mean(truth.force_error[contact] ** 2)))
+        counts, chosen = truth.true_count, truth.frames < 1000
+        found = counts[chosen & ~misses(2000)[truth.frames]].sum()
+        self.assertAlmostEqual(truth.found_in(truth.recall, chosen), found / counts[chosen].sum())
+        self.assertNotAlmostEqual(truth.found_in(truth.recall, chosen), np.nanmean(truth.recall[chosen]), places=3)
+        self.assertTrue(np.isnan(truth.found_in(truth.recall, truth.frames < 0)))
 
     def test_no_truth_probe_is_no_truth(self):
         self.assertIsNone(truth_of(Result(self.bare).method("original")))
@@ -107,9 +98,9 @@ class ReadingTest(ScriptsTest):
             stream.write("text")
         with h5py.File(self.path("other.h5"), "w") as h5:
             h5["a"] = 1
-        newer = self.edited("newer.h5", lambda h5: h5.attrs.__setitem__("format_version", 2))
+        newer = self.edited("newer.h5", lambda h5: h5.attrs.__setitem__("format_version", 3))
         for name, message in (("gone.h5", "cannot be read"), ("text.h5", "cannot be read"), ("other.h5", "not a result"),
-                              ("newer.h5", "version 2")):
+                              ("newer.h5", "version 3")):
             with self.assertRaisesRegex(ResultError, f"{name}.*{message}.*remedy"):
                 Result(self.path(name))
         self.assertTrue(os.path.exists(newer))
@@ -148,6 +139,7 @@ class FormatTest(ScriptsTest):
         self.assertEqual(rows["local_update_time"], (2, "s"))
         self.assertEqual(rows["counters/node_pairs"], (1, "1"))
         self.assertEqual(rows["/reference/force_linear"], (2, "N"))
+        self.assertEqual(rows["summary/recall"], (1, "1"))
 
     def test_synthetic_results_have_the_described_format(self):
         for file in (self.hard, self.soft, self.bare):
@@ -232,6 +224,7 @@ class SummaryTest(ScriptsTest):
         self.assertEqual(len(rows), 5)
         for line in rows:
             self.assertRegex(line, r"\d+\.\d \(\d+\.\d\)")  # recall
+        self.assertRegex(rows[0], r"1 \(2\) +none +0\.005 \(0\.01\) +2 \(4\) +80\.0 \(90\.0\) +70\.0 \(95\.0\) +0\.90 +20\.0")
         self.assertIn("0 disagree, worst relative difference 2.0e-09", text)
         self.assertIn("hard.h5", text)
         self.assertIn("Note: synthetic data", text)
@@ -264,6 +257,7 @@ class ClaimsTest(ScriptsTest):
     def test_k1_turns_when_the_improved_method_jumps(self):
         def jump(h5):
             h5["/methods/improved/force"][...] = h5["/methods/original/force"][...]
+            h5["/methods/improved/summary/jumps_per_second"][...] = 20.0
 
         claim = self.verdicts(self.edited("jumping.h5", jump), self.soft)["K1"]
         self.assertEqual(claim.verdict, "differs because")
@@ -277,15 +271,15 @@ class ClaimsTest(ScriptsTest):
 
     def test_k2_turns_with_large_sets(self):
         def many(h5):
-            h5["/methods/original/lmd_count"][...] += 10
-            h5["/methods/improved/lmd_count"][...] += 10
+            for label in ("original", "improved"):
+                h5[f"/methods/{label}/summary/lmd_count_p99"][...] += 10
 
         self.assertEqual(self.verdicts(self.edited("many.h5", many), self.soft)["K2"].verdict, "not reproduced")
 
     def test_k5_sees_the_density(self):
         def denser(factor):
             def change(h5):
-                h5["/methods/improved/candidates"][...] = h5["/methods/improved/candidates"][...] * factor
+                h5["/methods/improved/summary/reduction_ratio"][...] *= factor
             return change
 
         more = Result(self.edited("more.h5", denser(2), triangles=75_408))
@@ -297,7 +291,7 @@ class ClaimsTest(ScriptsTest):
 
     def test_k9_needs_large_meshes_and_short_updates(self):
         def slow(h5):
-            h5["/methods/improved/local_update_time"][...] += 1e-3
+            h5["/methods/improved/summary/local_update_p99_s"][...] += 1e-3
 
         self.assertIn("above 1 kHz", self.verdicts(self.edited("slow.h5", slow), self.soft)["K9"].because)
         small = write_result(self.path("small.h5"), triangles=500)

@@ -104,7 +104,7 @@ PreparedRun prepare(const Experiment& experiment) {
                        .profile = profile,
                        .meshes = std::move(notes),
                        .files = {{"path", experiment.path_file}},
-                       .starts_in_contact = false,
+                       .starts_touching = false,
                        .warnings = {}};
   prepared.input.reference_M = bounding_box_centre(prepared.scene.moving->surface().mesh);
   for (const TimedPose& frame : frames) {
@@ -118,8 +118,8 @@ PreparedRun prepare(const Experiment& experiment) {
     for (const std::string& finding : findings(note.report))
       prepared.warnings.push_back(fmt::format("{} mesh {}: {}", note.role, note.name, finding));
   }
-  prepared.starts_in_contact = touches(prepared.scene, prepared.input.poses.front());
-  if (prepared.starts_in_contact)
+  prepared.starts_touching = touches(prepared.scene, prepared.input.poses.front());
+  if (prepared.starts_touching)
     prepared.warnings.push_back(
         "the meshes touch in the first frame: LMDs at distance 0 have no direction there and exert no force "
         "until they "

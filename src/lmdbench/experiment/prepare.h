@@ -32,7 +32,7 @@ struct PreparedRun {
   ForceProfile profile;       ///< Its law is each method's own.
   std::vector<MeshNote> meshes;
   std::vector<InputFile> files;       ///< For the provenance.
-  bool starts_in_contact = false;     ///< Triangles touch in the first frame.
+  bool starts_touching = false;       ///< Triangles touch in the first frame.
   std::vector<std::string> warnings;  ///< Flaws that the methods can live with, in plain words.
 };
 

@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/experiment/contact.h>
 #include <lmdbench/experiment/run.h>
 #include <lmdbench/experiment/write_result.h>
 #include <lmdbench/record/provenance.h>
@@ -51,13 +52,15 @@ RunResult run_experiment(const Experiment& experiment, const RunProgress& progre
     if (!progress) return {};
     return [&progress, name](std::int64_t done, std::int64_t total) { return progress(name, done, total); };
   };
-  RunResult result{make_plan(experiment), prepare(experiment), {}, {}, {}, std::nullopt, {}};
+  RunResult result{make_plan(experiment), prepare(experiment), {}, {}, {}, {}, std::nullopt, {}};
   PreparedRun& prepared = result.prepared;
+  result.in_contact = frames_in_contact(prepared.scene, prepared.input.poses);
   result.warnings = prepared.warnings;
   const auto frame_count = static_cast<std::int64_t>(prepared.input.poses.size());
   const std::vector<LockstepMethod> methods = lockstep_methods(experiment, prepared);
 
-  const std::vector<std::int64_t> truth_frames = probed_frames(frame_count, experiment.truth_stride_frames);
+  const std::vector<std::int64_t> truth_frames =
+      probed_frames(frame_count, experiment.truth_stride_frames, experiment.driver.search_latency_frames);
   if (result.plan.needs(Part::LMD_LISTS)) {
     prepared.input.keep_lmds = [](std::int64_t) { return true; };
   } else {

@@ -22,6 +22,7 @@ namespace lmdbench {
 struct RunResult {
   Plan plan;
   PreparedRun prepared;
+  std::vector<bool> in_contact;       ///< One a frame (contact.h).
   std::vector<MethodRecord> records;  ///< In the order of the experiment's methods, like the next but one.
   std::vector<TruthFrame> truth;      ///< Empty where the plan leaves the probe out.
   std::vector<std::vector<TruthComparison>> comparisons;  ///< One list a method, one entry a TruthFrame.

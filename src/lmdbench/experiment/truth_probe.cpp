@@ -19,10 +19,11 @@ double angle_between(const Vec3& a, const Vec3& b) {
 
 }  // namespace
 
-std::vector<std::int64_t> probed_frames(std::int64_t frame_count, std::int64_t stride) {
+std::vector<std::int64_t> probed_frames(std::int64_t frame_count, std::int64_t stride, std::int64_t first) {
   std::vector<std::int64_t> frames;
   if (stride <= 0) return frames;
-  for (std::int64_t frame = 0; frame + 1 < frame_count; frame += stride) frames.push_back(frame);
+  for (std::int64_t frame = 0; frame + 1 < frame_count; frame += stride)
+    if (frame >= first) frames.push_back(frame);
   return frames;
 }
 

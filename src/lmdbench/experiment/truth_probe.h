@@ -32,17 +32,20 @@ struct TruthFrame {
 
 /// One method against one TruthFrame. NaN where a quantity does not exist.
 struct TruthComparison {
-  Agreement same;        ///< Same features.
-  Agreement neighbours;  ///< Neighbouring features count.
+  Agreement same;                         ///< Same features.
+  Agreement neighbours;                   ///< Neighbouring features count.
   double minimum_distance_error = UNSET;  ///< Method's minus true [m]; NaN unless both see an LMD.
   double force_error = UNSET;             ///< Length of the difference [N].
   double force_angle_error = UNSET;       ///< Angle between the forces [rad]; NaN where one vanishes.
   double force_jump = UNSET;              ///< The method's own |force at the next frame - force| [N].
 };
 
-/// Frames that a probe with this stride looks at: 0, stride, ... as long as the next
-/// frame exists. Empty for stride 0.
-std::vector<std::int64_t> probed_frames(std::int64_t frame_count, std::int64_t stride);
+/// Frames that a probe with this stride looks at: the multiples of the stride from `first` on, as long as the
+/// next frame exists. Empty for stride 0.
+/// @param first  for truth, the first frame in which a search can have arrived: no method on the two-rate
+///               clock can know anything before
+std::vector<std::int64_t> probed_frames(std::int64_t frame_count, std::int64_t stride,
+                                        std::int64_t first = 0);
 
 /// Computes truth at the given frames.
 /// @param profile  the scene's; its law is ignored

@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/experiment/summary.h>
 #include <lmdbench/experiment/write_result.h>
 #include <lmdbench/lmd/work_counters.h>
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cstdint>
 #include <string>
 #include <type_traits>
@@ -182,10 +182,6 @@ void write_method(ResultWriter& writer, const Experiment& experiment, const RunR
                    std::string(choice.force_law == ForceLaw::LINEAR ? "linear" : "exponential"));
   writer.attribute(group, "options", choice.options_json);
   writer.attribute(group, "result_hash", fmt::format("{:016x}", record.result_hash));
-  writer.attribute(group, "frames_in_contact",
-                   static_cast<std::int64_t>(
-                       std::count_if(record.frames.begin(), record.frames.end(),
-                                     [](const FrameRecord& f) { return f.contact_without_direction > 0; })));
   write_frames(writer, group, record);
   write_searches(writer, group, record);
   if (!result.truth.empty()) write_truth(writer, group + "/truth", result.truth, result.comparisons[index]);
@@ -284,6 +280,9 @@ void write_result(ResultWriter& writer, const Experiment& experiment, const RunR
                {prepared.times.size()});
   write_poses(writer, "/path", prepared.input.poses);
   write_scene(writer, result);
+  const std::vector<std::uint8_t> in_contact(result.in_contact.begin(), result.in_contact.end());
+  writer.write({"/scene/in_contact", "1", "1 where the meshes are within the cutoff of each other"},
+               std::span<const std::uint8_t>(in_contact), {in_contact.size()});
   // With a single repetition nothing would be left after the warm-up, so it then counts, with a warning.
   writer.attribute("/methods", "warm_up_repetitions",
                    std::int64_t{experiment.driver.repetitions > 1 ? 1 : 0});
@@ -292,6 +291,7 @@ void write_result(ResultWriter& writer, const Experiment& experiment, const RunR
   for (std::size_t i = 0; i < experiment.methods.size(); ++i) write_method(writer, experiment, result, i);
   if (!result.truth.empty()) write_reference(writer, result.truth);
   if (result.fcl) write_fcl(writer, *result.fcl, experiment.fcl_tolerance_relative);
+  write_summary(writer, summarise(experiment, result));
 }
 
 }  // namespace lmdbench

@@ -29,7 +29,7 @@ void write_scene(ResultWriter& writer, const RunResult& result) {
     writer.attribute(group, "manifold", std::int64_t{mesh.report.manifold});
     writer.attribute(group, "validity", to_json(mesh.report).dump());
   }
-  writer.attribute("/scene", "starts_in_contact", std::int64_t{prepared.starts_in_contact});
+  writer.attribute("/scene", "starts_touching", std::int64_t{prepared.starts_touching});
   writer.write({"/scene/warnings", "1", "what a reader of this result must know"}, result.warnings);
 }
 

@@ -21,7 +21,7 @@ std::string version_text();
 
 inline constexpr const char* RESULT_FORMAT = "lmdbench-result";
 /// Major version: readers refuse an unknown one. It rises when a dataset changes its meaning or disappears.
-inline constexpr int RESULT_FORMAT_VERSION = 1;
+inline constexpr int RESULT_FORMAT_VERSION = 2;
 
 /// Writes root attributes (`format`, `format_version`, `creator`, `created_utc`) and the group /provenance of
 /// the result contract: program version, git commit, dirty flag, compiler and flags, processor, cores,

@@ -17,14 +17,13 @@ struct Candidate {
   std::int32_t index_b;
 };
 
-}  // namespace
-
-NearestPair nearest_pair(const Surface& moving, const Hierarchy& moving_hierarchy, const Surface& fixed,
-                         const Hierarchy& fixed_hierarchy, const Pose& X_WM, double upper_bound) {
-  NearestPair nearest;
-  if (moving_hierarchy.nodes.empty() || fixed_hierarchy.nodes.empty()) return nearest;
+/// Visits the triangle pairs whose spheres are within `best`, which the visitor may lower.
+/// @param visit  takes a NearestPair of one triangle pair; false ends the descent
+template <typename Visit>
+void descend(const Surface& moving, const Hierarchy& moving_hierarchy, const Surface& fixed,
+             const Hierarchy& fixed_hierarchy, const Pose& X_WM, const double& best, const Visit& visit) {
+  if (moving_hierarchy.nodes.empty() || fixed_hierarchy.nodes.empty()) return;
   const RigidTransform transform(X_WM);
-  double best = upper_bound;
 
   const auto candidate = [&](std::int32_t index_a, std::int32_t index_b) {
     const HierarchyNode& a = moving_hierarchy.nodes[static_cast<std::size_t>(index_a)];
@@ -45,11 +44,7 @@ NearestPair nearest_pair(const Surface& moving, const Hierarchy& moving_hierarch
     if (a.is_leaf() && b.is_leaf()) {
       const TrianglePairDistance distance = triangle_distance(
           transform.triangle(moving.mesh.triangle(a.triangle)), fixed.mesh.triangle(b.triangle));
-      const double length = std::sqrt(distance.squared_distance);
-      if (length < best || (length <= best && nearest.triangle_moving < 0)) {
-        best = length;
-        nearest = {length, a.triangle, b.triangle, distance};
-      }
+      if (!visit(NearestPair{std::sqrt(distance.squared_distance), a.triangle, b.triangle, distance})) return;
       continue;
     }
     if (!a.is_leaf() && (b.is_leaf() || a.radius >= b.radius)) {
@@ -61,7 +56,32 @@ NearestPair nearest_pair(const Surface& moving, const Hierarchy& moving_hierarch
     for (const Candidate& child : children)
       if (child.lower_bound <= best) stack.push_back(child);
   }
+}
+
+}  // namespace
+
+NearestPair nearest_pair(const Surface& moving, const Hierarchy& moving_hierarchy, const Surface& fixed,
+                         const Hierarchy& fixed_hierarchy, const Pose& X_WM, double upper_bound) {
+  NearestPair nearest;
+  double best = upper_bound;
+  descend(moving, moving_hierarchy, fixed, fixed_hierarchy, X_WM, best, [&](const NearestPair& pair) {
+    if (pair.distance < best || (pair.distance <= best && nearest.triangle_moving < 0)) {
+      best = pair.distance;
+      nearest = pair;
+    }
+    return true;
+  });
   return nearest;
+}
+
+bool within_distance(const Surface& moving, const Hierarchy& moving_hierarchy, const Surface& fixed,
+                     const Hierarchy& fixed_hierarchy, const Pose& X_WM, double distance) {
+  bool found = false;
+  descend(moving, moving_hierarchy, fixed, fixed_hierarchy, X_WM, distance, [&](const NearestPair& pair) {
+    found = pair.distance <= distance;
+    return !found;
+  });
+  return found;
 }
 
 }  // namespace lmdbench

@@ -26,4 +26,8 @@ NearestPair nearest_pair(const Surface& moving, const Hierarchy& moving_hierarch
                          const Hierarchy& fixed_hierarchy, const Pose& X_WM,
                          double upper_bound = std::numeric_limits<double>::infinity());
 
+/// Whether the meshes are within `distance` [m] of each other: stops at the first triangle pair that is.
+bool within_distance(const Surface& moving, const Hierarchy& moving_hierarchy, const Surface& fixed,
+                     const Hierarchy& fixed_hierarchy, const Pose& X_WM, double distance);
+
 }  // namespace lmdbench

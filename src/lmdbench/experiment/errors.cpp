@@ -1,0 +1,103 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/base/statistics.h>
+#include <lmdbench/experiment/errors.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+namespace lmdbench {
+namespace {
+
+constexpr double P99 = 0.99;
+
+double root_mean_square(std::vector<double> values) {
+  for (double& value : values) value *= value;
+  return std::sqrt(mean(values));
+}
+
+double ratio(std::int64_t candidates, std::int64_t kept) {
+  return kept > 0 ? static_cast<double>(candidates) / static_cast<double>(kept) : UNSET;
+}
+
+}  // namespace
+
+void summarise_counts(MethodSummary& summary, const MethodRecord& record, const RunFrames& frames) {
+  std::vector<double> counts, candidates, ratios;
+  std::int64_t touching = 0, most = 0;
+  for (std::size_t i = 0; i < record.frames.size(); ++i) {
+    const FrameRecord& frame = record.frames[i];
+    most = std::max(most, frame.lmd_count);
+    if (frame.contact_without_direction > 0) ++touching;
+    if (frames.in_contact[i]) counts.push_back(static_cast<double>(frame.lmd_count));
+  }
+  std::int64_t all_candidates = 0, all_kept = 0;
+  for (const SearchRecord& search : record.searches) {
+    all_candidates += search.candidates;
+    all_kept += search.kept_after_reduction;
+    ratios.push_back(ratio(search.candidates, search.kept_after_reduction));
+    if (frames.in_contact[static_cast<std::size_t>(search.frame)])
+      candidates.push_back(static_cast<double>(search.candidates));
+  }
+  summary.frames_touching = static_cast<double>(touching);
+  summary.lmd_count_median = median(counts);
+  summary.lmd_count_p99 = quantile(counts, P99);
+  summary.lmd_count_maximum = static_cast<double>(most);
+  summary.candidates_median = median(candidates);
+  summary.reduction_ratio = ratio(all_candidates, all_kept);
+  summary.reduction_ratio_maximum = maximum(ratios);
+}
+
+void summarise_jumps(MethodSummary& summary, const MethodRecord& record, const RunFrames& frames) {
+  std::size_t jumps = 0;
+  for (std::size_t i = 0; i + 1 < record.frames.size(); ++i)
+    if ((record.frames[i + 1].force - record.frames[i].force).norm() > JUMP_SHARE * frames.maximum_force)
+      ++jumps;
+  const auto in_contact = std::count(frames.in_contact.begin(), frames.in_contact.end(), true);
+  if (in_contact > 0)
+    summary.jumps_per_second =
+        static_cast<double>(jumps) * frames.frame_rate_hz / static_cast<double>(in_contact);
+}
+
+void summarise_errors(MethodSummary& summary, ForceLaw law, const std::vector<TruthFrame>& truth,
+                      const std::vector<TruthComparison>& comparisons, const RunFrames& frames) {
+  const auto index = static_cast<std::size_t>(law);
+  Agreement same, neighbours;
+  std::size_t wrong = 0, true_jumps = 0;
+  std::vector<double> distance, force, angle, jump, true_jump;
+  for (std::size_t i = 0; i < truth.size(); ++i) {
+    const TruthComparison& row = comparisons[i];
+    same += row.same;
+    neighbours += row.neighbours;
+    if (!row.same.exact()) ++wrong;
+    distance.push_back(std::abs(row.minimum_distance_error));
+    if (!frames.in_contact[static_cast<std::size_t>(truth[i].frame)]) continue;
+    jump.push_back(row.force_jump);
+    true_jump.push_back(truth[i].force_jump[index]);
+    if (truth[i].force_jump[index] > JUMP_SHARE * frames.maximum_force) ++true_jumps;
+    if (minimum_distance(truth[i].lmds) == 0.0) continue;
+    force.push_back(row.force_error);
+    angle.push_back(row.force_angle_error);
+  }
+  summary.recall = same.recall();
+  summary.precision = same.precision();
+  summary.recall_adjacent = neighbours.recall();
+  summary.precision_adjacent = neighbours.precision();
+  summary.frames_wrong = static_cast<double>(wrong);
+  summary.minimum_distance_error_maximum_m = maximum(distance);
+  summary.force_error_rms_n = root_mean_square(force);
+  summary.force_error_median_n = median(force);
+  summary.force_error_p99_n = quantile(force, P99);
+  summary.force_error_maximum_n = maximum(force);
+  summary.force_angle_error_median_rad = median(angle);
+  summary.force_jump_p99_n = quantile(jump, P99);
+  summary.force_jump_maximum_n = maximum(jump);
+  summary.true_force_jump_p99_n = quantile(true_jump, P99);
+  summary.true_force_jump_maximum_n = maximum(true_jump);
+  if (!true_jump.empty())
+    summary.true_jumps_per_second =
+        static_cast<double>(true_jumps) * frames.frame_rate_hz / static_cast<double>(true_jump.size());
+}
+
+}  // namespace lmdbench

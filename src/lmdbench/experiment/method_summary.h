@@ -1,0 +1,71 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <lmdbench/experiment/records.h>
+
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace lmdbench {
+
+/// One method's numbers of a run, NaN for what was not measured. They are computed once, here, and printed,
+/// written into the result file and read by scripts under the same names; results/README.md tells each
+/// definition, errors.h and times.h the details.
+struct MethodSummary {
+  std::string label;
+  std::string result_hash;
+
+  double frames_touching = UNSET;
+  double lmd_count_median = UNSET;
+  double lmd_count_p99 = UNSET;
+  double lmd_count_maximum = UNSET;
+  double candidates_median = UNSET;
+  double reduction_ratio = UNSET;
+  double reduction_ratio_maximum = UNSET;
+
+  double recall = UNSET;
+  double recall_adjacent = UNSET;
+  double precision = UNSET;
+  double precision_adjacent = UNSET;
+  double frames_wrong = UNSET;
+  double minimum_distance_error_maximum_m = UNSET;
+  double force_error_rms_n = UNSET;
+  double force_error_median_n = UNSET;
+  double force_error_p99_n = UNSET;
+  double force_error_maximum_n = UNSET;
+  double force_angle_error_median_rad = UNSET;
+  double force_jump_p99_n = UNSET;
+  double force_jump_maximum_n = UNSET;
+  double true_force_jump_p99_n = UNSET;
+  double true_force_jump_maximum_n = UNSET;
+  double jumps_per_second = UNSET;
+  double true_jumps_per_second = UNSET;
+
+  double local_update_median_s = UNSET;
+  double local_update_p99_s = UNSET;
+  double local_update_maximum_s = UNSET;
+  double global_search_median_s = UNSET;
+  double global_search_p99_s = UNSET;
+  double first_reduction_median_s = UNSET;
+  double second_tracking_median_s = UNSET;
+  double search_with_reduction_median_s = UNSET;
+  double search_with_reduction_p99_s = UNSET;
+  double frame_time_median_s = UNSET;
+  double frame_time_p99_s = UNSET;
+  double frame_time_maximum_s = UNSET;
+};
+
+/// A number of the summary with what a reader must know of it.
+struct SummaryNumber {
+  std::string_view name;   ///< Of the dataset and the JSON key; ends in its unit where it has one.
+  std::string_view units;  ///< SI symbol, "1" for counts and ratios.
+  std::string_view long_name;
+  double MethodSummary::*value;
+};
+
+/// All numbers, in the order of reports.
+std::span<const SummaryNumber> summary_numbers();
+
+}  // namespace lmdbench
