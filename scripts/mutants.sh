@@ -1,0 +1,125 @@
+#!/usr/bin/env bash
+# SPDX-FileCopyrightText: The lmdbench authors
+# SPDX-License-Identifier: BSD-3-Clause
+# Do the tests notice defects? Plants those of scripts/mutants.txt one by one in a worktree of its own, builds the test
+# program that must notice and runs it. Prints a table; exit code 1 when a defect survives, 2 when one does not fit the
+# code any more. Committed code alone is tried.
+#   --only NAME   this one; may be given again
+#   --keep        leave the worktree and its build (build/mutants) for the next run
+set -uo pipefail
+# shellcheck source=scripts/lib.sh
+source "$(dirname "${BASH_SOURCE[0]}")/lib.sh"
+
+LIST="$ROOT/scripts/mutants.txt"
+TREE="$ROOT/build/mutants/tree"
+TIMEOUT=120  # seconds of a test program; a defect that never ends is noticed as well
+only=()
+keep=false
+while (($# > 0)); do
+  case "$1" in
+    --only)
+      (($# > 1)) || die 2 "--only needs a name (remedy: grep '^name:' scripts/mutants.txt)"
+      only+=("$2")
+      shift
+      ;;
+    --keep) keep=true ;;
+    *) die 2 "unknown argument '$1' (remedy: ./scripts/mutants.sh [--only NAME]... [--keep])" ;;
+  esac
+  shift
+done
+
+# Objects of the unchanged code come from the cache although the worktree has another path.
+export CCACHE_BASEDIR="${CCACHE_BASEDIR:-$ROOT}" CCACHE_NOHASHDIR=1
+
+remove_tree() {
+  git -C "$ROOT" worktree remove --force "$TREE" 2>/dev/null
+  git -C "$ROOT" worktree prune
+}
+if [[ -e $TREE ]]; then
+  git -C "$TREE" checkout --quiet --force --detach "$(git -C "$ROOT" rev-parse HEAD)" ||
+    die "$EXIT_ENVIRONMENT" "$TREE cannot be brought to the commit (remedy: remove it, then git worktree prune)"
+else
+  git -C "$ROOT" worktree prune
+  git -C "$ROOT" worktree add --quiet --detach "$TREE" || die "$EXIT_ENVIRONMENT" "no worktree at $TREE"
+fi
+$keep || trap remove_tree EXIT
+
+# The fields of every mutant, a line each: name, file, from, to, test, only, equivalent; separated by the unit separator.
+mutants() {
+  awk -v RS= -F'\n' -v OFS='\037' '
+    { split("", field)
+      for (i = 1; i <= NF; ++i) {
+        if ($i ~ /^#/) continue
+        colon = index($i, ":"); field[substr($i, 1, colon - 1)] = substr($i, colon + 2)
+      }
+      if ("name" in field)
+        print field["name"], field["file"], field["from"], field["to"], field["test"], field["only"], field["equivalent"] }' "$LIST"
+}
+
+# plant FILE FROM TO: replaces the text, which must be there exactly once.
+plant() {
+  FROM="$2" TO="$3" perl -0777 -i -pe '
+    BEGIN { $from = $ENV{FROM}; $to = $ENV{TO}; }
+    my $count = () = /\Q$from\E/g;
+    if ($count != 1) { print STDERR "the text is there $count times\n"; $bad = 1; }
+    else { s/\Q$from\E/$to/; }
+    END { $? = 1 if $bad; }' "$TREE/$1"
+}
+build() {
+  cmake --build "$TREE/build/release" --parallel "$JOBS" --target "lmdbench_$1_tests" >"$TREE/build/log" 2>&1
+}
+run_tests() {  # PROGRAM FILTER
+  (cd "$TREE/build/release" &&
+    timeout "$TIMEOUT" "./lmdbench_$1_tests" --gtest_brief=1 --gtest_filter="${2:-*}" >"$TREE/build/log" 2>&1 </dev/null)
+}
+
+(cd "$TREE" && cmake --preset release -DLMDBENCH_BUILD_MICRO=OFF -DLMDBENCH_BUILD_ORACLE=OFF) >/dev/null ||
+  die "$EXIT_ENVIRONMENT" "the worktree cannot be configured (remedy: ./scripts/setup.sh)"
+
+declare -A sound=()
+killed=0 survived=0 equivalent=0 broken=0
+printf '| defect | place | noticed by | verdict |\n|---|---|---|---|\n'
+# shellcheck disable=SC2016  # a code span, no command
+report() { printf '| %s | `%s` | %s | %s |\n' "$1" "$2" "$3" "$4"; }
+while IFS=$'\037' read -r -u 3 name file from to program filter reason; do
+  if ((${#only[@]} > 0)) && [[ " ${only[*]} " != *" $name "* ]]; then continue; fi
+  if [[ -n $reason ]]; then
+    equivalent=$((equivalent + 1))
+    report "$name" "$file" "-" "equivalent: $reason"
+    continue
+  fi
+  # What fails without the defect proves nothing, and neither does a filter that selects no test.
+  if [[ -z ${sound[$program/$filter]:-} ]]; then
+    if build "$program" && run_tests "$program" "$filter" && grep -qE '\[  PASSED  \] [1-9]' "$TREE/build/log"; then
+      sound[$program/$filter]=yes
+    else
+      sound[$program/$filter]=no
+      tail -n 20 "$TREE/build/log" >&2
+    fi
+  fi
+  if [[ ${sound[$program/$filter]} == no ]]; then
+    broken=$((broken + 1))
+    report "$name" "$file" "$program ${filter}" "BROKEN: the tests do not pass without it"
+    continue
+  fi
+  if ! plant "$file" "$from" "$to"; then
+    broken=$((broken + 1))
+    report "$name" "$file" "-" "BROKEN: does not fit the code"
+  elif ! build "$program"; then
+    broken=$((broken + 1))
+    grep -m5 error "$TREE/build/log" >&2
+    report "$name" "$file" "compiler" "BROKEN: does not compile"
+  elif run_tests "$program" "$filter"; then
+    survived=$((survived + 1))
+    report "$name" "$file" "-" "SURVIVES in $program ${filter}"
+  else
+    killed=$((killed + 1))
+    first="$(grep -m1 -oE '^\[  FAILED  \] [A-Za-z0-9_./]+' "$TREE/build/log" | sed 's/.*\] //')"
+    report "$name" "$file" "${first:-$program, which did not end well}" "killed"
+  fi
+  git -C "$TREE" checkout --quiet --force -- "$file"
+done 3< <(mutants)
+printf '\n%d killed, %d survive, %d equivalent, %d broken\n' "$killed" "$survived" "$equivalent" "$broken"
+((killed + survived + equivalent + broken > 0)) || die 2 "no such defect (remedy: grep '^name:' scripts/mutants.txt)"
+((broken == 0)) || exit 2
+((survived == 0))
