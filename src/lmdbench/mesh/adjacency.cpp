@@ -1,9 +1,7 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/base/parallel.h>
 #include <lmdbench/mesh/adjacency.h>
-
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <numeric>
@@ -47,11 +45,9 @@ CsrRows triangles_of_vertices(const TriangleMesh& mesh) {
 /// only the few sides to sort that it is the smaller end of, and vertices can be treated apart.
 std::vector<SideIndex> first_sides(const TriangleMesh& mesh, const CsrRows& vertex_triangles) {
   std::vector<SideIndex> first(3 * mesh.triangles.size());
-  const auto vertex_count = static_cast<std::int32_t>(mesh.vertices.size());
-  const tbb::blocked_range<std::int32_t> all(0, vertex_count, GRAIN);
-  tbb::parallel_for(all, [&](const tbb::blocked_range<std::int32_t>& range) {
+  parallel_ranges(mesh.vertices.size(), GRAIN, [&](std::size_t begin, std::size_t end) {
     std::vector<std::uint64_t> sides;  // larger vertex, then the side
-    for (std::int32_t vertex = range.begin(); vertex < range.end(); ++vertex) {
+    for (auto vertex = static_cast<std::int32_t>(begin); vertex < static_cast<std::int32_t>(end); ++vertex) {
       sides.clear();
       for (const std::int32_t triangle : vertex_triangles[vertex]) {
         const auto& corners = mesh.triangles[static_cast<std::size_t>(triangle)];

@@ -1,11 +1,8 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/base/parallel.h>
 #include <lmdbench/mesh/surface.h>
 #include <lmdbench/mesh/triangle_normal.h>
-
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
-#include <tbb/parallel_invoke.h>
 
 #include <array>
 #include <cstddef>
@@ -16,13 +13,12 @@ namespace lmdbench {
 namespace {
 
 /// Items that one task takes at a time.
-constexpr std::int32_t GRAIN = 4096;
+constexpr std::size_t GRAIN = 4096;
 
 template <class Body>
 void for_each_index(std::size_t count, Body body) {
-  const tbb::blocked_range<std::int32_t> all(0, static_cast<std::int32_t>(count), GRAIN);
-  tbb::parallel_for(all, [&](const tbb::blocked_range<std::int32_t>& range) {
-    for (std::int32_t i = range.begin(); i < range.end(); ++i) body(static_cast<std::size_t>(i));
+  parallel_ranges(count, GRAIN, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) body(i);
   });
 }
 
@@ -151,7 +147,7 @@ Surface build_surface(TriangleMesh mesh) {
   Surface surface;
   surface.mesh = std::move(mesh);
   surface.adjacency = build_adjacency(surface.mesh);
-  tbb::parallel_invoke([&] { derive_normals(surface); }, [&] { derive_flags(surface); });
+  parallel_invoke([&] { derive_normals(surface); }, [&] { derive_flags(surface); });
   return surface;
 }
 

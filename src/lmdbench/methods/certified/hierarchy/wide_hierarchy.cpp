@@ -1,14 +1,12 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/base/parallel.h>
 #include <lmdbench/mesh/feature_corners.h>
 #include <lmdbench/methods/certified/hierarchy/single_precision.h>
 #include <lmdbench/methods/certified/hierarchy/wide_bounds.h>
 #include <lmdbench/methods/certified/hierarchy/wide_hierarchy.h>
 #include <lmdbench/methods/certified/hierarchy/wide_items.h>
 #include <lmdbench/methods/certified/hierarchy/wide_partition.h>
-
-#include <tbb/enumerable_thread_specific.h>
-#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <array>
@@ -119,7 +117,7 @@ class Builder {
 
     const std::size_t before = vertices.size();
     if (range.size() > PARALLEL_GRAIN) {
-      tbb::parallel_for(std::size_t{0}, lanes.size(), [&](std::size_t i) {
+      parallel_for(lanes.size(), [&](std::size_t i) {
         Lane& lane = lanes[i];
         lane.may_have_cone = build_child(first_node(i), lane.items, lane.own_list, scratch_.local());
         lane.vertices = lane.own_list;
@@ -299,7 +297,7 @@ class Builder {
   const WideBuildOptions& options_;
   const std::vector<WideItem>& items_;
   WideHierarchy& result_;
-  tbb::enumerable_thread_specific<Scratch> scratch_;
+  PerThread<Scratch> scratch_;
 };
 
 }  // namespace

@@ -1,10 +1,9 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/base/parallel.h>
 #include <lmdbench/geometry/cone.h>
 #include <lmdbench/mesh/feature_corners.h>
 #include <lmdbench/methods/certified/hierarchy/wide_items.h>
-
-#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <optional>
@@ -53,7 +52,7 @@ std::vector<WideItem> collect_wide_items(const Surface& surface, const WideBuild
     return {FeatureKind::FACE, static_cast<std::int32_t>(i - before_faces)};
   };
   std::vector<std::vector<WideItem>> blocks((features + BLOCK - 1) / BLOCK);
-  tbb::parallel_for(std::size_t{0}, blocks.size(), [&](std::size_t block) {
+  parallel_for(blocks.size(), [&](std::size_t block) {
     blocks[block].reserve(BLOCK);
     const std::size_t end = std::min(features, (block + 1) * BLOCK);
     for (std::size_t i = block * BLOCK; i < end; ++i)
@@ -63,7 +62,7 @@ std::vector<WideItem> collect_wide_items(const Surface& surface, const WideBuild
   std::vector<std::size_t> starts{0};
   for (const auto& block : blocks) starts.push_back(starts.back() + block.size());
   std::vector<WideItem> items(starts.back());
-  tbb::parallel_for(std::size_t{0}, blocks.size(), [&](std::size_t block) {
+  parallel_for(blocks.size(), [&](std::size_t block) {
     std::copy(blocks[block].begin(), blocks[block].end(),
               items.begin() + static_cast<std::ptrdiff_t>(starts[block]));
   });

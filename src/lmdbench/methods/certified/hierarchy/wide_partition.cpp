@@ -1,12 +1,10 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/base/parallel.h>
 #include <lmdbench/mesh/feature_corners.h>
 #include <lmdbench/methods/certified/hierarchy/wide_partition.h>
 
 #include <Eigen/Core>
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
-#include <tbb/parallel_invoke.h>
 
 #include <algorithm>
 #include <array>
@@ -81,7 +79,7 @@ class Partition {
     const auto left = [&] { bisect(places.first(middle), unit, left_units); };
     const auto right = [&] { bisect(places.subspan(middle), unit, units - left_units); };
     if (places.size() > PARALLEL_GRAIN) {
-      tbb::parallel_invoke(left, right);
+      parallel_invoke(left, right);
     } else {
       left();
       right();
@@ -205,16 +203,14 @@ std::size_t count_wide_nodes(std::size_t size, const WideBuildOptions& options) 
 
 void partition_wide_items(const Surface& surface, const WideBuildOptions& options, const Vec3& origin,
                           double radius, std::vector<WideItem>& items) {
-  const tbb::blocked_range<std::size_t> all(0, items.size(), PARALLEL_GRAIN);
   std::vector<Place> places(items.size());
-  tbb::parallel_for(all, [&](const auto& range) {
-    for (std::size_t i = range.begin(); i < range.end(); ++i)
-      places[i] = make_place(surface, origin, items[i], i);
+  parallel_ranges(items.size(), PARALLEL_GRAIN, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) places[i] = make_place(surface, origin, items[i], i);
   });
   Partition(options, items, radius, places).run();
   std::vector<WideItem> ordered(items.size());
-  tbb::parallel_for(all, [&](const auto& range) {
-    for (std::size_t i = range.begin(); i < range.end(); ++i) ordered[i] = items[places[i].item];
+  parallel_ranges(items.size(), PARALLEL_GRAIN, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) ordered[i] = items[places[i].item];
   });
   items.swap(ordered);
 }
