@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/base/error.h>
 #include <lmdbench/base/file_hash.h>
+#include <lmdbench/base/limits.h>
 #include <lmdbench/base/run_program.h>
 #include <lmdbench/catalogue/build_mesh.h>
 #include <lmdbench/catalogue/fetch_source.h>
@@ -102,7 +103,7 @@ TEST_F(BuildMeshTest, LeavesAMatchingFileAloneAndReplacesAnother) {
   const auto file = folder_.path() / "meshes" / "blob-400.off";
   fs::remove_all(sources());
   EXPECT_TRUE(build("blob-400").up_to_date) << "without its source";
-  folder_.write("meshes/blob-400.off", "damaged");
+  folder_.write("meshes/blob-400.off", "OFF\ndamaged");
   folder_.write("meshes/sources/blob.off", to_off_text(make_blob(1.0, 0.3, 3)));
   const BuildOutcome again = build("blob-400");
   EXPECT_FALSE(again.up_to_date);
@@ -189,6 +190,100 @@ TEST_F(BuildNpmMeshTest, TellsThatNpmIsMissing) {
   const std::string message = message_of<EnvironmentError>([&] { build("blob"); });
   ::setenv("PATH", path.c_str(), 1);
   EXPECT_THAT(message, AllOf(HasSubstr("npm"), HasSubstr("cannot be started"), HasSubstr("install npm")));
+}
+
+/// The package with another archive in it.
+class HostilePackageTest : public BuildMeshTest {
+ protected:
+  void SetUp() override {
+    BuildMeshTest::SetUp();
+    fs::create_directories(folder_.path() / "elsewhere");
+    folder_.write("elsewhere/blob.off", "mine");
+  }
+  /// Packs what stands in "stage" under the archive's name.
+  void pack() {
+    const fs::path archive = folder_.path() / "package" / "usr" / "share" / "data.tar.gz";
+    run({"tar", "-czf", archive.string(), "-C", "stage", "data"});
+    run({"dpkg-deb", "--build", "package", (sources() / "some-package_1.0_all.deb").string()});
+  }
+  void expect_untouched() {
+    EXPECT_EQ(sha256_of_file(folder_.path() / "elsewhere" / "blob.off"), sha256_of_text("mine"));
+    EXPECT_FALSE(fs::exists(folder_.path() / "meshes" / "blob.off"));
+    for (const auto& item : fs::directory_iterator(sources()))
+      EXPECT_TRUE(item.path().extension() == ".deb") << "left over: " << item.path();
+  }
+};
+
+TEST_F(HostilePackageTest, LinksInAnArchiveLeadNowhere) {
+  // The folder is a link to elsewhere; a member behind it follows.
+  const TriangleMesh other = make_box({1, 1, 1});
+  fs::remove_all(folder_.path() / "stage");
+  fs::create_directories(folder_.path() / "stage");
+  fs::create_symlink(folder_.path() / "elsewhere", folder_.path() / "stage" / "data");
+  const fs::path tar = folder_.path() / "package" / "usr" / "share" / "data.tar";
+  run({"tar", "-cf", tar.string(), "-C", "stage", "data"});
+  write_off(folder_.path() / "real" / "data" / "blob.off", other);
+  run({"tar", "-rf", tar.string(), "-C", "real", "data/blob.off"});
+  fs::rename(tar, tar.string() + ".gz");
+  run({"dpkg-deb", "--build", "package", (sources() / "some-package_1.0_all.deb").string()});
+  EXPECT_THAT(message_of<InputError>([&] { build("blob"); }), HasSubstr("SHA-256"));
+  expect_untouched();
+}
+
+TEST_F(HostilePackageTest, AMemberThatIsALinkGivesNothing) {
+  fs::remove(folder_.path() / "stage" / "data" / "blob.off");
+  fs::create_symlink(folder_.path() / "elsewhere" / "blob.off",
+                     folder_.path() / "stage" / "data" / "blob.off");
+  pack();
+  EXPECT_THAT(message_of<InputError>([&] { build("blob"); }), HasSubstr("SHA-256"));
+  expect_untouched();
+}
+
+TEST_F(HostilePackageTest, NamesThatLeadOutOrToAnotherComputerAreRefused) {
+  for (const std::string path :
+       {"../elsewhere/blob.off", "data/../../x.off", "data//blob.off", "./blob.off", "data/.."}) {
+    nlohmann::json document = nlohmann::json::parse(R"({
+      "format": "lmdbench-mesh-manifest", "format_version": 1, "meshes": {},
+      "sources": {"s": {"package": "some-package", "archive": "a.tar", "path": "p", "licence": "l", "credit": "c"}}})");
+    document["sources"]["s"]["sha256"] = source_hash_;
+    for (const char* key : {"path", "archive"}) {
+      nlohmann::json changed = document;
+      changed["sources"]["s"][key] = path;
+      changed["meshes"]["blob"] = {{"description", "d"}, {"source", "s"}, {"triangles", 1}};
+      const std::string file = folder_.write("hostile.json", changed.dump());
+      EXPECT_THAT(message_of<InputError>([&] { load_manifest(file); }),
+                  HasSubstr(std::string("/sources/s/") + key))
+          << path;
+    }
+  }
+  // A colon is a name like any other: tar must look for no computer of that name.
+  nlohmann::json document = nlohmann::json::parse(R"({
+    "format": "lmdbench-mesh-manifest", "format_version": 1,
+    "meshes": {"blob": {"description": "d", "source": "s", "triangles": 1280}},
+    "sources": {"s": {"package": "some-package", "archive": "user@host:f", "path": "data/blob.off", "licence": "l",
+                      "credit": "c"}}})");
+  document["sources"]["s"]["sha256"] = source_hash_;
+  manifest_ = load_manifest(folder_.write("meshes/manifest.json", document.dump()));
+  EXPECT_THAT(message_of<EnvironmentError>([&] { build("blob"); }), HasSubstr("Not found in archive"));
+}
+
+TEST_F(HostilePackageTest, ALinkedFolderOfSourcesIsRefused) {
+  fs::remove_all(sources());
+  fs::create_directory_symlink(folder_.path() / "elsewhere", sources());
+  EXPECT_THAT(message_of<InputError>([&] { build("blob"); }), HasSubstr("symbolic link"));
+}
+
+TEST_F(HostilePackageTest, ABombIsCutOff) {
+  set_limit("file-bytes=50000");
+  const std::string message = message_of<InputError>([&] { build("blob"); });
+  set_limit("file-bytes=4294967296");
+  EXPECT_THAT(message, HasSubstr("gives more than 50000 bytes"));
+}
+
+TEST_F(HostilePackageTest, ABuiltMeshReplacesNoForeignFile) {
+  folder_.write("meshes/block.off", "my notes");
+  EXPECT_THAT(message_of<UsageError>([&] { build("block"); }), HasSubstr("no built mesh of lmdbench"));
+  EXPECT_EQ(sha256_of_file(folder_.path() / "meshes" / "block.off"), sha256_of_text("my notes"));
 }
 
 TEST_F(BuildMeshTest, ShapesNeedNoSource) {

@@ -187,7 +187,7 @@ INSTANTIATE_TEST_SUITE_P(
         BrokenFile{"obj_index", "a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 9\n", "index"},
         BrokenFile{"ply_index", "a.ply", PLY_HEADER + "0 0 0\n1 0 0\n0 1 0\n3 0 1 5\n", "names vertex 5"},
         BrokenFile{"ply_nan", "a.ply", PLY_HEADER + "0 0 0\n1 nan 0\n0 1 0\n3 0 1 2\n", "vertex 1"},
-        BrokenFile{"coff_cut_short", "a.off", "COFF\n3 4 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n", "number"},
+        BrokenFile{"coff_cut_short", "a.off", "COFF\n3 4 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n", "1 of 4 faces"},
         BrokenFile{"off_index", "a.OFF", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 7\n", "line 6"}),
     [](const auto& parameter) { return parameter.param.name; });
 

@@ -8,9 +8,13 @@
 #include "support/scratch_directory.h"
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 
 #include <cmath>
+#include <csignal>
+#include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <limits>
 #include <random>
 #include <string>
@@ -37,13 +41,12 @@ TEST(OffFileTest, ReadsBackTheSameBits) {
   const auto file = folder.path() / "mesh.off";
   write_off(file, mesh);
   const auto read = read_off(file);
-  ASSERT_TRUE(read);
-  EXPECT_EQ(read->triangles, mesh.triangles);
-  ASSERT_EQ(read->vertices.size(), mesh.vertices.size());
+  EXPECT_EQ(read.triangles, mesh.triangles);
+  ASSERT_EQ(read.vertices.size(), mesh.vertices.size());
   for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
     for (int axis = 0; axis < 3; ++axis) {
-      EXPECT_EQ(read->vertices[i][axis], mesh.vertices[i][axis]);
-      EXPECT_EQ(std::signbit(read->vertices[i][axis]), std::signbit(mesh.vertices[i][axis]));
+      EXPECT_EQ(read.vertices[i][axis], mesh.vertices[i][axis]);
+      EXPECT_EQ(std::signbit(read.vertices[i][axis]), std::signbit(mesh.vertices[i][axis]));
     }
   }
 }
@@ -55,23 +58,29 @@ TEST(OffFileTest, ReadsCommentsBlankLinesColoursPolygonsAndWindowsLineEnds) {
                    "# made by hand\r\nOFF # keyword\r\n\r\n4 3 0\r\n0 0 0 255 0 0\r\n+1 0 0\r\n"
                    "1e0 1. 0\r\n\t0  1 0 \r\n# faces\r\n4 0 1 2 3 0.5 0.5 0.5\r\n2 0 1\r\n3 0 2 1");
   const auto mesh = read_off(file);
-  ASSERT_TRUE(mesh);
-  EXPECT_EQ(mesh->vertices.size(), 4u);
+  EXPECT_EQ(mesh.vertices.size(), 4u);
   using Corners = std::array<std::int32_t, 3>;
-  EXPECT_THAT(mesh->triangles, ::testing::ElementsAre(Corners{0, 1, 2}, Corners{0, 2, 3}, Corners{0, 2, 1}));
+  EXPECT_THAT(mesh.triangles, ::testing::ElementsAre(Corners{0, 1, 2}, Corners{0, 2, 3}, Corners{0, 2, 1}));
 }
 
 TEST(OffFileTest, ReadsCountsOnTheKeywordsLine) {
   const ScratchDirectory folder;
   const auto mesh = read_off(folder.write("mesh.off", "OFF 3 1 3\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n"));
-  ASSERT_TRUE(mesh);
-  EXPECT_EQ(mesh->triangles.size(), 1u);
+  EXPECT_EQ(mesh.triangles.size(), 1u);
 }
 
-TEST(OffFileTest, LeavesOtherVariantsToAssimp) {
+TEST(OffFileTest, ReadsVariantsThatHaveMoreColumnsAndNoOthers) {
   const ScratchDirectory folder;
-  EXPECT_FALSE(read_off(folder.write("a.off", "COFF\n3 1 0\n")));
-  EXPECT_FALSE(read_off(folder.write("b.off", "OFF BINARY\n\1\2\3")));
+  for (const std::string keyword : {"COFF", "NOFF", "CNOFF", "STOFF"}) {
+    const auto mesh = read_off(
+        folder.write("a.off", keyword + "\n3 1 0\n0 0 0 9 9 9\n1 0 0 9 9 9\n0 1 0 9 9 9\n3 0 1 2\n"));
+    EXPECT_EQ(mesh.vertices[1], Vec3(1, 0, 0)) << keyword;
+    EXPECT_EQ(mesh.triangles.size(), 1u) << keyword;
+  }
+  EXPECT_THAT(message_of<InputError>([&] { read_off(folder.write("b.off", "OFF BINARY\n\1\2\3")); }),
+              HasSubstr("binary"));
+  EXPECT_THAT(message_of<InputError>([&] { read_off(folder.write("c.off", "4OFF\n3 1 0\n")); }),
+              HasSubstr("'4OFF'"));
 }
 
 struct BrokenFile {
@@ -114,8 +123,16 @@ INSTANTIATE_TEST_SUITE_P(
 TEST(OffFileTest, WritesAllOrNothing) {
   const ScratchDirectory folder;
   const std::filesystem::path file = folder.write("mesh.off", "old");
-  std::filesystem::create_directory(folder.path() / "mesh.off.part");  // the new content has nowhere to go
+  // The new content does not fit, as on a full disk.
+  const auto previous_handler = std::signal(SIGXFSZ, SIG_IGN);
+  rlimit previous{};
+  getrlimit(RLIMIT_FSIZE, &previous);
+  const rlimit small{100, previous.rlim_max};
+  setrlimit(RLIMIT_FSIZE, &small);
   EXPECT_THROW(write_off(file, make_box({1, 1, 1})), EnvironmentError);
+  setrlimit(RLIMIT_FSIZE, &previous);
+  std::signal(SIGXFSZ, previous_handler);
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path()), {}), 1) << "no part is left";
   std::ifstream stream(file);
   std::string content;
   stream >> content;

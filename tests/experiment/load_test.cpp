@@ -123,8 +123,8 @@ TEST(LoadExperiment, RefusesMalformedOverrides) {
   EXPECT_THAT(message({"/driver/repetitions"}), HasSubstr("not of the form"));
   EXPECT_THAT(message({""}), HasSubstr("not of the form"));
   EXPECT_THAT(message({"/name/deeper=1"}), HasSubstr("does not lead to a value"));
-  EXPECT_THAT(message({"/methods/x/label=1"}), HasSubstr("does not lead to a value"));
-  EXPECT_THAT(message({"/methods/5={}"}), HasSubstr("has only 2 entries"));
+  EXPECT_THAT(message({"/methods/x/label=1"}), HasSubstr("has no entry \"x\""));
+  EXPECT_THAT(message({"/methods/5={}"}), HasSubstr("a list of 2 entries has no entry \"5\""));
   EXPECT_THAT(message({"/driver~2=1"}), HasSubstr("does not lead to a value"));
 }
 

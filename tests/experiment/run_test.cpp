@@ -286,7 +286,8 @@ TEST(Prepare, RefusesWhatCannotBeUsed) {
     }
     return "no error";
   };
-  EXPECT_THAT(message({"/path/file=" + (scratch / "long.tum").string()}), HasSubstr("lasts 1e+12 s"));
+  EXPECT_THAT(message({"/path/file=" + (scratch / "long.tum").string(), "/frames=20000000"}),
+              HasSubstr("lasts 1e+12 s"));
   EXPECT_THAT(message({"/moving/mesh=no-such-mesh"}), HasSubstr("3 "));
   EXPECT_THAT(message({"/moving/mesh=./no/such.off"}), HasSubstr("3 "));
   EXPECT_THAT(message({"/device=phantom-desk"}), HasSubstr("2 "));

@@ -150,7 +150,7 @@ TEST(ReadTum, MissingFileIsNamed) {
     read_tum(std::filesystem::path("no/such/path.tum"));
     FAIL() << "a missing file was read";
   } catch (const InputError& error) {
-    EXPECT_THAT(error.what(), HasSubstr("no/such/path.tum: cannot be opened"));
+    EXPECT_THAT(error.what(), HasSubstr("no/such/path.tum: cannot read the path"));
   }
 }
 

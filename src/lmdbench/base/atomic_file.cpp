@@ -2,32 +2,68 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/base/atomic_file.h>
 #include <lmdbench/base/error.h>
+#include <lmdbench/base/file_descriptor.h>
 
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <unistd.h>
 
 #include <cerrno>
-#include <cstring>
+#include <system_error>
 
 namespace lmdbench {
 
 namespace {
 
 [[noreturn]] void fail(const std::filesystem::path& file, const char* action, int error) {
-  throw EnvironmentError(file.string(), "", fmt::format("cannot be {}: {}", action, std::strerror(error)),
+  throw EnvironmentError(file.string(), "",
+                         fmt::format("cannot be {}: {}", action, std::generic_category().message(error)),
                          "check the disk space and the permissions of the folder");
 }
 
-void write_all(int descriptor, std::string_view content, const std::filesystem::path& file) {
-  while (!content.empty()) {
-    const ssize_t written = ::write(descriptor, content.data(), content.size());
-    if (written < 0 && errno == EINTR) continue;
-    if (written < 0) fail(file, "written", errno);
-    content.remove_prefix(static_cast<std::size_t>(written));
+/// A file that was not there before; removed at the end of the scope unless it was renamed.
+class FreshFile {
+ public:
+  explicit FreshFile(const std::filesystem::path& beside) {
+    constexpr int MOST_TRIES =
+        1000;  // that many parts of killed processes with our number: something is wrong
+    for (int i = 0; i < MOST_TRIES && !descriptor_.valid(); ++i) {
+      name_ = beside.parent_path() / fmt::format(".{}.{}-{}.part", beside.filename().string(), ::getpid(), i);
+      descriptor_ =
+          FileDescriptor(::open(name_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666));
+      if (!descriptor_.valid() && errno != EEXIST) break;
+    }
+    if (!descriptor_.valid()) fail(name_, "opened for writing", errno);
   }
-  if (::fsync(descriptor) != 0) fail(file, "flushed to disk", errno);
-}
+  ~FreshFile() {
+    if (!renamed_) ::unlink(name_.c_str());
+  }
+  FreshFile(const FreshFile&) = delete;
+  FreshFile& operator=(const FreshFile&) = delete;
+
+  void write(std::string_view content) {
+    while (!content.empty()) {
+      const ssize_t written = ::write(descriptor_.get(), content.data(), content.size());
+      if (written < 0 && errno == EINTR) continue;
+      if (written < 0) fail(name_, "written", errno);
+      content.remove_prefix(static_cast<std::size_t>(written));
+    }
+    if (::fsync(descriptor_.get()) != 0) fail(name_, "flushed to disk", errno);
+    if (!descriptor_.close()) fail(name_, "written", errno);
+  }
+
+  void rename_to(const std::filesystem::path& file) {
+    std::error_code error;
+    std::filesystem::rename(name_, file, error);
+    if (error) fail(file, "replaced", error.value());
+    renamed_ = true;
+  }
+
+ private:
+  std::filesystem::path name_;
+  FileDescriptor descriptor_;
+  bool renamed_ = false;
+};
 
 }  // namespace
 
@@ -35,20 +71,9 @@ void write_file_atomically(const std::filesystem::path& file, std::string_view c
   std::error_code error;
   if (file.has_parent_path()) std::filesystem::create_directories(file.parent_path(), error);
   if (error) fail(file.parent_path(), "made", error.value());
-  std::filesystem::path part = file;
-  part += ".part";
-  const int descriptor = ::open(part.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
-  if (descriptor < 0) fail(part, "opened for writing", errno);
-  try {
-    write_all(descriptor, content, part);
-  } catch (...) {
-    ::close(descriptor);
-    ::unlink(part.c_str());
-    throw;
-  }
-  if (::close(descriptor) != 0) fail(part, "written", errno);
-  std::filesystem::rename(part, file, error);
-  if (error) fail(file, "replaced", error.value());
+  FreshFile part(file);
+  part.write(content);
+  part.rename_to(file);
 }
 
 }  // namespace lmdbench

@@ -19,7 +19,8 @@ enum class ExitCode : int {
   INTERNAL = 70      ///< A bug of ours.
 };
 
-/// What every message names: the file, the place in it, what is wrong there and what to do about it.
+/// What every message names: the file, the place in it, what is wrong there and what to do about it. Parts may
+/// hold content of hostile files: they are made `printable`, and long ones are cut so that the remedy is read.
 class Error : public std::runtime_error {
  public:
   /// @param code    exit code of the program when nobody handles the error
@@ -29,12 +30,13 @@ class Error : public std::runtime_error {
   /// @param remedy  what the user can do
   Error(ExitCode code, const std::string& file, const std::string& place, const std::string& problem,
         const std::string& remedy)
-      : std::runtime_error((file.empty() ? "" : file + ": ") + (place.empty() ? "" : place + ": ") + problem +
-                           (remedy.empty() ? "" : " (remedy: " + remedy + ")")),
-        code_(code) {}
+      : std::runtime_error(message(file, place, problem, remedy)), code_(code) {}
   ExitCode code() const { return code_; }
 
  private:
+  static std::string message(const std::string& file, const std::string& place, const std::string& problem,
+                             const std::string& remedy);
+
   ExitCode code_;
 };
 

@@ -2,14 +2,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/base/error.h>
 #include <lmdbench/base/file_hash.h>
+#include <lmdbench/base/input_file.h>
 
 #include <fmt/format.h>
 #include <openssl/evp.h>
 
 #include <array>
-#include <cerrno>
-#include <cstring>
-#include <fstream>
 #include <memory>
 
 namespace lmdbench {
@@ -41,20 +39,7 @@ class Sha256 {
 }  // namespace
 
 std::string sha256_of_file(const std::filesystem::path& file) {
-  std::error_code status_error;
-  if (std::filesystem::is_directory(file, status_error))
-    throw InputError(file.string(), "", "is a directory, not a file", "name a file");
-  std::ifstream stream(file, std::ios::binary);
-  if (!stream)
-    throw InputError(file.string(), "", fmt::format("cannot be opened: {}", std::strerror(errno)),
-                     "check the name and the permissions");
-  Sha256 hash;
-  std::array<char, 1 << 16> block;
-  while (stream.read(block.data(), block.size()), stream.gcount() > 0)
-    hash.add({block.data(), static_cast<std::size_t>(stream.gcount())});
-  if (stream.bad())
-    throw InputError(file.string(), "", "cannot be read to its end", "check the disk and the permissions");
-  return hash.hexadecimal();
+  return read_input_file(file, {.what = "file"}).sha256;
 }
 
 std::string sha256_of_text(std::string_view text) {

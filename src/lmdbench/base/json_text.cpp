@@ -2,10 +2,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/base/error.h>
 #include <lmdbench/base/json_text.h>
+#include <lmdbench/base/limits.h>
+#include <lmdbench/base/printable_text.h>
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
+#include <functional>
+#include <optional>
 #include <set>
 
 namespace lmdbench {
@@ -19,58 +24,131 @@ std::string line_and_column(const std::string& text, std::size_t byte) {
   return fmt::format("line {}, column {}", line + 1, end - line_begin + 1);
 }
 
+[[noreturn]] void refuse_above(const std::string& file, const std::string& place, Limit limit,
+                               const std::string& what) {
+  throw UsageError(file, place, fmt::format("{}, above the limit of {}", what, limit_of(limit)),
+                   "shorten it, or " + raise_remedy(limit));
+}
+
+/// Watches a parser at work: repeated keys, depth, length of texts. Throws for the last two, so that hostile
+/// text is not read to its end.
+class ParseWatch {
+ public:
+  ParseWatch(std::string file, std::string place) : file_(std::move(file)), place_(std::move(place)) {}
+
+  bool operator()(int depth, nlohmann::json::parse_event_t event, nlohmann::json& parsed) {
+    using Event = nlohmann::json::parse_event_t;
+    const bool opens = event == Event::object_start || event == Event::array_start;
+    if (opens && depth >= limit_of(Limit::JSON_DEPTH))
+      refuse_above(file_, place_, Limit::JSON_DEPTH, "arrays or objects stand too deep inside each other");
+    if ((event == Event::key || event == Event::value) && parsed.is_string()) {
+      const auto length = static_cast<std::int64_t>(parsed.get_ref<const std::string&>().size());
+      if (length > limit_of(Limit::JSON_TEXT))
+        refuse_above(file_, place_, Limit::JSON_TEXT, fmt::format("a text of {} bytes", length));
+    }
+    if (event == Event::object_start) keys_of_open_objects_.emplace_back();
+    if (event == Event::object_end) keys_of_open_objects_.pop_back();
+    if (event == Event::key && !keys_of_open_objects_.back().insert(parsed.get<std::string>()).second &&
+        repeated_key_.empty())
+      repeated_key_ = parsed.get<std::string>();
+    return true;
+  }
+  const std::string& repeated_key() const { return repeated_key_; }
+
+ private:
+  std::string file_, place_;
+  std::vector<std::set<std::string>> keys_of_open_objects_;
+  std::string repeated_key_;
+};
+
+/// Nothing for a value that is no JSON.
+std::optional<nlohmann::json> parse_value(const std::string& text, const std::string& place) {
+  ParseWatch watch("", place);
+  try {
+    nlohmann::json value = nlohmann::json::parse(text, std::ref(watch), false);
+    if (value.is_discarded()) return std::nullopt;
+    return value;
+  } catch (const nlohmann::json::out_of_range&) {
+    return std::nullopt;  // a number such as 1e999: the schema will say what is wanted
+  }
+}
+
+/// "~1" and "~0" of a pointer's step; the step is known to be well-formed.
+std::vector<std::string> steps_of(const std::string& pointer_text) {
+  nlohmann::json::json_pointer pointer(pointer_text);
+  std::vector<std::string> steps;
+  for (; !pointer.empty(); pointer.pop_back()) steps.push_back(pointer.back());
+  std::reverse(steps.begin(), steps.end());
+  return steps;
+}
+
+/// The member of an array or object that a step names, made where it may be.
+nlohmann::json& follow_step(nlohmann::json& parent, const std::string& step, const std::string& place) {
+  if (parent.is_null())
+    parent = step == "0" || step == "-" ? nlohmann::json::array() : nlohmann::json::object();
+  if (parent.is_object()) return parent[step];
+  if (!parent.is_array())
+    throw UsageError("", place, "the pointer does not lead to a value of the experiment",
+                     "use the pointers that 'lmdbench plan --json' shows");
+  std::size_t index = parent.size();
+  const bool appends = step == "-" || (step == "0" && parent.empty());
+  const auto [end, error] = std::from_chars(step.data(), step.data() + step.size(), index);
+  // Writing past an array's end would pad it with nulls, which no user wants.
+  if (!appends && (error != std::errc{} || end != step.data() + step.size() || index >= parent.size()))
+    throw UsageError("", place, fmt::format("a list of {} entries has no entry \"{}\"", parent.size(), step),
+                     "count entries from 0, or append with /-");
+  if (appends) return parent.emplace_back();
+  return parent[index];
+}
+
 }  // namespace
 
 nlohmann::json parse_json(const std::string& text, const std::string& file) {
-  using Event = nlohmann::json::parse_event_t;
-  std::vector<std::set<std::string>> keys_of_open_objects;
-  std::string repeated_key;
-  const auto watch_keys = [&](int, Event event, nlohmann::json& parsed) {
-    if (event == Event::object_start) keys_of_open_objects.emplace_back();
-    if (event == Event::object_end) keys_of_open_objects.pop_back();
-    if (event == Event::key && !keys_of_open_objects.back().insert(parsed.get<std::string>()).second &&
-        repeated_key.empty())
-      repeated_key = parsed.get<std::string>();
-    return true;
-  };
+  if (static_cast<std::int64_t>(text.size()) > limit_of(Limit::JSON_BYTES))
+    refuse_above(file, "", Limit::JSON_BYTES, fmt::format("{} bytes of JSON", text.size()));
+  ParseWatch watch(file, "");
   nlohmann::json document;
   try {
-    document = nlohmann::json::parse(text, watch_keys);
+    document = nlohmann::json::parse(text, std::ref(watch));
   } catch (const nlohmann::json::parse_error& error) {
     throw UsageError(file, line_and_column(text, error.byte), "not JSON", "correct the syntax at this place");
   } catch (const nlohmann::json::out_of_range& error) {  // a number such as 1e999
     throw UsageError(file, "", fmt::format("a number is out of range: {}", error.what()),
                      "write numbers that a double holds");
   }
-  if (!repeated_key.empty())
-    throw UsageError(file, "", fmt::format("key \"{}\" appears twice in one object", repeated_key),
+  if (!watch.repeated_key().empty())
+    throw UsageError(file, "", fmt::format("key \"{}\" appears twice in one object", watch.repeated_key()),
                      "remove one of the two: only one could take effect");
   return document;
 }
 
+std::string json_line(const nlohmann::ordered_json& document) {
+  return document.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
+}
+
 void apply_override(nlohmann::json& document, const std::string& override_text) {
-  const std::string place = "--set " + override_text;
+  constexpr std::size_t QUOTED_LENGTH = 200;
+  const std::string place = "--set " + printable(override_text, QUOTED_LENGTH);
   const std::size_t equals = override_text.find('=');
   if (equals == std::string::npos || override_text.front() != '/')
     throw UsageError("", place, "not of the form /json/pointer=value",
                      "for example --set /driver/repetitions=3");
+  if (!is_utf8(override_text)) throw UsageError("", place, "is no UTF-8", "write it in UTF-8");
+  if (static_cast<std::int64_t>(override_text.size()) > limit_of(Limit::JSON_TEXT))
+    refuse_above("", place, Limit::JSON_TEXT, fmt::format("a text of {} bytes", override_text.size()));
   const std::string value_text = override_text.substr(equals + 1);
-  nlohmann::json value = nlohmann::json::parse(value_text, nullptr, false);
-  if (value.is_discarded()) value = value_text;
+  std::vector<std::string> steps;
   try {
-    const nlohmann::json::json_pointer pointer(override_text.substr(0, equals));
-    const nlohmann::json::json_pointer parent = pointer.parent_pointer();
-    // Writing past an array's end would pad it with nulls, which no user wants.
-    if (document.contains(parent) && document.at(parent).is_array() && pointer.back() != "-" &&
-        !document.contains(pointer))
-      throw UsageError("", place,
-                       fmt::format("{} has only {} entries", parent.to_string(), document.at(parent).size()),
-                       "count entries from 0, or append with /-");
-    document[pointer] = value;
+    steps = steps_of(override_text.substr(0, equals));
   } catch (const nlohmann::json::exception&) {
     throw UsageError("", place, "the pointer does not lead to a value of the experiment",
                      "use the pointers that 'lmdbench plan --json' shows");
   }
+  if (static_cast<std::int64_t>(steps.size()) > limit_of(Limit::JSON_DEPTH))
+    refuse_above("", place, Limit::JSON_DEPTH, fmt::format("a pointer of {} steps", steps.size()));
+  nlohmann::json* target = &document;
+  for (const std::string& step : steps) target = &follow_step(*target, step, place);
+  *target = parse_value(value_text, place).value_or(value_text);
 }
 
 }  // namespace lmdbench

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/base/error.h>
+#include <lmdbench/base/output_guard.h>
 #include <lmdbench/base/part_file.h>
 
 #include <fcntl.h>
@@ -8,6 +9,7 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <string_view>
 #include <system_error>
 #include <utility>
 
@@ -50,6 +52,13 @@ void refuse_directory(const std::filesystem::path& file) {
   }
 }
 
+/// Whether what an interrupted run may have left: nothing yet, or the start of a result file.
+bool looks_like_a_part(const std::filesystem::path& part) {
+  constexpr std::string_view HDF5_SIGNATURE = "\x89HDF\r\n\x1a\n";
+  const std::string head = first_bytes(part);
+  return head.empty() || head.starts_with(HDF5_SIGNATURE);
+}
+
 /// False when another process holds the lock. A file system without locks counts as locked: the run goes on
 /// without. An open-file-description lock, because HDF5 takes a `flock` of its own on the same file.
 bool lock_whole_file(int descriptor) {
@@ -82,7 +91,12 @@ PartFile::~PartFile() {
 void PartFile::open_and_lock() {
   // A run that commits between our open and our lock renames the file that we hold: then open the new one.
   while (true) {
-    descriptor_ = ::open(part_name_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
+    // New, or else what an earlier run left: never through a link, never into a file of somebody else.
+    descriptor_ = ::open(part_name_.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC | O_NOFOLLOW, 0666);
+    if (descriptor_ < 0 && errno == EEXIST) {
+      descriptor_ = ::open(part_name_.c_str(), O_RDWR | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK);
+      if (descriptor_ < 0 && errno == ENOENT) continue;  // its run ended just now
+    }
     if (descriptor_ < 0) fail(part_name_, "the result cannot be written", errno);
     if (!lock_whole_file(descriptor_)) {
       ::close(std::exchange(descriptor_, -1));
@@ -96,9 +110,14 @@ void PartFile::open_and_lock() {
       ::close(std::exchange(descriptor_, -1));
       fail(part_name_, "the result cannot be written", error);
     }
-    if (::stat(part_name_.c_str(), &named) == 0 && ours.st_ino == named.st_ino && ours.st_dev == named.st_dev)
-      return;
+    const bool same = ::lstat(part_name_.c_str(), &named) == 0 && ours.st_ino == named.st_ino &&
+                      ours.st_dev == named.st_dev;
+    if (same && S_ISREG(ours.st_mode) && ours.st_nlink == 1 && looks_like_a_part(part_name_)) return;
     ::close(std::exchange(descriptor_, -1));
+    if (same)
+      throw EnvironmentError(part_name_.string(), "",
+                             "stands where the result is written at first, and is no file of lmdbench",
+                             "move it away or choose another place with --out");
   }
 }
 

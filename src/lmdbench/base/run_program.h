@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -18,5 +19,14 @@ struct ProgramOutcome {
 /// @throws EnvironmentError when it cannot be started, with `remedy`
 ProgramOutcome run_program(const std::vector<std::string>& argv, const std::filesystem::path& working_folder,
                            const std::string& remedy);
+
+/// The same with standard output going to a new file; `output` of the outcome is standard error alone. A
+/// program that writes more than `most_bytes` is ended and the file removed: what it unpacks may be a bomb.
+/// @param file  must not exist
+/// @throws EnvironmentError when it cannot be started or the file cannot be written; InputError for too much
+///         output, with the program's name as file
+ProgramOutcome run_program_to_file(const std::vector<std::string>& argv,
+                                   const std::filesystem::path& working_folder, const std::string& remedy,
+                                   const std::filesystem::path& file, std::int64_t most_bytes);
 
 }  // namespace lmdbench

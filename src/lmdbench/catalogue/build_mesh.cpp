@@ -1,6 +1,8 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/base/error.h>
 #include <lmdbench/base/file_hash.h>
+#include <lmdbench/base/output_guard.h>
 #include <lmdbench/catalogue/build_mesh.h>
 #include <lmdbench/catalogue/decimate.h>
 #include <lmdbench/catalogue/fetch_source.h>
@@ -18,7 +20,10 @@ TriangleMesh realise(const Manifest& manifest, const ManifestEntry& entry, const
   if (entry.shape)
     return make_shape(*entry.shape, manifest.file.string(), "/meshes/" + entry.name + "/shape");
   const auto source = fetch_source(*entry.source, manifest.file.parent_path() / "sources", tell);
-  TriangleMesh mesh = import_mesh(source);
+  const FileContent content = read_mesh_file(source);
+  if (content.sha256 != entry.source->sha256)
+    throw InputError(source.string(), "", "has changed since it was checked", "build the mesh again");
+  TriangleMesh mesh = import_mesh(content);
   if (!entry.target_triangles) return mesh;
   tell(fmt::format("decimating {} from {} to {} triangles", entry.name, mesh.triangles.size(),
                    *entry.target_triangles));
@@ -39,6 +44,9 @@ BuildOutcome build_mesh(const Manifest& manifest, const ManifestEntry& entry, co
     outcome.triangles = entry.triangles;
     return outcome;
   }
+  const OutputKind built{"built mesh",
+                         [](const std::filesystem::path& file) { return file_begins_with(file, "OFF\n"); }};
+  refuse_unsafe_output(outcome.file, built, {manifest.file}, "--dir");
   const TriangleMesh mesh = realise(manifest, entry, tell);
   write_off(outcome.file, mesh);
   outcome.triangles = static_cast<std::int64_t>(mesh.triangles.size());

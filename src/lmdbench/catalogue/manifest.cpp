@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/base/error.h>
 #include <lmdbench/base/file_hash.h>
+#include <lmdbench/base/input_file.h>
+#include <lmdbench/base/json_text.h>
 #include <lmdbench/catalogue/import.h>
 #include <lmdbench/catalogue/manifest.h>
 #include <lmdbench/catalogue/manifest_schema.h>
@@ -16,7 +18,6 @@
 #include <valijson/validator.hpp>
 
 #include <algorithm>
-#include <fstream>
 
 namespace lmdbench {
 
@@ -26,16 +27,17 @@ constexpr const char* MANIFEST_REMEDY = "correct the manifest; its keys are expl
 
 // Ordered, so that meshes keep the file's order.
 nlohmann::ordered_json parse(const std::filesystem::path& file) {
-  std::ifstream stream(file);
-  if (!stream)
-    throw InputError(
-        file.string(), "", "the mesh manifest cannot be opened",
-        "run in the folder that holds meshes/, or name a mesh file by its path (with a / or a .)");
+  const InputKind kind{
+      .what = "mesh manifest",
+      .most_bytes = Limit::JSON_BYTES,
+      .remedy = "run in the folder that holds meshes/, or name a mesh file by its path (with a / or a .)"};
+  const std::string text = read_input_file(file, kind).bytes;
   try {
-    return nlohmann::ordered_json::parse(stream);
-  } catch (const nlohmann::json::parse_error& error) {
-    throw InputError(file.string(), fmt::format("byte {}", error.byte), error.what(), "correct the JSON");
+    static_cast<void>(parse_json(text, file.string()));
+  } catch (const UsageError& error) {
+    throw InputError("", "", error.what(), "");
   }
+  return nlohmann::ordered_json::parse(text);
 }
 
 std::string pointer_of(const std::vector<std::string>& context) {
@@ -64,6 +66,18 @@ void validate(const nlohmann::json& document, const std::filesystem::path& file)
   throw InputError(file.string(), pointer_of(deepest->context), deepest->description, MANIFEST_REMEDY);
 }
 
+/// Whether a relative path has only plain parts.
+bool stays_inside(std::string_view path) {
+  for (;;) {
+    const std::size_t end = path.find('/');
+    const std::string_view part = path.substr(0, end);
+    if (part.empty() || part == "." || part == ".." || part.find('\0') != std::string_view::npos)
+      return false;
+    if (end == std::string_view::npos) return true;
+    path.remove_prefix(end + 1);
+  }
+}
+
 MeshSource read_source(const std::string& name, const nlohmann::ordered_json& source,
                        const std::string& file) {
   MeshSource result;
@@ -75,6 +89,11 @@ MeshSource read_source(const std::string& name, const nlohmann::ordered_json& so
                      npm ? "is of npm: it needs 'version' and has no 'archive'"
                          : "is of Debian: it needs 'archive' and has no 'version'",
                      MANIFEST_REMEDY);
+  for (const char* key : {"archive", "path"})
+    if (source.contains(key) && !stays_inside(source.at(key).get<std::string>()))
+      throw InputError(file, fmt::format("/sources/{}/{}", name, key),
+                       "leads out of its archive, or is no plain path",
+                       "name it by its parts, without '.', '..' and empty ones");
   result.package = source.at("package");
   result.version = source.value("version", "");
   result.archive = source.value("archive", "");
@@ -123,14 +142,18 @@ ResolvedMesh resolve_entry(const ManifestEntry& entry, const Manifest& manifest)
   if (!std::filesystem::exists(file))
     throw InputError(file.string(), "", fmt::format("mesh '{}' is not built yet", entry.name),
                      fmt::format("run 'lmdbench mesh build {}'", entry.name));
-  resolved.mesh = import_mesh(file);
-  resolved.sha256 = sha256_of_file(file);
+  const FileContent content = read_mesh_file(file);
+  resolved.mesh = import_mesh(content);
+  resolved.sha256 = content.sha256;
+  resolved.size = static_cast<std::int64_t>(content.bytes.size());
   resolved.file = file;
   return resolved;
 }
 
 ResolvedMesh resolve_path(const std::string& path) {
-  return {path, import_mesh(path), std::filesystem::path(path), sha256_of_file(path)};
+  const FileContent content = read_mesh_file(path);
+  return {path, import_mesh(content), std::filesystem::path(path), content.sha256,
+          static_cast<std::int64_t>(content.bytes.size())};
 }
 
 }  // namespace

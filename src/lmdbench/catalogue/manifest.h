@@ -70,6 +70,7 @@ struct ResolvedMesh {
   std::optional<std::filesystem::path> file;  ///< What was read; nothing for a generated shape.
   std::string
       sha256;  ///< Of that file; of a generated shape: of the file that `lmdbench mesh build` writes for it.
+  std::int64_t size = 0;  ///< Bytes of the file that was read; 0 for a generated shape.
 };
 
 /// Whether the text can be a manifest name (lower-case letters, digits and dashes) rather than a path.

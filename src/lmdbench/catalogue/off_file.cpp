@@ -2,15 +2,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/base/atomic_file.h>
 #include <lmdbench/base/error.h>
+#include <lmdbench/base/input_file.h>
+#include <lmdbench/base/limits.h>
 #include <lmdbench/catalogue/off_file.h>
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
-#include <fstream>
 #include <limits>
-#include <sstream>
 #include <string>
 #include <string_view>
 
@@ -19,6 +21,10 @@ namespace lmdbench {
 namespace {
 
 constexpr std::string_view BLANKS = " \t\r";
+
+// Positions come first in a vertex's line whatever follows: texture coordinates (ST), colours (C), normals (N).
+constexpr std::array<std::string_view, 8> KEYWORDS{"OFF",   "COFF",   "NOFF",   "CNOFF",
+                                                   "STOFF", "STCOFF", "STNOFF", "STCNOFF"};
 
 // Hands out the file's lines without comments and blank lines, and numbers from them.
 class LineReader {
@@ -59,6 +65,7 @@ class LineReader {
     return value;
   }
 
+  bool begins_with(std::string_view start) const { return line_.starts_with(start); }
   bool at_line_end() const { return line_.empty(); }
 
   [[noreturn]] void fail(const std::string& problem, const std::string& remedy = "correct the line") const {
@@ -72,15 +79,6 @@ class LineReader {
   std::string_view rest_, line_;
   std::size_t line_number_ = 0;
 };
-
-std::string read_text(const std::filesystem::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  std::ostringstream text;
-  text << stream.rdbuf();
-  if (!stream || stream.bad())
-    throw InputError(file.string(), "", "is empty or cannot be read", "check the name and the permissions");
-  return std::move(text).str();
-}
 
 constexpr const char* CUT_SHORT =
     "the file may be cut short: get it again, or correct the counts in its header";
@@ -104,6 +102,10 @@ void read_faces(LineReader& lines, std::int64_t count, TriangleMesh& mesh) {
       lines.fail(fmt::format("the file ends after {} of {} faces", f, count), CUT_SHORT);
     const auto corner_count = lines.number<std::int64_t>("a face's number of corners");
     if (corner_count < 1) lines.fail(fmt::format("face {} has {} corners", f, corner_count));
+    if (corner_count > limit_of(Limit::POLYGON_CORNERS))
+      lines.fail(fmt::format("face {} is a polygon of {} corners, above the limit of {}", f, corner_count,
+                             limit_of(Limit::POLYGON_CORNERS)),
+                 "cut it into triangles where it was made, or " + raise_remedy(Limit::POLYGON_CORNERS));
     std::array<std::int32_t, 3> fan{};
     for (std::int64_t k = 0; k < corner_count; ++k) {
       const auto corner = lines.number<std::int64_t>("a vertex index");
@@ -113,6 +115,9 @@ void read_faces(LineReader& lines, std::int64_t count, TriangleMesh& mesh) {
       fan[static_cast<std::size_t>(std::min<std::int64_t>(k, 2))] = static_cast<std::int32_t>(corner);
       if (k < 2) continue;
       mesh.triangles.push_back(fan);
+      if (static_cast<std::int64_t>(mesh.triangles.size()) > limit_of(Limit::TRIANGLES))
+        lines.fail(fmt::format("more triangles than the limit of {}", limit_of(Limit::TRIANGLES)),
+                   "decimate the mesh, or " + raise_remedy(Limit::TRIANGLES));
       fan[1] = fan[2];
     }
   }
@@ -120,28 +125,30 @@ void read_faces(LineReader& lines, std::int64_t count, TriangleMesh& mesh) {
 
 }  // namespace
 
-std::optional<TriangleMesh> read_off(const std::filesystem::path& file) {
-  const std::string text = read_text(file);
-  LineReader lines(file.string(), text);
-  if (!lines.next_line() || lines.word() != "OFF") return std::nullopt;
+TriangleMesh parse_off(std::string_view text, const std::string& file) {
+  LineReader lines(file, text);
+  if (!lines.next_line()) throw InputError(file, "", "is empty", "check that it is the right file");
+  const std::string_view keyword = lines.word();
+  if (std::find(KEYWORDS.begin(), KEYWORDS.end(), keyword) == KEYWORDS.end())
+    lines.fail(fmt::format("'{}' is no keyword of an OFF file in three dimensions", keyword.substr(0, 40)),
+               "begin the file with OFF (COFF, NOFF, STOFF and their mixtures are read, too)");
+  // The counts stand on the keyword's line or the next.
   if (lines.at_line_end() && !lines.next_line())
     lines.fail("the file ends after its keyword", "get the file again: it may be cut short");
-  if (lines.word() == "BINARY") return std::nullopt;
-
-  // Once more from the start, now that the layout is known: the counts stand on the
-  // keyword's line or the next.
-  LineReader again(file.string(), text);
-  again.next_line();
-  again.word();
-  if (again.at_line_end()) again.next_line();
-  const auto vertex_count = again.number<std::int64_t>("the number of vertices");
-  const auto face_count = again.number<std::int64_t>("the number of faces");
+  if (lines.begins_with("BINARY"))
+    lines.fail("binary OFF is not read", "convert it to OFF text, PLY, OBJ or STL");
+  const auto vertex_count = lines.number<std::int64_t>("the number of vertices");
+  const auto face_count = lines.number<std::int64_t>("the number of faces");
   if (vertex_count < 0 || face_count < 0 || vertex_count > std::numeric_limits<std::int32_t>::max())
-    again.fail("the header's counts are negative or too large", "correct the header");
+    lines.fail("the header's counts are negative or too large", "correct the header");
   TriangleMesh mesh;
-  read_vertices(again, vertex_count, mesh);
-  read_faces(again, face_count, mesh);
+  read_vertices(lines, vertex_count, mesh);
+  read_faces(lines, face_count, mesh);
   return mesh;
+}
+
+TriangleMesh read_off(const std::filesystem::path& file) {
+  return parse_off(read_input_file(file, {.what = "mesh file"}).bytes, file.string());
 }
 
 std::string to_off_text(const TriangleMesh& mesh) {

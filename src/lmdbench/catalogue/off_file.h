@@ -5,18 +5,20 @@
 #include <lmdbench/mesh/triangle_mesh.h>
 
 #include <filesystem>
-#include <optional>
 #include <string>
+#include <string_view>
 
 namespace lmdbench {
 
 /// Reads an OFF text file line by line, in double precision. Own code although assimp reads OFF too, because
 /// assimp reads it in single precision, takes a negative index for 0, clamps indices that are out of range
 /// and aborts the program on a file that was cut short (5.2.5). Polygons with more than three corners become
-/// fans round their first corner. Further columns (colours) are ignored.
-/// @return nothing for the variants with another keyword (COFF, NOFF, ...) or binary data
-/// @throws InputError naming the line
-std::optional<TriangleMesh> read_off(const std::filesystem::path& file);
+/// fans round their first corner. Further columns (normals, colours, texture coordinates) are ignored.
+/// @throws InputError naming the line; also for binary OFF and for what is above a limit
+TriangleMesh read_off(const std::filesystem::path& file);
+
+/// The same from text; `file` is its name in messages.
+TriangleMesh parse_off(std::string_view text, const std::string& file);
 
 /// OFF text with the shortest decimals that read back to the same bits.
 std::string to_off_text(const TriangleMesh& mesh);

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/base/error.h>
+#include <lmdbench/base/limits.h>
 #include <lmdbench/cli/commands.h>
 #include <lmdbench/cli/mesh_command.h>
 #include <lmdbench/cli/path_command.h>
@@ -8,12 +9,14 @@
 #include <lmdbench/record/provenance.h>
 
 #include <CLI/CLI.hpp>
+#include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
 #include <cstdio>
 #include <exception>
 #include <new>
 #include <string>
+#include <system_error>
 #include <vector>
 
 namespace {
@@ -21,6 +24,13 @@ namespace {
 int exit_with(lmdbench::ExitCode code, const std::string& message) {
   spdlog::error("{}", message);
   return static_cast<int>(code);
+}
+
+std::string limits_help() {
+  std::string text = "raise or lower a limit on input; repeatable. Limits and their usual values:";
+  for (const lmdbench::LimitInfo& info : lmdbench::limit_table())
+    text += fmt::format("\n{} ({}): {}", info.name, info.usual, info.meaning);
+  return text;
 }
 
 int run_program(int argc, char** argv) {
@@ -33,7 +43,12 @@ int run_program(int argc, char** argv) {
   int quiet = 0;
   app.add_flag("-v,--verbose", verbose, "tell more on standard error");
   app.add_flag("-q,--quiet", quiet, "tell errors only");
-  app.parse_complete_callback([&] { set_up_talk(verbose - quiet); });
+  std::vector<std::string> limits;
+  app.add_option("--limit", limits, limits_help())->type_name("NAME=NUMBER")->allow_extra_args(false);
+  app.parse_complete_callback([&] {
+    set_up_talk(verbose - quiet);
+    for (const std::string& limit : limits) set_limit(limit);
+  });
   app.footer(
       "Exit codes: 0 done; 1 a check failed; 2 usage or experiment file wrong; 3 input data wrong; "
       "4 the environment lacks something; 70 a bug of lmdbench.");
@@ -48,7 +63,8 @@ int run_program(int argc, char** argv) {
     const int code = app.exit(error);  // prints help or what is wrong
     return code == 0 ? 0 : static_cast<int>(ExitCode::USAGE);
   }
-  if (std::fflush(stdout) != 0)  // results that did not arrive must not look like success
+  // Results that did not arrive must not look like success; a command that flushes by itself leaves the mark.
+  if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0)
     throw EnvironmentError("", "standard output", "cannot be written",
                            "check the disk or the reader of the pipe");
   return static_cast<int>(ExitCode::DONE);
@@ -66,6 +82,13 @@ int main(int argc, char** argv) {
   } catch (const std::bad_alloc&) {
     return exit_with(ExitCode::ENVIRONMENT,
                      "out of memory (remedy: a smaller scene, fewer frames or more memory)");
+  } catch (const std::system_error& error) {
+    // What only the operating system can refuse: threads, pipes, writes to standard output.
+    return exit_with(
+        ExitCode::ENVIRONMENT,
+        std::string("the system refuses: ") + error.what() +
+            " (remedy: check limits on processes and memory (ulimit -a), disk space, and the reader "
+            "of the output)");
   } catch (const std::exception& error) {
     return exit_with(ExitCode::INTERNAL,
                      std::string("bug in lmdbench: ") + error.what() +

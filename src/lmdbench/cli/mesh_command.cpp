@@ -1,6 +1,8 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/base/error.h>
+#include <lmdbench/base/json_text.h>
+#include <lmdbench/base/printable_text.h>
 #include <lmdbench/catalogue/build_mesh.h>
 #include <lmdbench/catalogue/manifest.h>
 #include <lmdbench/cli/mesh_command.h>
@@ -37,9 +39,9 @@ void print_info(const MeshArguments& arguments) {
           {"file", resolved.file ? nlohmann::ordered_json(resolved.file->string()) : nullptr},
           {"sha256", resolved.sha256}};
       line.update(to_json(report));
-      fmt::print("{}\n", line.dump());
+      fmt::print("{}\n", json_line(line));
     } else {
-      fmt::print("mesh          {}\n{}", name, to_text(report));
+      fmt::print("mesh          {}\n{}", printable(name), to_text(report));
     }
     std::fflush(stdout);
   }
@@ -52,7 +54,7 @@ void print_outcome(const BuildOutcome& outcome, bool json) {
         {"mesh", outcome.name},     {"file", outcome.file.string()},
         {"state", state},           {"triangles", outcome.triangles},
         {"sha256", outcome.sha256}, {"matches_manifest", outcome.matches_manifest}};
-    fmt::print("{}\n", line.dump());
+    fmt::print("{}\n", json_line(line));
   } else {
     fmt::print("{:<20} {:>8} triangles  {:<10}  {}\n", outcome.name, outcome.triangles, state,
                outcome.file.string());
@@ -105,9 +107,9 @@ void list(const MeshArguments& arguments) {
                                   {"generated", entry.shape.has_value()},
                                   {"triangles", entry.triangles}};
       if (entry.source) line.update({{"licence", entry.source->licence}, {"credit", entry.source->credit}});
-      fmt::print("{}\n", line.dump());
+      fmt::print("{}\n", json_line(line));
     } else {
-      fmt::print("{:<20} {:>8} triangles  {}\n", entry.name, entry.triangles, entry.description);
+      fmt::print("{:<20} {:>8} triangles  {}\n", entry.name, entry.triangles, printable(entry.description));
     }
   }
 }

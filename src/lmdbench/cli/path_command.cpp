@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/base/atomic_file.h>
 #include <lmdbench/base/error.h>
+#include <lmdbench/base/json_text.h>
+#include <lmdbench/base/output_guard.h>
 #include <lmdbench/catalogue/manifest.h>
 #include <lmdbench/cli/path_command.h>
 #include <lmdbench/cli/progress_bar.h>
@@ -33,8 +35,8 @@ namespace {
 /// the rounded path.
 constexpr int STORED_DECIMALS = 9;
 
-/// More frames than this are no path of a hand: its times are likely not in seconds.
-constexpr double MOST_FRAMES = 1e8;
+/// In the first line of every generated path: tells it from recorded ones.
+constexpr const char* MADE_BY = "made by 'lmdbench path generate";
 
 constexpr double DEGREES = 180.0 / std::numbers::pi;
 
@@ -116,7 +118,7 @@ void print_facts(const std::string& file, const PathFacts& facts, double rate,
                    {"gap_floor_diagonal", gaps->floor},
                    {"frames_at_wanted_gap", gaps->frames_at_wanted_gap},
                    {"intersecting_frames", gaps->intersecting_frames}});
-    fmt::print("{}\n", line.dump());
+    fmt::print("{}\n", json_line(line));
     return;
   }
   fmt::print("{}: {} poses, {:.6g} s from {:.6g} s; {} frames at {:g} Hz\n", file, facts.pose_count,
@@ -132,18 +134,33 @@ void print_facts(const std::string& file, const PathFacts& facts, double rate,
              100.0 * (AT_WANTED_GAP - 1.0));
 }
 
+/// Paths that `tum_text` wrote here say so in their first line; a recorded one has no such line.
+bool is_generated_path(const std::filesystem::path& file) {
+  const std::string head = first_bytes(file);
+  return head.starts_with("# ") && head.substr(0, head.find('\n')).find(MADE_BY) != std::string::npos;
+}
+
+/// File of a mesh that a specification names, whether it is there or not.
+std::filesystem::path mesh_file(const PlacedMesh& placed, const PathArguments& arguments) {
+  if (is_mesh_name(placed.mesh)) return std::filesystem::path(arguments.mesh_folder) / (placed.mesh + ".off");
+  return std::filesystem::path(arguments.spec).parent_path() / placed.mesh;
+}
+
 void generate(const PathArguments& arguments) {
   const PathSpec spec = read_path_spec(arguments.spec);
+  refuse_unsafe_output(arguments.path, {.what = "generated path", .is_ours = &is_generated_path},
+                       {arguments.spec, std::filesystem::path(arguments.mesh_folder) / "manifest.json",
+                        mesh_file(spec.moving, arguments), mesh_file(spec.fixed, arguments)},
+                       "--out");
   const PathScene scene = load_scene(spec, arguments);
   Path path;
   {
     ProgressBar bar(progress_welcome());
     path = generate_path(spec, scene, progress_on(bar, "generate"));
   }
-  const std::string comment =
-      fmt::format("{} ({:g} m) past {} ({:g} m), made by 'lmdbench path generate {}'", spec.moving.mesh,
-                  spec.moving.diagonal, spec.fixed.mesh, spec.fixed.diagonal,
-                  std::filesystem::path(arguments.spec).filename().string());
+  const std::string comment = fmt::format("{} ({:g} m) past {} ({:g} m), {} {}'", spec.moving.mesh,
+                                          spec.moving.diagonal, spec.fixed.mesh, spec.fixed.diagonal, MADE_BY,
+                                          std::filesystem::path(arguments.spec).filename().string());
   const std::string text = tum_text(path, comment, STORED_DECIMALS);
   // What counts is what readers will see: the rounded poses, interpolated.
   std::istringstream stream(text);
@@ -166,16 +183,13 @@ void info(const PathArguments& arguments) {
   const PathInterpolator interpolator(read_tum(std::filesystem::path(arguments.path)));
   double rate = arguments.rate;
   std::optional<GapNote> gaps;
+  refuse_too_many_frames(interpolator, rate, std::nullopt, arguments.path);
   if (!arguments.spec.empty()) {
     const PathSpec spec = read_path_spec(arguments.spec);
     rate = spec.frame_rate;
+    refuse_too_many_frames(interpolator, rate, std::nullopt, arguments.path);
     gaps = note_gaps(interpolator, spec, load_scene(spec, arguments));
   }
-  const double duration = interpolator.end_time() - interpolator.start_time();
-  if (!(duration * rate < MOST_FRAMES))
-    throw InputError(arguments.path, "",
-                     fmt::format("lasts {:g} s, too long at {:g} frames a second", duration, rate),
-                     "give times in seconds, or a lower rate");
   print_facts(arguments.path, path_facts(interpolator, rate), rate, gaps, arguments.json);
   if (gaps && !gaps->sound())
     throw Error(

@@ -4,6 +4,7 @@
 #include <lmdbench/catalogue/manifest.h>
 #include <lmdbench/cli/commands.h>
 #include <lmdbench/experiment/query.h>
+#include <lmdbench/geometry/tolerance.h>
 #include <lmdbench/mesh/surface.h>
 #include <lmdbench/mesh/validity.h>
 #include <lmdbench/methods/registry.h>
@@ -14,7 +15,6 @@
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
-#include <cmath>
 #include <cstdio>
 #include <iostream>
 #include <memory>
@@ -49,9 +49,11 @@ Path poses_of(const QueryOptions& options) {
 }
 
 void run(const QueryOptions& options) {
-  if (!(options.cutoff > 0.0) || !std::isfinite(options.cutoff))
-    throw UsageError("", "--cutoff", fmt::format("{} is not a distance above 0", options.cutoff),
-                     "give metres, for example --cutoff 0.005");
+  if (!(options.cutoff > 0.0 && options.cutoff <= LARGEST_COORDINATE))
+    throw UsageError(
+        "", "--cutoff",
+        fmt::format("{} is not a distance above 0 and at most {:g}", options.cutoff, LARGEST_COORDINATE),
+        "give metres, for example --cutoff 0.005");
   const auto& names = method_names();
   if (std::find(names.begin(), names.end(), options.method) == names.end())
     make_method(options.method, Scene{});  // throws; an unknown name should not wait for the meshes

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/base/error.h>
+#include <lmdbench/base/input_file.h>
 #include <lmdbench/base/json_schema.h>
 #include <lmdbench/base/json_text.h>
 #include <lmdbench/experiment/experiment.h>
@@ -11,8 +12,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
-#include <iterator>
 #include <numbers>
 #include <set>
 
@@ -186,12 +185,8 @@ Experiment parse_experiment(const std::string& text, const std::filesystem::path
 }
 
 Experiment load_experiment(const std::filesystem::path& file, const std::vector<Override>& overrides) {
-  std::ifstream stream(file, std::ios::binary);
-  if (!stream)
-    throw UsageError(file.string(), "", "cannot read the experiment file",
-                     "check the name and its permissions");
-  const std::string text{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
-  return parse_experiment(text, file, overrides);
+  const InputKind kind{.what = "experiment file", .code = ExitCode::USAGE, .most_bytes = Limit::JSON_BYTES};
+  return parse_experiment(read_input_file(file, kind).bytes, file, overrides);
 }
 
 }  // namespace lmdbench

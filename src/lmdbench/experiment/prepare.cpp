@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/base/error.h>
+#include <lmdbench/base/input_file.h>
 #include <lmdbench/catalogue/manifest.h>
 #include <lmdbench/experiment/prepare.h>
 #include <lmdbench/mesh/placement.h>
@@ -21,10 +22,6 @@
 namespace lmdbench {
 namespace {
 
-/// More frames than this fit no machine's memory: a path that long is a mistake of its times' unit
-/// (milliseconds, nanoseconds since an epoch).
-constexpr double MOST_FRAMES = 1e8;
-
 /// A mesh at its place in the scene, with its note.
 std::shared_ptr<const Body> load_body(const MeshChoice& choice, const std::string& role,
                                       const Experiment& experiment, std::vector<MeshNote>& notes) {
@@ -36,23 +33,24 @@ std::shared_ptr<const Body> load_body(const MeshChoice& choice, const std::strin
   const RigidTransform X_WF(choice.pose);
   if (role != "moving")
     for (Vec3& vertex : mesh.vertices) vertex = X_WF.point(vertex);
+  refuse_extreme_size(mesh, choice.mesh);
   auto body = std::make_shared<const Body>(choice.mesh, build_surface(std::move(mesh)));
-  notes.push_back({role, choice.mesh, resolved.file, resolved.sha256, check_mesh(body->surface())});
+  notes.push_back(
+      {role, choice.mesh, resolved.file, resolved.size, resolved.sha256, check_mesh(body->surface())});
   return body;
 }
 
-Path load_frames(const Experiment& experiment) {
-  const PathInterpolator path(read_tum(experiment.path_file), experiment.interpolation);
-  const double duration = path.end_time() - path.start_time();
-  if (!(duration * experiment.frame_rate_hz < MOST_FRAMES))
-    throw InputError(experiment.path_file.string(), "",
-                     fmt::format("lasts {:g} s, more than {:g} frames at {:g} Hz", duration, MOST_FRAMES,
-                                 experiment.frame_rate_hz),
-                     "give times in seconds, or a lower frame_rate_hz");
-  Path frames = resample(path, experiment.frame_rate_hz);
-  if (experiment.frames && static_cast<std::size_t>(*experiment.frames) < frames.size())
-    frames.resize(static_cast<std::size_t>(*experiment.frames));
-  return frames;
+Path load_frames(const Experiment& experiment, std::vector<InputFile>& files) {
+  const FileContent content = read_input_file(experiment.path_file, {.what = "path"});
+  const PathInterpolator path(parse_tum(content.bytes, experiment.path_file.string()),
+                              experiment.interpolation);
+  files.push_back(
+      {"path", experiment.path_file, content.sha256, static_cast<std::int64_t>(content.bytes.size())});
+  // A path that is cut by "frames" may be longer than any run.
+  std::optional<std::size_t> wanted;
+  if (experiment.frames) wanted = static_cast<std::size_t>(*experiment.frames);
+  refuse_too_many_frames(path, experiment.frame_rate_hz, wanted, experiment.path_file.string());
+  return resample(path, experiment.frame_rate_hz, wanted);
 }
 
 ForceProfile profile_for(const Experiment& experiment, double moving_diagonal) {
@@ -84,7 +82,8 @@ bool touches(const Scene& scene, const Pose& X_WM) {
 PreparedRun prepare(const Experiment& experiment) {
   // The cheap checks first: a misspelt device should not wait for a large mesh.
   const Device& device = device_named(experiment.device, experiment.file.string(), "/device");
-  const Path frames = load_frames(experiment);
+  std::vector<InputFile> files;
+  const Path frames = load_frames(experiment, files);
 
   std::vector<MeshNote> notes;
   Scene scene;
@@ -103,7 +102,7 @@ PreparedRun prepare(const Experiment& experiment) {
                        .times = {},
                        .profile = profile,
                        .meshes = std::move(notes),
-                       .files = {{"path", experiment.path_file}},
+                       .files = std::move(files),
                        .starts_touching = false,
                        .warnings = {}};
   prepared.input.reference_M = bounding_box_centre(prepared.scene.moving->surface().mesh);
@@ -112,9 +111,11 @@ PreparedRun prepare(const Experiment& experiment) {
     prepared.times.push_back(frame.time);
   }
   for (const MeshNote& note : prepared.meshes) {
-    const bool listed = std::any_of(prepared.files.begin(), prepared.files.end(),
-                                    [&](const InputFile& file) { return file.role == "mesh:" + note.name; });
-    if (note.file && !listed) prepared.files.push_back({"mesh:" + note.name, *note.file});
+    const bool listed = std::any_of(prepared.files.begin(), prepared.files.end(), [&](const InputFile& file) {
+      return file.role == "mesh:" + note.name && file.sha256 == note.sha256;
+    });
+    if (note.file && !listed)
+      prepared.files.push_back({"mesh:" + note.name, *note.file, note.sha256, note.size});
     for (const std::string& finding : findings(note.report))
       prepared.warnings.push_back(fmt::format("{} mesh {}: {}", note.role, note.name, finding));
   }
@@ -125,6 +126,19 @@ PreparedRun prepare(const Experiment& experiment) {
         "until they "
         "have been apart");
   return prepared;
+}
+
+std::vector<std::filesystem::path> input_files(const Experiment& experiment) {
+  const std::filesystem::path folder = experiment.file.parent_path();
+  std::vector<std::filesystem::path> files{experiment.file, experiment.path_file,
+                                           experiment.mesh_folder / "manifest.json"};
+  const auto add = [&](const MeshChoice& choice) {
+    files.push_back(is_mesh_name(choice.mesh) ? experiment.mesh_folder / (choice.mesh + ".off")
+                                              : folder / choice.mesh);
+  };
+  add(experiment.moving);
+  for (const MeshChoice& choice : experiment.fixed) add(choice);
+  return files;
 }
 
 std::vector<LockstepMethod> lockstep_methods(const Experiment& experiment, const PreparedRun& prepared) {

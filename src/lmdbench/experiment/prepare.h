@@ -8,6 +8,7 @@
 #include <lmdbench/mesh/validity.h>
 #include <lmdbench/record/provenance.h>
 
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -20,6 +21,7 @@ struct MeshNote {
   std::string role;  ///< "moving", "fixed_0", ...
   std::string name;
   std::optional<std::filesystem::path> file;  ///< What was read; nothing for a generated shape.
+  std::int64_t size = 0;                      ///< Bytes of that file
   std::string sha256;  ///< Of that file, or of the file that a generated shape would be built to.
   ValidityReport report;
 };
@@ -40,6 +42,10 @@ struct PreparedRun {
 /// @throws InputError for a mesh or path that cannot be used, UsageError for a profile that does not
 ///         fit the mesh
 PreparedRun prepare(const Experiment& experiment);
+
+/// Files that the experiment will read, as far as its text tells: itself, path, manifest, meshes; some may be
+/// missing. For outputs, which must replace none of them.
+std::vector<std::filesystem::path> input_files(const Experiment& experiment);
 
 /// The experiment's methods on the prepared scene.
 std::vector<LockstepMethod> lockstep_methods(const Experiment& experiment, const PreparedRun& prepared);

@@ -1,8 +1,10 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/base/output_guard.h>
 #include <lmdbench/experiment/contact.h>
 #include <lmdbench/experiment/run.h>
 #include <lmdbench/experiment/write_result.h>
+#include <lmdbench/record/own_result.h>
 #include <lmdbench/record/provenance.h>
 #include <lmdbench/record/result_writer.h>
 
@@ -86,6 +88,8 @@ RunResult run_experiment(const Experiment& experiment, const RunProgress& progre
 
 RunResult run_experiment_to_file(const Experiment& experiment, const std::filesystem::path& file,
                                  const std::vector<std::string>& argv, const RunProgress& progress) {
+  refuse_unsafe_output(file, {.what = "result file", .is_ours = &is_own_result}, input_files(experiment),
+                       "--out");
   ResultWriter writer(file);
   // The data goes to disk after the run, so what an aborted run leaves there holds nothing worth keeping.
   // Declared after the writer: the file of another run with the same output, which the writer refuses, must

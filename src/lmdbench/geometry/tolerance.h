@@ -20,6 +20,13 @@ namespace lmdbench {
 /// 1e-14 of the coordinates.
 inline constexpr double COINCIDENCE_TOLERANCE = 16.0 * std::numeric_limits<double>::epsilon();
 
+/// Coordinates above this are refused where files are read: volumes, squared areas and the exact tests' products
+/// of up to seven lengths must stay within double precision. Single precision ends at 3.4e38.
+inline constexpr double LARGEST_COORDINATE = 1e40;
+
+/// Meshes whose bounding box's diagonal is smaller are refused for the same reason: such products would vanish.
+inline constexpr double SMALLEST_DIAGONAL = 1e-40;
+
 /// Largest absolute coordinate; a coordinate that is not a number is passed over, see all_finite.
 inline double largest_coordinate(std::span<const Vec3> points) {
   static_assert(sizeof(Vec3) == 3 * sizeof(double), "the coordinates of several points lie side by side");

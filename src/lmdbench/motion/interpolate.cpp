@@ -1,7 +1,11 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/base/error.h>
+#include <lmdbench/base/limits.h>
 #include <lmdbench/motion/interpolate.h>
 #include <lmdbench/motion/rotation_vector.h>
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
@@ -95,8 +99,25 @@ std::size_t frame_count(const PathInterpolator& interpolator, double rate) {
   return static_cast<std::size_t>(std::floor(periods + LAST_FRAME_TOLERANCE)) + 1;
 }
 
-Path resample(const PathInterpolator& interpolator, double rate) {
-  const std::size_t count = frame_count(interpolator, rate);
+void refuse_too_many_frames(const PathInterpolator& interpolator, double rate,
+                            std::optional<std::size_t> most, const std::string& file) {
+  const double duration = interpolator.end_time() - interpolator.start_time();
+  const double frames = most ? std::min(duration * rate, static_cast<double>(*most)) : duration * rate;
+  const auto limit = static_cast<double>(limit_of(Limit::FRAMES));
+  if (frames < limit) return;  // false for NaN, too
+  throw InputError(
+      file, "",
+      fmt::format("lasts {:g} s: {:g} frames at {:g} Hz, above the limit of {}", duration, frames, rate,
+                  limit_of(Limit::FRAMES)),
+      "give times in seconds, a lower frame rate or fewer frames, or " + raise_remedy(Limit::FRAMES));
+}
+
+Path resample(const PathInterpolator& interpolator, double rate, std::optional<std::size_t> most) {
+  const double periods = (interpolator.end_time() - interpolator.start_time()) * rate;
+  // Not counted where the limit decides: the count need not fit an integer.
+  const bool cut = most && periods >= static_cast<double>(*most);
+  std::size_t count = cut ? *most : frame_count(interpolator, rate);
+  if (most) count = std::min(count, *most);
   Path frames;
   frames.reserve(count);
   for (std::size_t k = 0; k < count; ++k) {

@@ -6,6 +6,8 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
+#include <string>
 #include <vector>
 
 namespace lmdbench {
@@ -61,6 +63,15 @@ std::size_t frame_count(const PathInterpolator& interpolator, double rate);
 /// The path's haptic frames: frame k has the time start + k / rate, each computed from k and not by adding up
 /// steps. Quaternion signs are continuous from frame to frame.
 /// @param rate frames a second [Hz], > 0
-Path resample(const PathInterpolator& interpolator, double rate);
+/// @param most  the first so many frames only; unset: all
+Path resample(const PathInterpolator& interpolator, double rate,
+              std::optional<std::size_t> most = std::nullopt);
+
+/// Refuses a path whose frames no machine holds: its times are likely not in seconds.
+/// @param most  the first so many frames only; unset: all
+/// @param file  of the path, for the message
+/// @throws InputError for more frames than `Limit::FRAMES`
+void refuse_too_many_frames(const PathInterpolator& interpolator, double rate,
+                            std::optional<std::size_t> most, const std::string& file);
 
 }  // namespace lmdbench

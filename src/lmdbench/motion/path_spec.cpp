@@ -1,6 +1,8 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/base/error.h>
+#include <lmdbench/base/input_file.h>
+#include <lmdbench/base/json_text.h>
 #include <lmdbench/motion/path_spec.h>
 
 #include <fmt/format.h>
@@ -8,8 +10,6 @@
 #include <nlohmann/json.hpp>
 
 #include <cmath>
-#include <fstream>
-#include <iterator>
 #include <numbers>
 #include <optional>
 #include <set>
@@ -146,15 +146,7 @@ std::vector<GapPoint> read_gaps(ObjectReader& reader, double gap_floor) {
 }  // namespace
 
 PathSpec parse_path_spec(const std::string& text, const std::string& name) {
-  Json json;
-  try {
-    json = Json::parse(text);
-  } catch (const Json::parse_error& error) {
-    throw UsageError(name, fmt::format("byte {}", error.byte), "is not JSON", "repair the text there");
-  } catch (const Json::exception& error) {
-    throw UsageError(name, "", fmt::format("cannot be used: {}", error.what()),
-                     "keep numbers within double precision");
-  }
+  const Json json = parse_json(text, name);
   ObjectReader reader(json, name, "");
   PathSpec spec;
   spec.moving = read_placed_mesh(reader.object("moving"));
@@ -175,15 +167,17 @@ PathSpec parse_path_spec(const std::string& text, const std::string& name) {
   spec.gap_floor = reader.not_negative("gap_floor");
   spec.gaps = read_gaps(reader, spec.gap_floor);
   reader.refuse_unknown_keys();
+  if (!(spec.duration() * spec.frame_rate < static_cast<double>(limit_of(Limit::FRAMES))))
+    reader.fail("frame_rate_hz",
+                fmt::format("{:g} s at {:g} Hz are {:g} frames, above the limit of {}", spec.duration(),
+                            spec.frame_rate, spec.duration() * spec.frame_rate, limit_of(Limit::FRAMES)),
+                "shorten the gaps' times, lower the rate, or " + raise_remedy(Limit::FRAMES));
   return spec;
 }
 
 PathSpec read_path_spec(const std::filesystem::path& file) {
-  std::ifstream stream(file);
-  if (!stream || std::filesystem::is_directory(file))
-    throw InputError(file.string(), "", "cannot be opened for reading", "check the name and its permissions");
-  return parse_path_spec({std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()},
-                         file.string());
+  const InputKind kind{.what = "path specification", .most_bytes = Limit::JSON_BYTES};
+  return parse_path_spec(read_input_file(file, kind).bytes, file.string());
 }
 
 }  // namespace lmdbench

@@ -2,6 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/base/atomic_file.h>
 #include <lmdbench/base/error.h>
+#include <lmdbench/base/input_file.h>
+#include <lmdbench/base/limits.h>
+#include <lmdbench/geometry/tolerance.h>
 #include <lmdbench/motion/tum_file.h>
 
 #include <fmt/format.h>
@@ -9,7 +12,6 @@
 #include <array>
 #include <charconv>
 #include <cmath>
-#include <fstream>
 #include <istream>
 #include <limits>
 #include <sstream>
@@ -46,6 +48,8 @@ Complaint complaint_about(const TimedPose& timed, const TimedPose* previous) {
   if (previous != nullptr && !(timed.time > previous->time))
     return {fmt::format("time {} does not lie after the time before it, {}", timed.time, previous->time),
             "sort the poses by time and keep one pose a time"};
+  if (!(timed.pose.translation.cwiseAbs().maxCoeff() <= LARGEST_COORDINATE))
+    return {fmt::format("a coordinate above {:g} m", LARGEST_COORDINATE), "give metres, near the meshes"};
   // Not |q|^2: the tolerance is one of lengths.
   const double length = timed.pose.rotation.coeffs().stableNorm();
   if (std::abs(length - 1.0) > QUATERNION_LENGTH_TOLERANCE)
@@ -96,10 +100,11 @@ void append_number(std::string& text, double value, std::optional<int> decimals)
 
 }  // namespace
 
-Path read_tum(std::istream& stream, const std::string& name) {
+Path parse_tum(std::string_view text, const std::string& name) {
   Path path;
-  std::string line;
-  for (std::size_t number = 1; std::getline(stream, line); ++number) {
+  for (std::size_t number = 1; !text.empty(); ++number) {
+    const std::string_view line = text.substr(0, text.find('\n'));
+    text.remove_prefix(std::min(line.size() + 1, text.size()));
     const std::vector<std::string_view> words = split(line);
     if (words.empty() || words.front().starts_with('#')) continue;
     const std::string place = fmt::format("line {}", number);
@@ -118,17 +123,26 @@ Path read_tum(std::istream& stream, const std::string& name) {
     if (squared_length_error(timed.pose.rotation) > UNIT_ROUNDING) timed.pose.rotation.normalize();
     path.push_back(timed);
   }
-  if (stream.bad()) throw InputError(name, "", "cannot be read to its end", "check the file and its disk");
   if (path.empty())
     throw InputError(name, "", "holds no pose", fmt::format("give at least one line of '{}'", COLUMNS));
   return path;
 }
 
+Path read_tum(std::istream& stream, const std::string& name) {
+  std::string text;
+  std::array<char, 1 << 16> block;
+  while (stream.read(block.data(), block.size()), stream.gcount() > 0) {
+    text.append(block.data(), static_cast<std::size_t>(stream.gcount()));
+    if (static_cast<std::int64_t>(text.size()) > limit_of(Limit::FILE_BYTES))
+      throw InputError(name, "", fmt::format("more than {} bytes of poses", limit_of(Limit::FILE_BYTES)),
+                       "give fewer poses, or " + raise_remedy(Limit::FILE_BYTES));
+  }
+  if (stream.bad()) throw InputError(name, "", "cannot be read to its end", "check the file and its disk");
+  return parse_tum(text, name);
+}
+
 Path read_tum(const std::filesystem::path& file) {
-  std::ifstream stream(file);
-  if (!stream || std::filesystem::is_directory(file))
-    throw InputError(file.string(), "", "cannot be opened for reading", "check the name and its permissions");
-  return read_tum(stream, file.string());
+  return parse_tum(read_input_file(file, {.what = "path"}).bytes, file.string());
 }
 
 std::string tum_text(const Path& path, const std::string& comment, std::optional<int> decimals) {

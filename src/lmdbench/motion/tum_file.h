@@ -7,6 +7,7 @@
 #include <iosfwd>
 #include <optional>
 #include <string>
+#include <string_view>
 
 namespace lmdbench {
 
@@ -20,11 +21,16 @@ inline constexpr double QUATERNION_LENGTH_TOLERANCE = 1e-3;
 /// whatever the locale. A quaternion that is unit to rounding keeps its bits, so reading what
 /// `write_tum` wrote gives the same path bit for bit; one within QUATERNION_LENGTH_TOLERANCE is
 /// normalised. Signs of quaternions are kept as written.
-/// @throws InputError naming file, line and remedy: not a number, NaN or infinity, wrong number of columns,
+/// @throws InputError naming file, line and remedy: not a number, NaN or infinity, a coordinate above
+///         `LARGEST_COORDINATE`, wrong number of columns,
 ///         time not strictly increasing, quaternion not of unit length, no pose at all, unreadable file
 Path read_tum(const std::filesystem::path& file);
 
-/// The same from a stream, e.g. standard input; `name` stands for the file in messages.
+/// The same from text; `name` stands for the file in messages.
+Path parse_tum(std::string_view text, const std::string& name);
+
+/// The same from a stream, e.g. standard input, which is read to its end first.
+/// @throws InputError also for more than FILE_BYTES bytes
 Path read_tum(std::istream& stream, const std::string& name);
 
 /// Text of a TUM trajectory.

@@ -1,6 +1,5 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include <lmdbench/base/file_hash.h>
 #include <lmdbench/record/build_info.h>
 #include <lmdbench/record/machine_info.h>
 #include <lmdbench/record/provenance.h>
@@ -30,12 +29,12 @@ void write_inputs(ResultWriter& writer, const std::vector<InputFile>& inputs) {
   for (const InputFile& input : inputs) {
     roles.push_back(input.role);
     files.push_back(input.file.generic_string());
-    hashes.push_back(sha256_of_file(input.file));
-    sizes.push_back(static_cast<std::int64_t>(std::filesystem::file_size(input.file)));
+    hashes.push_back(input.sha256);
+    sizes.push_back(input.size);
   }
   writer.write({"/provenance/inputs/role", "1", "what the file is to the experiment"}, roles);
   writer.write({"/provenance/inputs/file", "1", "path of the file as the run named it"}, files);
-  writer.write({"/provenance/inputs/sha256", "1", "SHA-256 of the file's bytes"}, hashes);
+  writer.write({"/provenance/inputs/sha256", "1", "SHA-256 of the bytes that were read"}, hashes);
   writer.write({"/provenance/inputs/size", "byte", "length of the file"}, sizes, {sizes.size()});
 }
 

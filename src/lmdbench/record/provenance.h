@@ -4,6 +4,7 @@
 
 #include <lmdbench/record/result_writer.h>
 
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -14,6 +15,9 @@ namespace lmdbench {
 struct InputFile {
   std::string role;  ///< "mesh:bunny-16k", "path"
   std::filesystem::path file;
+  std::string
+      sha256;  ///< Of the bytes that were used, lower-case hexadecimal; the file may have changed since.
+  std::int64_t size = 0;  ///< Of these bytes.
 };
 
 /// "lmdbench 0.1.0 (commit, dirty flag), compiler, flags, library versions": the text of `--version`.
@@ -27,7 +31,6 @@ inline constexpr int RESULT_FORMAT_VERSION = 2;
 /// the result contract: program version, git commit, dirty flag, compiler and flags, processor, cores,
 /// library versions, argv, the resolved experiment and the plan as JSON text, and the inputs with their
 /// SHA-256. Call it before the run: the load average is that of the moment.
-/// @throws InputError when an input cannot be read
 void write_provenance(ResultWriter& writer, const std::vector<std::string>& argv,
                       const std::string& experiment_json, const std::string& plan_json,
                       const std::vector<InputFile>& inputs);

@@ -1,0 +1,80 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/base/file_descriptor.h>
+#include <lmdbench/base/file_hash.h>
+#include <lmdbench/base/input_file.h>
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <system_error>
+
+namespace lmdbench {
+namespace {
+
+/// What a file is that is no regular one; "no regular file" for anything exotic.
+const char* kind_of(mode_t mode) {
+  if (S_ISDIR(mode)) return "a directory";
+  if (S_ISFIFO(mode)) return "a FIFO";
+  if (S_ISCHR(mode) || S_ISBLK(mode)) return "a device";
+  if (S_ISSOCK(mode)) return "a socket";
+  return "no regular file";
+}
+
+}  // namespace
+
+FileContent read_input_file(const std::filesystem::path& file, const InputKind& kind) {
+  const auto fail = [&](const std::string& problem, const std::string& remedy) {
+    if (kind.code == ExitCode::USAGE) throw UsageError(file.string(), "", problem, remedy);
+    throw InputError(file.string(), "", problem, remedy);
+  };
+  const auto fail_for = [&](int error) {
+    fail(fmt::format("cannot read the {}: {}", kind.what, std::generic_category().message(error)),
+         kind.remedy);
+  };
+  // Looked at before it is opened: opening alone can make a device act.
+  struct stat status {};
+  if (::stat(file.c_str(), &status) != 0) fail_for(errno);
+  const auto check_regular = [&] {
+    if (!S_ISREG(status.st_mode))
+      fail(fmt::format("is {}, not a {}", kind_of(status.st_mode), kind.what), "name a regular file");
+  };
+  check_regular();
+  // Not blocking: between the two calls a FIFO may have taken the name.
+  const FileDescriptor descriptor(::open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY));
+  if (!descriptor.valid()) fail_for(errno);
+  if (::fstat(descriptor.get(), &status) != 0) fail_for(errno);
+  check_regular();
+  const std::int64_t most = limit_of(kind.most_bytes);
+  const auto refuse_large = [&](std::int64_t size) {
+    if (size > most)
+      fail(fmt::format("has {} bytes or more, above the limit of {} for a {}", size, most, kind.what),
+           "check that it is the right file, or " + raise_remedy(kind.most_bytes));
+  };
+  refuse_large(status.st_size);
+
+  FileContent input{file, std::string(static_cast<std::size_t>(status.st_size), '\0'), {}};
+  std::array<char, 4096> beyond;  // a file that still grows is read to its end
+  std::size_t length = 0;
+  for (;;) {
+    const bool in_place = length < input.bytes.size();
+    char* target = in_place ? input.bytes.data() + length : beyond.data();
+    const ssize_t count =
+        ::read(descriptor.get(), target, in_place ? input.bytes.size() - length : beyond.size());
+    if (count < 0 && errno == EINTR) continue;
+    if (count < 0) fail_for(errno);
+    if (count == 0) break;
+    if (!in_place) input.bytes.append(beyond.data(), static_cast<std::size_t>(count));
+    length += static_cast<std::size_t>(count);
+    refuse_large(static_cast<std::int64_t>(length));
+  }
+  input.bytes.resize(length);
+  input.sha256 = sha256_of_text(input.bytes);
+  return input;
+}
+
+}  // namespace lmdbench

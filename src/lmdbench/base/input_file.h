@@ -1,0 +1,34 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <lmdbench/base/error.h>
+#include <lmdbench/base/limits.h>
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+
+namespace lmdbench {
+
+/// What a reader of a file knows about it beforehand, for messages and limits.
+struct InputKind {
+  std::string what;                      ///< "mesh", "path", "experiment file"
+  ExitCode code = ExitCode::INPUT_DATA;  ///< Of a file that cannot be read: this or USAGE.
+  Limit most_bytes = Limit::FILE_BYTES;  ///< A larger file is refused.
+  std::string remedy = "check the name and the permissions";  ///< For a file that is not there.
+};
+
+/// A file's bytes, read once: what is parsed is what is hashed, whatever happens to the file meanwhile.
+struct FileContent {
+  std::filesystem::path file;
+  std::string bytes;
+  std::string sha256;  ///< Of the bytes, lower-case hexadecimal.
+};
+
+/// Reads a regular file. Directories, devices, FIFOs and sockets are refused without waiting for them;
+/// symbolic links to regular files are followed.
+/// @throws InputError, or UsageError where the kind's code says so: no such file, no regular file, larger than the limit, unreadable
+FileContent read_input_file(const std::filesystem::path& file, const InputKind& kind);
+
+}  // namespace lmdbench

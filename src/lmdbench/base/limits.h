@@ -1,0 +1,51 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+
+/// How much of anything an input may ask for. Files come from everywhere: what is larger than any honest one is
+/// refused before it costs minutes or the machine's memory, by a message that names the limit.
+namespace lmdbench {
+
+enum class Limit : std::uint8_t {
+  FILE_BYTES,        ///< Of a mesh or path file.
+  JSON_BYTES,        ///< Of an experiment, path specification or manifest.
+  JSON_DEPTH,        ///< Arrays and objects inside each other.
+  JSON_TEXT,         ///< Bytes of one text or key.
+  TRIANGLES,         ///< Of one mesh.
+  POLYGON_CORNERS,   ///< Of a face that is cut into triangles.
+  EDGE_TRIANGLES,    ///< Triangles that share one edge.
+  VERTEX_TRIANGLES,  ///< Triangles that share one vertex.
+  IMPORT_SECONDS,    ///< Processor time of the child process that reads a mesh.
+  IMPORT_BYTES,      ///< Memory of that process.
+  FRAMES,            ///< Haptic frames of a run or a path.
+  BODIES,            ///< Fixed meshes of an experiment.
+  COUNT
+};
+
+struct LimitInfo {
+  Limit limit;
+  std::string_view name;  ///< As `--limit NAME=NUMBER` takes it.
+  std::int64_t usual;     ///< Without an option.
+  std::int64_t most;      ///< An option cannot ask for more: beyond it the program itself would break.
+  std::string_view meaning;
+};
+
+/// All limits, in the order of `Limit`.
+std::span<const LimitInfo> limit_table();
+
+std::int64_t limit_of(Limit limit);
+
+/// Sets a limit for the whole process, from text "NAME=NUMBER". For the start of a program: readers on other
+/// threads would see it at any moment.
+/// @throws UsageError for an unknown name and for a number that is not from 1 to `most`
+void set_limit(const std::string& text);
+
+/// "raise it with --limit frames=NUMBER": the end of a remedy. Say first what else could be done.
+std::string raise_remedy(Limit limit);
+
+}  // namespace lmdbench

@@ -1,0 +1,35 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace lmdbench {
+
+/// A kind of file that this program writes, and how it knows its own ones again.
+struct OutputKind {
+  std::string what;  ///< "result file", "path"
+  /// Whether a file that is there is one of ours and may be replaced.
+  std::function<bool(const std::filesystem::path& file)> is_ours;
+};
+
+/// Makes sure that writing a file replaces nothing but an earlier output of the same kind: the name is free, or
+/// names an empty file or one of ours. Symbolic links are refused, dangling ones too, as are directories,
+/// devices, FIFOs, foreign files, and whatever is one of the inputs by any name (hard links included).
+/// @param option  that named the file, for the remedy: "--out"
+/// @throws UsageError; nothing was touched
+void refuse_unsafe_output(const std::filesystem::path& file, const OutputKind& kind,
+                          const std::vector<std::filesystem::path>& inputs, const std::string& option);
+
+/// Whether the file begins with a text of at most 4096 bytes; false where it cannot be read. Links are not
+/// followed.
+bool file_begins_with(const std::filesystem::path& file, std::string_view start);
+
+/// The first 4096 bytes of a regular file, fewer where it is shorter; empty where it cannot be read.
+std::string first_bytes(const std::filesystem::path& file);
+
+}  // namespace lmdbench

@@ -1,0 +1,27 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <lmdbench/mesh/triangle_mesh.h>
+
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace lmdbench {
+
+/// Extensions of the formats that are read through assimp, lower-case: PLY, STL, OBJ, glTF 2. Its fifty other
+/// readers are not asked: they read damaged files by guess, and several loop or crash on them.
+std::span<const std::string_view> assimp_extensions();
+
+/// Reads a mesh through assimp in a child process of limited time and memory (`Limit::IMPORT_SECONDS`,
+/// `Limit::IMPORT_BYTES`), because assimp may loop or crash on damaged files. No other file is opened, whatever
+/// the mesh refers to (materials, buffers, textures). One import at a time in a process.
+/// @param bytes      the whole file
+/// @param extension  one of `assimp_extensions`
+/// @param file       its name, for messages
+/// @return all meshes of the file, merged; not welded
+/// @throws InputError when the file is damaged or the child ends without an answer
+TriangleMesh read_with_assimp(std::string_view bytes, std::string_view extension, const std::string& file);
+
+}  // namespace lmdbench

@@ -1,0 +1,16 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace lmdbench {
+
+/// Refuses what assimp (5.2.5) reads in more than linear time from OBJ text: lines without end and polygons of
+/// more corners than the limit. Linear in the text.
+/// @param file  its name, for messages
+/// @throws InputError naming the line
+void check_obj(std::string_view text, const std::string& file);
+
+}  // namespace lmdbench

@@ -1,0 +1,243 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/base/error.h>
+#include <lmdbench/base/limits.h>
+#include <lmdbench/catalogue/ply_check.h>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+namespace lmdbench {
+namespace {
+
+constexpr const char* CUT_SHORT =
+    "the file may be cut short: get it again, or correct the counts in its header";
+constexpr std::string_view BLANKS = " \t\r\n\v\f";
+
+struct ScalarType {
+  std::string_view name;
+  std::size_t bytes;
+  bool is_integer;
+  bool is_signed;
+};
+
+constexpr std::array<ScalarType, 16> SCALAR_TYPES{{{"char", 1, true, true},
+                                                   {"int8", 1, true, true},
+                                                   {"uchar", 1, true, false},
+                                                   {"uint8", 1, true, false},
+                                                   {"short", 2, true, true},
+                                                   {"int16", 2, true, true},
+                                                   {"ushort", 2, true, false},
+                                                   {"uint16", 2, true, false},
+                                                   {"int", 4, true, true},
+                                                   {"int32", 4, true, true},
+                                                   {"uint", 4, true, false},
+                                                   {"uint32", 4, true, false},
+                                                   {"float", 4, false, true},
+                                                   {"float32", 4, false, true},
+                                                   {"double", 8, false, true},
+                                                   {"float64", 8, false, true}}};
+
+struct Property {
+  ScalarType type;                  ///< Of a list: of its items.
+  std::optional<ScalarType> count;  ///< Of a list: of its length.
+  bool is_polygon = false;          ///< The list of a face's corners.
+};
+
+struct Element {
+  std::string name;
+  std::int64_t count = 0;
+  std::vector<Property> properties;
+};
+
+enum class Form : std::uint8_t { TEXT, LITTLE_ENDIAN_BINARY, BIG_ENDIAN_BINARY };
+
+std::string_view next_word(std::string_view& text) {
+  text.remove_prefix(std::min(text.size(), text.find_first_not_of(BLANKS)));
+  const std::string_view word = text.substr(0, text.find_first_of(BLANKS));
+  text.remove_prefix(word.size());
+  return word;
+}
+
+std::optional<std::int64_t> whole_number(std::string_view word) {
+  std::int64_t value = 0;
+  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+  if (error != std::errc{} || end != word.data() + word.size()) return std::nullopt;
+  return value;
+}
+
+/// The header, line by line.
+class HeaderReader {
+ public:
+  HeaderReader(std::string_view bytes, const std::string& file) : rest_(bytes), file_(file) {}
+
+  std::vector<Element> read() {
+    if (next_line() != "ply") fail("does not begin with 'ply'");
+    for (;;) {
+      std::string_view line = next_line();
+      const std::string_view keyword = next_word(line);
+      if (keyword == "end_header") break;
+      if (keyword == "format") {
+        form_ = form_of(next_word(line));
+      } else if (keyword == "element") {
+        add_element(line);
+      } else if (keyword == "property") {
+        add_property(line);
+      } else if (keyword != "comment" && keyword != "obj_info") {
+        fail(fmt::format("'{}' is no keyword of a header", keyword));
+      }
+    }
+    if (!form_) fail("the header names no format");
+    return std::move(elements_);
+  }
+  Form form() const { return *form_; }
+  std::string_view body() const { return rest_; }
+
+ private:
+  [[noreturn]] void fail(const std::string& problem, const std::string& remedy = "correct the header") const {
+    throw InputError(file_, fmt::format("line {}", line_number_), problem, remedy);
+  }
+
+  std::string_view next_line() {
+    ++line_number_;
+    const std::size_t end = rest_.find('\n');
+    if (end == std::string_view::npos)
+      fail("the header ends without 'end_header'", "the file may be cut short: get it again");
+    std::string_view line = rest_.substr(0, end);
+    rest_.remove_prefix(end + 1);
+    while (!line.empty() && BLANKS.find(line.back()) != std::string_view::npos) line.remove_suffix(1);
+    return line;
+  }
+
+  Form form_of(std::string_view word) const {
+    if (word == "ascii") return Form::TEXT;
+    if (word == "binary_little_endian") return Form::LITTLE_ENDIAN_BINARY;
+    if (word == "binary_big_endian") return Form::BIG_ENDIAN_BINARY;
+    fail(fmt::format("'{}' is no format", word), "use ascii, binary_little_endian or binary_big_endian");
+  }
+
+  ScalarType type_of(std::string_view word) const {
+    const auto* const found = std::find_if(SCALAR_TYPES.begin(), SCALAR_TYPES.end(),
+                                           [&](const ScalarType& type) { return type.name == word; });
+    if (found == SCALAR_TYPES.end())
+      fail(fmt::format("'{}' is no type of a property", word), "use float, double, uchar, int, ...");
+    return *found;
+  }
+
+  void add_element(std::string_view line) {
+    Element element;
+    element.name = next_word(line);
+    const std::optional<std::int64_t> count = whole_number(next_word(line));
+    if (!count || *count < 0) fail(fmt::format("element '{}' has no count of at least 0", element.name));
+    element.count = *count;
+    if (element.name == "face" && element.count > limit_of(Limit::TRIANGLES))
+      fail(
+          fmt::format("announces {} faces, above the limit of {}", element.count, limit_of(Limit::TRIANGLES)),
+          "decimate the mesh, or " + raise_remedy(Limit::TRIANGLES));
+    elements_.push_back(std::move(element));
+  }
+
+  void add_property(std::string_view line) {
+    if (elements_.empty()) fail("a property stands before the first element");
+    Property property;
+    std::string_view word = next_word(line);
+    if (word == "list") {
+      property.count = type_of(next_word(line));
+      if (!property.count->is_integer) fail("the length of a list is no whole number");
+      word = next_word(line);
+    }
+    property.type = type_of(word);
+    const std::string_view name = next_word(line);
+    if (name.empty()) fail("a property has no name");
+    property.is_polygon = property.count && (name == "vertex_indices" || name == "vertex_index");
+    elements_.back().properties.push_back(property);
+  }
+
+  std::string_view rest_;
+  std::string file_;
+  std::size_t line_number_ = 0;
+  std::optional<Form> form_;
+  std::vector<Element> elements_;
+};
+
+/// Walks over the content behind the header.
+class BodyWalk {
+ public:
+  BodyWalk(std::string_view body, Form form, const std::string& file)
+      : rest_(body), form_(form), file_(file) {}
+
+  void walk(const std::vector<Element>& elements) {
+    for (const Element& element : elements) {
+      if (element.properties.empty() && element.count > 0)
+        throw InputError(file_, "element " + element.name, "has no properties", "correct the header");
+      for (std::int64_t i = 0; i < element.count; ++i)
+        for (const Property& property : element.properties) skip(property, element, i);
+    }
+    std::string_view left = rest_;
+    if (form_ == Form::TEXT ? !next_word(left).empty() : !left.empty())
+      throw InputError(file_, "", "goes on behind what its header announces", CUT_SHORT);
+  }
+
+ private:
+  void skip(const Property& property, const Element& element, std::int64_t index) {
+    std::int64_t items = 1;
+    if (property.count) {
+      const std::optional<std::int64_t> length = read_whole_number(*property.count);
+      if (!length || *length < 0) fail(element, index, "has no whole number for the length of its list");
+      items = *length;
+      if (property.is_polygon && items > limit_of(Limit::POLYGON_CORNERS))
+        throw InputError(
+            file_, fmt::format("{} {}", element.name, index),
+            fmt::format("is a polygon of {} corners, above the limit of {}", items,
+                        limit_of(Limit::POLYGON_CORNERS)),
+            "cut it into triangles where it was made, or " + raise_remedy(Limit::POLYGON_CORNERS));
+    }
+    if (form_ == Form::TEXT) {
+      for (; items > 0; --items)
+        if (next_word(rest_).empty()) fail(element, index, "is not there: the file ends before");
+      return;
+    }
+    if (static_cast<std::uint64_t>(items) > rest_.size() / property.type.bytes)
+      fail(element, index, "is not there: the file ends before");
+    rest_.remove_prefix(static_cast<std::size_t>(items) * property.type.bytes);
+  }
+
+  std::optional<std::int64_t> read_whole_number(const ScalarType& type) {
+    if (form_ == Form::TEXT) return whole_number(next_word(rest_));
+    if (rest_.size() < type.bytes) return std::nullopt;
+    std::uint64_t bits = 0;
+    for (std::size_t i = 0; i < type.bytes; ++i) {
+      const std::size_t at = form_ == Form::BIG_ENDIAN_BINARY ? i : type.bytes - 1 - i;
+      bits = (bits << 8U) | static_cast<unsigned char>(rest_[at]);
+    }
+    rest_.remove_prefix(type.bytes);
+    const std::uint64_t sign_bit = std::uint64_t{1} << (8 * type.bytes - 1);
+    if (type.is_signed && (bits & sign_bit) != 0) return -1;
+    return static_cast<std::int64_t>(bits);
+  }
+
+  [[noreturn]] void fail(const Element& element, std::int64_t index, const std::string& problem) const {
+    throw InputError(file_, fmt::format("{} {} of {}", element.name, index, element.count), problem,
+                     CUT_SHORT);
+  }
+
+  std::string_view rest_;
+  Form form_;
+  std::string file_;
+};
+
+}  // namespace
+
+void check_ply(std::string_view bytes, const std::string& file) {
+  HeaderReader header(bytes, file);
+  const std::vector<Element> elements = header.read();
+  BodyWalk(header.body(), header.form(), file).walk(elements);
+}
+
+}  // namespace lmdbench

@@ -1,0 +1,65 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/base/child_process.h>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <array>
+#include <csignal>
+#include <cstdlib>
+#include <stdexcept>
+#include <vector>
+
+namespace lmdbench {
+namespace {
+
+using ::testing::HasSubstr;
+constexpr ChildLimits LIMITS{1, std::int64_t{64} << 20};
+
+/// How a child ends that sends nothing.
+std::string end_of(const std::function<void()>& work) {
+  ChildProcess child([&](const ChildProcess::Send&) { work(); }, LIMITS);
+  std::array<std::byte, 1> byte;
+  EXPECT_FALSE(child.receive(byte));
+  return child.end_in_words();
+}
+
+TEST(ChildProcess, SendsMoreThanAPipeHolds) {
+  std::vector<std::byte> sent(1 << 20);
+  for (std::size_t i = 0; i < sent.size(); ++i) sent[i] = static_cast<std::byte>(i * 7);
+  ChildProcess child([&](const ChildProcess::Send& send) { send(sent); }, LIMITS);
+  std::vector<std::byte> received(sent.size());
+  EXPECT_TRUE(child.receive(received));
+  EXPECT_EQ(received, sent);
+  EXPECT_FALSE(child.receive(std::span(received).first(1))) << "nothing more";
+}
+
+TEST(ChildProcess, TellsHowItEnded) {
+  EXPECT_THAT(end_of([] { ::raise(SIGSEGV); }), HasSubstr("crashed (signal 11)"));
+  EXPECT_THAT(end_of([] { throw std::runtime_error("x"); }), HasSubstr("status"));
+  EXPECT_THAT(end_of([] {
+                volatile bool forever = true;
+                while (forever) {
+                }
+              }),
+              HasSubstr("used up its 1 s"));
+}
+
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+TEST(ChildProcess, MemoryIsLimited) {
+  EXPECT_THAT(end_of([] {
+                std::vector<char> eaten(std::size_t{256} << 20, 'x');
+                if (eaten[7] == 'y') std::abort();
+              }),
+              HasSubstr("memory"));
+}
+#endif
+
+TEST(ChildProcess, EndsWithItsOwner) {
+  ChildProcess child([](const ChildProcess::Send&) { ::pause(); }, LIMITS);
+}
+
+}  // namespace
+}  // namespace lmdbench

@@ -1,0 +1,102 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/base/atomic_file.h>
+#include <lmdbench/base/error.h>
+#include <lmdbench/base/output_guard.h>
+
+#include "support/message_of.h"
+#include "support/scratch_directory.h"
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <string>
+#include <thread>
+#include <vector>
+
+namespace lmdbench {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::HasSubstr;
+using testing::message_of;
+using testing::ScratchDirectory;
+
+const OutputKind OURS{"note", [](const fs::path& file) { return file_begins_with(file, "ours"); }};
+
+std::string text_of(const fs::path& file) {
+  std::ifstream stream(file);
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+class OutputGuard : public ::testing::Test {
+ protected:
+  std::string refusal(const fs::path& file, const std::vector<fs::path>& inputs = {}) {
+    return message_of<UsageError>([&] { refuse_unsafe_output(file, OURS, inputs, "--out"); });
+  }
+  ScratchDirectory folder_;
+};
+
+TEST_F(OutputGuard, AllowsFreeNamesEmptyFilesAndEarlierOutputs) {
+  refuse_unsafe_output(folder_ / "free", OURS, {}, "--out");
+  refuse_unsafe_output(folder_.write("empty", ""), OURS, {}, "--out");
+  refuse_unsafe_output(folder_.write("old", "ours, too"), OURS, {folder_ / "other", folder_ / "none"},
+                       "--out");
+}
+
+TEST_F(OutputGuard, RefusesInputsByAnyName) {
+  const fs::path input = folder_.write("input", "ours");
+  EXPECT_THAT(refusal(input, {input}), HasSubstr("is also read"));
+  EXPECT_THAT(refusal(folder_ / "." / "input", {input}), HasSubstr("is also read"));
+  fs::create_hard_link(input, folder_ / "hard");
+  EXPECT_THAT(refusal(folder_ / "hard", {input}), HasSubstr("is also read"));
+  fs::create_symlink(input, folder_ / "link");
+  EXPECT_THAT(refusal(input, {folder_ / "link"}), HasSubstr("is also read"));
+}
+
+TEST_F(OutputGuard, RefusesWhatIsNoFileOfOurs) {
+  EXPECT_THAT(refusal(folder_.write("notes.txt", "mine")), HasSubstr("no note of lmdbench"));
+  EXPECT_THAT(refusal(folder_.path()), HasSubstr("directory"));
+  EXPECT_THAT(refusal("/dev/null"), HasSubstr("device"));
+  EXPECT_THAT(refusal(folder_ / ""), HasSubstr("names no file"));
+  ASSERT_EQ(::mkfifo((folder_ / "fifo").c_str(), 0600), 0);
+  EXPECT_THAT(refusal(folder_ / "fifo"), HasSubstr("FIFO"));
+  fs::create_symlink(folder_.write("target", "ours"), folder_ / "link");
+  EXPECT_THAT(refusal(folder_ / "link"), HasSubstr("symbolic link"));
+  fs::create_symlink(folder_ / "nowhere", folder_ / "dangling");
+  EXPECT_THAT(refusal(folder_ / "dangling"), HasSubstr("symbolic link"));
+}
+
+TEST(AtomicFile, LeavesNoPartAndFollowsNoLink) {
+  const ScratchDirectory folder;
+  folder.write("victim", "mine");
+  fs::create_symlink(folder / "victim", folder / "out");
+  write_file_atomically(folder / "out", "new");
+  EXPECT_EQ(text_of(folder / "victim"), "mine");
+  EXPECT_EQ(text_of(folder / "out"), "new");
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder.path()), fs::directory_iterator()), 2)
+      << "no part left";
+}
+
+TEST(AtomicFile, WritersOfOneNameDoNotMeet) {
+  const ScratchDirectory folder;
+  const std::string a(1 << 20, 'a'), b(1 << 20, 'b');
+  std::thread other([&] {
+    for (int i = 0; i < 20; ++i) write_file_atomically(folder / "out", a);
+  });
+  for (int i = 0; i < 20; ++i) write_file_atomically(folder / "out", b);
+  other.join();
+  const std::string left = text_of(folder / "out");
+  EXPECT_TRUE(left == a || left == b);
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder.path()), fs::directory_iterator()), 1);
+}
+
+TEST(AtomicFile, AFullDiskIsAnErrorAndLeavesTheOldFile) {
+  EXPECT_THROW(write_file_atomically("/proc/no-such-file", "x"), EnvironmentError);
+}
+
+}  // namespace
+}  // namespace lmdbench
