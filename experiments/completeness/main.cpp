@@ -146,9 +146,9 @@ nlohmann::json run_path(const std::string& experiment, const Choice& choice, Com
                           {"frames", result.frames},
                           {"coherent_against_scratch", to_json(result.against_scratch)},
                           {"coherent_against_exhaustive", to_json(result.against_truth)}};
-  for (const Counter counter : {Counter::NODE_PAIRS, Counter::LEAF_PAIRS, Counter::TRIANGLE_DISTANCES})
-    entry["work"][std::string(counter_name(counter))] = {{"coherent", result.coherent_work[counter]},
-                                                         {"from_scratch", result.scratch_work[counter]}};
+  for (const CounterDescription& counter : method_description("certified").counters)
+    entry["work"][counter.name] = {{"coherent", result.coherent_work.values[counter.index]},
+                                   {"from_scratch", result.scratch_work.values[counter.index]}};
   return entry;
 }
 

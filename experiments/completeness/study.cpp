@@ -15,9 +15,7 @@ namespace {
 
 template <bool Coherent, WideKernel Kernel>
 std::unique_ptr<Method> make_certified(const Scene& scene) {
-  MethodOptions options;
-  options.frame_coherence = Coherent;
-  return std::make_unique<Certified>(scene, options, Kernel);
+  return std::make_unique<Certified>(scene, CertifiedOptions{.frame_coherence = Coherent}, Kernel);
 }
 
 /// A line of a TUM file.

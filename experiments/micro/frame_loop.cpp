@@ -14,10 +14,10 @@
 
 namespace lmdbench::micro {
 
-const LockstepMethod& RecordedPath::method(const std::string& label) const {
-  for (const LockstepMethod& method : methods)
-    if (method.label == label) return method;
-  throw std::out_of_range(name + " has no method " + label);
+LockstepMethod RecordedPath::method(const std::string& method) const {
+  for (const LockstepMethod& known : methods)
+    if (known.label == method) return known;
+  return {method, [method, scene = scene] { return make_method(method, scene); }, profile};
 }
 
 RecordedPath load_path(const PathChoice& choice) {
@@ -70,7 +70,7 @@ LmdError check_frames(const FrameImplementation& implementation, FrameLoop& loop
     const auto checked = std::lower_bound(path.checked.begin(), path.checked.end(), frame);
     if (checked == path.checked.end() || *checked != frame) continue;
     const auto index = static_cast<std::size_t>(checked - path.checked.begin());
-    error.add(implementation.exactness, fmt::format("frame {} of {}", frame, path.name), path.scene,
+    error.add(implementation.promise, fmt::format("frame {} of {}", frame, path.name), path.scene,
               path.truth[index], loop.lmds(), loop.minimum_distance());
   }
   return error;

@@ -30,8 +30,8 @@ struct RecordedPath {
   Truth truth = {};                       ///< One a checked frame, by `exhaustive`.
 
   const std::vector<Pose>& poses() const { return input.poses; }
-  /// @throws std::out_of_range for a label that the experiment has not
-  const LockstepMethod& method(const std::string& label) const;
+  /// The experiment's method of that label; where it has none, the method of that name with default options.
+  LockstepMethod method(const std::string& method) const;
 };
 
 struct PathChoice {
@@ -62,7 +62,7 @@ class FrameLoop {
 
 struct FrameImplementation {
   std::string name;
-  Exactness exactness = Exactness::APPROXIMATE;
+  Promise promise = Promise::APPROXIMATION;
   bool slow = false;  ///< Steps at the checked frames only; for loops that keep nothing from frame to frame.
   std::function<std::unique_ptr<FrameLoop>(const RecordedPath&)> make;
 };

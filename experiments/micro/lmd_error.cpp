@@ -18,7 +18,7 @@ Truth exhaustive_truth(const Scene& scene, const std::vector<Pose>& poses) {
   return truth;
 }
 
-void LmdError::add(Exactness exactness, const std::string& where, const Scene& scene, const LmdSet& truth,
+void LmdError::add(Promise promise, const std::string& where, const Scene& scene, const LmdSet& truth,
                    const LmdSet* lmds, double minimum) {
   const auto object = [&](const std::string& what) {
     if (objection.empty()) objection = where + ": " + what;
@@ -27,7 +27,7 @@ void LmdError::add(Exactness exactness, const std::string& where, const Scene& s
     const Agreement here = agreement(truth, *lmds, Match::SAME_FEATURES, scene);
     same += here;
     neighbours += agreement(truth, *lmds, Match::NEIGHBOURING_FEATURES, scene);
-    if (exactness == Exactness::COMPLETE_SET && !here.exact()) object("not the true LMD set");
+    if (promise == Promise::COMPLETE_SET && !here.exact()) object("not the true LMD set");
   }
   if (truth.empty()) return;
   const double true_minimum = minimum_distance(truth);
@@ -37,7 +37,7 @@ void LmdError::add(Exactness exactness, const std::string& where, const Scene& s
   worst_minimum_error = std::max(worst_minimum_error, relative);
   if (std::abs(relative) <= MINIMUM_TOLERANCE) return;
   ++minimum_missed;
-  if (exactness != Exactness::APPROXIMATE) object("not the true minimum distance");
+  if (promise != Promise::APPROXIMATION) object("not the true minimum distance");
 }
 
 }  // namespace lmdbench::micro

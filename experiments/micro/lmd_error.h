@@ -4,6 +4,7 @@
 
 #include <lmdbench/geometry/pose.h>
 #include <lmdbench/lmd/agreement.h>
+#include <lmdbench/lmd/method_description.h>
 #include <lmdbench/lmd/scene.h>
 
 #include <cstddef>
@@ -12,13 +13,6 @@
 #include <vector>
 
 namespace lmdbench::micro {
-
-/// How the error of an implementation is judged.
-enum class Exactness : std::uint8_t {
-  COMPLETE_SET,      ///< The LMD set must be the true one.
-  MINIMUM_DISTANCE,  ///< The minimum distance must be the true one.
-  APPROXIMATE        ///< May miss or overestimate, and the error is reported; never below the true minimum.
-};
 
 /// Ground truth at each pose.
 using Truth = std::vector<LmdSet>;
@@ -43,7 +37,7 @@ struct LmdError {
   /// @param where   names the pose in objections
   /// @param lmds    what was found; null for peers that find a nearest pair only
   /// @param minimum smallest distance that was found [m]; NaN for none
-  void add(Exactness exactness, const std::string& where, const Scene& scene, const LmdSet& truth,
+  void add(Promise promise, const std::string& where, const Scene& scene, const LmdSet& truth,
            const LmdSet* lmds, double minimum);
 };
 

@@ -42,7 +42,7 @@ void print_table(const std::string& title, const std::vector<VariantResult>& res
 nlohmann::json to_json(const VariantResult& result) {
   return {{"variant", result.variant.label},
           {"method", result.variant.method},
-          {"g5_tolerance_rad", result.variant.options.g5_tolerance_rad},
+          {"options", result.variant.options},
           {"trackings", result.variant.trackings},
           {"set", micro::error_json(result.same, result.neighbours)},
           {"poses_with_loss", result.poses_with_loss},

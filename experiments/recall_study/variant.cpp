@@ -5,10 +5,11 @@
 
 #include <cmath>
 #include <numbers>
-#include <utility>
 
 namespace lmdbench::recall_study {
 namespace {
+
+using Json = nlohmann::json;
 
 /// Relative to the true minimum distance.
 constexpr double MINIMUM_TOLERANCE = 1e-6;
@@ -27,34 +28,26 @@ bool misses_minimum(const LmdSet& truth, const LmdSet& reported) {
 }  // namespace
 
 std::vector<Variant> improved_variants() {
-  MethodOptions off;
-  off.visibility = Visibility::OFF;
-  MethodOptions vertex_normal;
-  vertex_normal.visibility = Visibility::VERTEX_NORMAL;
-  MethodOptions orthogonal;
-  orthogonal.visibility = Visibility::ORTHOGONAL;
-  MethodOptions literal_g3 = off;
-  literal_g3.literal_g3 = true;
+  const Json off = {{"visibility", "off"}};
+  const Json vertex_normal = {{"visibility", "vertex-normal"}};
   std::vector<Variant> variants = {
       {"cones only (visibility off)", "improved", off, 0},
       {"visibility vertex-normal", "improved", vertex_normal, 0},
-      {"visibility orthogonal", "improved", orthogonal, 0},
-      {"G3 as printed (E2), visibility off", "improved", literal_g3, 0},
+      {"visibility orthogonal", "improved", {{"visibility", "orthogonal"}}, 0},
+      {"G3 as printed (E2), visibility off", "improved", {{"visibility", "off"}, {"literal_g3", true}}, 0},
   };
-  const auto add_tracked = [&variants](const std::string& label, MethodOptions options, Reduction reduction,
-                                       TrackingOrder order) {
-    options.reduction = reduction;
-    options.tracking_order = order;
-    variants.push_back({label, "improved", options, 1});
-  };
-  for (const auto& [name, options] : {std::pair("off", off), std::pair("vertex-normal", vertex_normal)}) {
-    const std::string visibility = fmt::format("visibility {}, ", name);
-    add_tracked(visibility + "published reduction", options, Reduction::PUBLISHED,
-                TrackingOrder::NEAREST_FIRST);
-    add_tracked(visibility + "published reduction in triangle order", options, Reduction::PUBLISHED,
-                TrackingOrder::TRIANGLE_INDEX);
-    add_tracked(visibility + "loss-free reduction", options, Reduction::LOSS_FREE,
-                TrackingOrder::NEAREST_FIRST);
+  for (const Json& visibility : {off, vertex_normal}) {
+    const auto add_tracked = [&](const std::string& label, const Json& more) {
+      Json options = visibility;
+      options.update(more);
+      variants.push_back(
+          {fmt::format("visibility {}, {}", visibility["visibility"].get<std::string>(), label), "improved",
+           options, 1});
+    };
+    add_tracked("published reduction", {{"reduction", "published"}});
+    add_tracked("published reduction in triangle order",
+                {{"reduction", "published"}, {"tracking_order", "triangle-index"}});
+    add_tracked("loss-free reduction", {{"reduction", "loss-free"}});
   }
   return variants;
 }
@@ -62,13 +55,12 @@ std::vector<Variant> improved_variants() {
 std::vector<Variant> original_variants() {
   std::vector<Variant> variants;
   for (const int trackings : {0, 1})
-    for (const double tolerance : G5_TOLERANCES_RAD) {
-      MethodOptions options;
-      options.g5_tolerance_rad = tolerance;
+    for (const double tolerance : G5_TOLERANCES_RAD)
       variants.push_back(
-          {fmt::format("G5 tolerance {:.2f} rad{}", tolerance, trackings == 0 ? "" : ", tracked"), "original",
-           options, trackings});
-    }
+          {fmt::format("G5 tolerance {:.2f} rad{}", tolerance, trackings == 0 ? "" : ", tracked"),
+           "original",
+           {{"g5_tolerance_deg", tolerance * 180.0 / std::numbers::pi}},
+           trackings});
   return variants;
 }
 

@@ -14,7 +14,7 @@ namespace lmdbench::recall_study {
 struct Variant {
   std::string label;
   std::string method;
-  MethodOptions options;
+  nlohmann::json options = nlohmann::json::object();  ///< Those that are not the default.
   int trackings = 0;  ///< Trackings at the pose of the search; 0: candidates as the search left them.
 };
 

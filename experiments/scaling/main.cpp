@@ -5,6 +5,7 @@
 #include <lmdbench/catalogue/manifest.h>
 #include <lmdbench/lmd/body.h>
 #include <lmdbench/mesh/placement.h>
+#include <lmdbench/methods/registry.h>
 
 #include <CLI/CLI.hpp>
 #include <fmt/core.h>
@@ -140,11 +141,11 @@ class Bodies {
 nlohmann::json to_json(const Series& series) {
   nlohmann::json result = {{"seconds", series.seconds}, {"objection", series.objection}};
   if (series.same.true_lmds > 0) result["set"] = micro::error_json(series.same, series.neighbours);
-  for (std::size_t c = 0; c < COUNTER_COUNT && !series.counters.empty(); ++c) {
-    const auto counter = static_cast<Counter>(c);
+  if (series.counters.empty()) return result;
+  for (const CounterDescription& counter : method_description("certified").counters) {
     nlohmann::json values;
-    for (const WorkCounters& counters : series.counters) values.push_back(counters[counter]);
-    result["counters"][std::string(counter_name(counter))] = values;
+    for (const WorkCounters& counters : series.counters) values.push_back(counters.values[counter.index]);
+    result["counters"][counter.name] = values;
   }
   return result;
 }

@@ -41,9 +41,7 @@ class CertifiedRunner {
   CertifiedRunner(const Scene& scene, bool coherent, const std::vector<Pose>& poses,
                   const std::vector<std::vector<Pose>>& slides)
       : poses_(poses), slides_(slides) {
-    MethodOptions options;
-    options.frame_coherence = coherent;
-    method_ = make_method("certified", scene, options);
+    method_ = make_method("certified", scene, {{"frame_coherence", coherent}});
   }
   void slide(std::size_t pose) {
     WorkCounters ignored;
@@ -87,6 +85,15 @@ bool nearest_pair_is_lmd(const Scene& scene, const Pose& X_WM) {
   lmd.feature_moving = moving.feature_of(nearest.triangle_moving, nearest.pair.feature_a);
   lmd.feature_fixed = fixed.feature_of(nearest.triangle_fixed, nearest.pair.feature_b);
   return is_local_minimum(moving, RigidTransform(X_WM), fixed, lmd);
+}
+
+/// What `certified` is compared with: the other methods that are not brute force, and FCL.
+std::vector<micro::SearchImplementation> peer_searches() {
+  std::vector<micro::SearchImplementation> peers;
+  for (const micro::SearchImplementation& search : micro::method_searches())
+    if (!search.slow && search.promise != Promise::COMPLETE_SET) peers.push_back(search);
+  peers.push_back(micro::fcl_cold_search());
+  return peers;
 }
 
 double wall_seconds() {
@@ -142,9 +149,7 @@ Measurement measure(const Scene& scene, const std::vector<Pose>& poses, const Me
   for (const LmdSet& set : truth) result.lmd_counts.push_back(set.size());
 
   std::vector<std::unique_ptr<micro::GlobalSearch>> peers;
-  for (const micro::SearchImplementation& implementation :
-       {micro::improved_search(), micro::improved_search_with_reduction(), micro::original_search(),
-        micro::fcl_cold_search()}) {
+  for (const micro::SearchImplementation& implementation : peer_searches()) {
     peers.push_back(implementation.make(scene));
     micro::GlobalSearch* peer = peers.back().get();
     Series series;

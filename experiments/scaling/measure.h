@@ -38,7 +38,7 @@ struct MeasureChoice {
 /// - "certified": from scratch at unrelated poses, between the other implementations, so with cold caches;
 /// - "certified sliding": from scratch, but after a slide to the pose (slide.h), as in a haptic loop;
 /// - "certified coherent": the same slide with frame coherence;
-/// - "improved", "improved+reduction", "original", "fcl-cold".
+/// - the other methods, but for those that look at every pair of triangles, and "fcl-cold".
 /// Each is checked first: the minimum distance of `certified` (where the nearest pair is an LMD) and FCL must
 /// be the gap, and all three sets of `certified` the same.
 Measurement measure(const Scene& scene, const std::vector<Pose>& poses, const MeasureChoice& choice);

@@ -24,18 +24,12 @@ def described(text):
         if match:
             path, shape, units, _ = match.groups()
             rows[path] = (len([axis for axis in shape.split(",") if axis.strip()]), units.strip())
-    counters = re.search(r"^Counters: (.*?)\.\s", text, re.MULTILINE | re.DOTALL)
-    names = re.findall(r"`(\w+)`", counters.group(1)) if counters else []
-    for group in ("counters", "global_counters"):
-        row = rows.pop(f"{group}/NAME", None)
-        if row:
-            rows.update({f"{group}/{name}": row for name in names})
     return rows
 
 
 def documented_path(path):
-    """'/methods/LABEL/force' is described as 'force'."""
-    return re.sub(r"^/methods/[^/]+/", "", path)
+    """'/methods/LABEL/force' is described as 'force', the counters of all methods as 'counters/NAME'."""
+    return re.sub(r"^((?:global_)?counters)/[^/]+$", r"\1/NAME", re.sub(r"^/methods/[^/]+/", "", path))
 
 
 def differences(result, rows):

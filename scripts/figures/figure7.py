@@ -2,7 +2,8 @@
 # SPDX-FileCopyrightText: The lmdbench authors
 # SPDX-License-Identifier: BSD-3-Clause
 """Figure 7 of the paper from two result files: hard contact on the left, soft contact on the right; over time the
-force, the LMD counts, the time of global searches and of local updates of the original and the improved algorithm.
+force, the LMD counts, the time of global searches and of local updates of the methods that search now and then and
+track locally in between.
 Beyond the paper: the true force beside both forces, and the share of true LMDs that each method knows. Times are
 medians over the repetitions without the warm-up."""
 
@@ -17,8 +18,6 @@ import matplotlib.pyplot as plt
 from matplotlib.lines import Line2D
 from matplotlib.ticker import FixedLocator, FuncFormatter, LogLocator, MaxNLocator, NullLocator
 
-METHODS = ("original", "improved")
-WIDTHS = {"original": 0.6, "improved": 1.0}
 RECALL_BINS = 40  # a frame has so few LMDs that its own recall is mostly 0 or 1
 # Truth is a wide pale band: where a method is right, its line runs inside.
 TRUTH_COLOURS = {"linear": style.PALE_GREY, "exponential": style.YELLOW}
@@ -33,9 +32,14 @@ HAPTIC_BUDGET_US = 1000.0  # one frame at 1 kHz
 NOTE = {"fontsize": 6.2, "color": "#444444"}
 
 
+def shown(result):
+    """Methods at two rates, under their own names."""
+    return [method for method in result.methods.values() if method.tracks_locally and method.label == method.name]
+
+
 def look(method):
-    return {"color": style.colour_of(method), "ls": style.line_of(method), "lw": WIDTHS[method.label],
-            "zorder": 2 + METHODS.index(method.label)}
+    return {"color": style.colour_of(method), "ls": style.line_of(method), "lw": 1.0 if method.reduces else 0.6,
+            "zorder": 2 + method.order}
 
 
 def note(axes, text):
@@ -44,10 +48,9 @@ def note(axes, text):
 
 
 def plot_force(axes, result):
-    for label in METHODS:
-        method = result.method(label)
+    for method in shown(result):
         axes.plot(result.time, method.force_magnitude(), **look(method))
-    for law in dict.fromkeys(result.method(label).force_law for label in METHODS):
+    for law in dict.fromkeys(method.force_law for method in shown(result)):
         frames, force = reference_force(result, law)
         if frames.size:
             axes.plot(result.time[frames], force, lw=TRUTH_WIDTH, color=TRUTH_COLOURS[law], zorder=1,
@@ -64,11 +67,11 @@ def plot_force(axes, result):
 
 
 def plot_counts(axes, result):
-    for label in METHODS:
-        method = result.method(label)
+    for method in shown(result):
         axes.plot(result.time, method.read("lmd_count"), **look(method))
-    improved = result.method("improved")
-    axes.plot(result.time, improved.read("lmd_count_before_reduction"), color=style.SKY, lw=0.8, zorder=1)
+    for method in shown(result):
+        if method.reduces:
+            axes.plot(result.time, method.read("lmd_count_before_reduction"), color=style.SKY, lw=0.8, zorder=1)
     # Linear up to 1, so that no LMD at all has its place; logarithmic above.
     axes.set_yscale("symlog", linthresh=1, linscale=0.5)
     axes.yaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
@@ -76,11 +79,10 @@ def plot_counts(axes, result):
 
 
 def plot_searches(axes, result):
-    for label in METHODS:
-        method = result.method(label)
+    for method in shown(result):
         time = result.time[method.read("global_frame").astype(int)]
         search = method.median_times("global_search_time") * 1e3
-        if label == "improved":
+        if method.reduces:
             axes.plot(time, search, color=style.SKY, lw=0.9, zorder=2)
             search = search + np.nan_to_num(method.median_times("first_reduction_time")) * 1e3
         axes.plot(time, search, **{**look(method), "lw": 0.9})
@@ -97,8 +99,7 @@ def plot_searches(axes, result):
 
 
 def plot_updates(axes, result):
-    for label in METHODS:
-        method = result.method(label)
+    for method in shown(result):
         axes.plot(result.time, method.median_times("local_update_time") * 1e6, **{**look(method), "lw": 0.6})
     axes.set_yscale("log")
     axes.set_ylim(bottom=SHORTEST_UPDATE_US)
@@ -115,8 +116,7 @@ def plot_recall(axes, result):
     axes.set_ylim(-4, 104)
     axes.yaxis.set_major_locator(FixedLocator([0, 50, 100]))
     edges = np.linspace(result.time[0], result.time[-1], RECALL_BINS + 1)
-    for label in METHODS:
-        method = result.method(label)
+    for method in shown(result):
         truth = truth_of(method)
         if truth is None:
             axes.text(0.5, 0.5, "no truth probe in this run", transform=axes.transAxes, ha="center", va="center")
@@ -133,17 +133,23 @@ def key(label, colour, line="-", width=1.2):
 
 
 def keys_of_rows(result):
-    original, improved = (result.method(label) for label in METHODS)
-    base = [key("original", style.colour_of(original), style.line_of(original), width=1.0),
-            key("improved", style.colour_of(improved), style.line_of(improved), width=1.5)]
+    methods = shown(result)
+    base = [key(method.label, style.colour_of(method), style.line_of(method), width=1.5 if method.reduces else 1.0)
+            for method in methods]
     laws = [key(f"truth, {law} law", TRUTH_COLOURS[law], width=TRUTH_WIDTH)
-            for law in dict.fromkeys(method.force_law for method in (original, improved))]
+            for law in dict.fromkeys(method.force_law for method in methods)]
+    searches = []
+    for method, plain in zip(methods, base):
+        if method.reduces:
+            searches.append(key(f"{method.label}, search alone", style.SKY))
+            searches.append(key(f"{method.label}, with first reduction", style.colour_of(method), style.line_of(method)))
+        else:
+            searches.append(plain)
     near = [key("dotted: a neighbouring feature counts, too", "#444444", ":", width=0.9)]
     return [
         base + laws,
-        base + [key("improved, before reduction", style.SKY)],
-        [base[0], key("improved, search alone", style.SKY),
-         key("improved, with first reduction", style.colour_of(improved), style.line_of(improved))],
+        base + [key(f"{method.label}, before reduction", style.SKY) for method in methods if method.reduces],
+        searches,
         base,
         base + near,
     ]

@@ -25,9 +25,9 @@ YELLOW = "#F0E442"
 GREY = "#8A8A8A"
 PALE_GREY = "#C4C4C4"
 
-METHOD_COLOURS = {"original": VERMILLION, "improved": BLUE, "certified": GREEN, "exhaustive": BLACK}
-METHOD_LINES = {"original": (0, (2.6, 0.8)), "improved": "-", "certified": (0, (5, 1, 1, 1)), "exhaustive": ":"}
-OTHER_COLOURS = (PURPLE, ORANGE, SKY)
+# Colours and lines of methods, by their place in the registry, so that a method looks the same in every figure.
+METHOD_COLOURS = (VERMILLION, BLUE, GREEN, BLACK, PURPLE, ORANGE, SKY)
+METHOD_LINES = ((0, (2.6, 0.8)), "-", (0, (5, 1, 1, 1)), ":", "--", (0, (4, 1.5)), (0, (1, 1)))
 
 STYLE = {
     "font.family": "DejaVu Sans",
@@ -63,17 +63,19 @@ def use_style():
 
 
 def colour_of(method):
-    return METHOD_COLOURS.get(method.name, PURPLE)
+    return METHOD_COLOURS[method.order % len(METHOD_COLOURS)]
 
 
-def colours_of(labels):
-    """{label: colour}: methods keep their colour, further labels (variants of a method, new methods) get the others."""
-    others = itertools.cycle(OTHER_COLOURS)
-    return {label: METHOD_COLOURS[label] if label in METHOD_COLOURS else next(others) for label in labels}
+def colours_of(methods):
+    """{label: colour}: methods keep their colour, variants of a method under other labels get those that are free."""
+    colours = {method.label: colour_of(method) for method in methods if method.label == method.name}
+    others = itertools.cycle([colour for colour in METHOD_COLOURS if colour not in colours.values()] or METHOD_COLOURS)
+    return {method.label: colours[method.label] if method.label in colours else next(others)
+            for method in {method.label: method for method in methods}.values()}
 
 
 def line_of(method):
-    return METHOD_LINES.get(method.name, "--")
+    return METHOD_LINES[method.order % len(METHOD_LINES)]
 
 
 def save(figure, directory, name):

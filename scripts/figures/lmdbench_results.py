@@ -20,16 +20,13 @@ EXIT_CHECK_FAILED = 1
 EXIT_INPUT_DATA = 3
 EXIT_ENVIRONMENT = 4
 
-# The order of reports; labels that are not here come after these, in alphabetical order.
-METHOD_ORDER = ("original", "improved", "certified", "exhaustive")
-
 
 class ResultError(Exception):
     """A result file is missing, broken or lacks what is asked for; the message names file, place and remedy."""
 
 
 class Method:
-    """One group of /methods."""
+    """One group of /methods. What kind of method it is stands in its attributes."""
 
     def __init__(self, result, label):
         self.result = result
@@ -37,6 +34,11 @@ class Method:
         group = f"/methods/{label}"
         self.name = result.text_attribute(group, "method", label)
         self.force_law = result.text_attribute(group, "force_law", "exponential")
+        attributes = result.h5[group].attrs
+        self.order = int(attributes["method_order"])
+        self.promise = result.text_attribute(group, "promise")
+        self.tracks_locally = bool(attributes["tracks_locally"])
+        self.reduces = int(attributes["trackings_after_search"]) > 0
 
     def has(self, dataset):
         return self.result.has(f"/methods/{self.label}/{dataset}")
@@ -69,10 +71,7 @@ class Method:
 
     def searches_every_frame(self):
         """Whether the method has no search of its own rate: its whole set is found anew in the local part."""
-        return self.read("global_frame").size == 0
-
-    def has_first_reduction(self):
-        return bool(np.any(np.isfinite(self.times("first_reduction_time"))))
+        return not self.tracks_locally
 
 
 class Result:
@@ -126,12 +125,13 @@ class Result:
     def _methods(self):
         if "/methods" not in self.h5:
             raise ResultError(f"{self.file}: /methods: is missing (remedy: run the experiment again)")
-        labels = [label for label, item in self.h5["/methods"].items() if isinstance(item, h5py.Group)]
+        methods = [Method(self, label) for label, item in self.h5["/methods"].items() if isinstance(item, h5py.Group)]
 
-        def place(label):
-            return (METHOD_ORDER.index(label) if label in METHOD_ORDER else len(METHOD_ORDER), label)
+        def place(method):
+            """The order of reports: that of the registry, variants of a method behind it."""
+            return (method.order, method.label != method.name, method.label)
 
-        return {label: Method(self, label) for label in sorted(labels, key=place)}
+        return {method.label: method for method in sorted(methods, key=place)}
 
     def method(self, label):
         if label not in self.methods:

@@ -24,16 +24,17 @@ FORMAT_VERSION = 1
 BOOTSTRAP_SAMPLES = 2000
 SEED = 1  # of the bootstrap: the same file gives the same figure
 
-CERTIFIED, SLIDING, COHERENT = "certified", "certified sliding", "certified coherent"
-# Name in the file: label, colour, line.
-METHODS = {
-    "original": ("original", style.VERMILLION, style.METHOD_LINES["original"]),
-    "improved+reduction": ("improved with reduction", style.BLUE, "-"),
-    "fcl-cold": ("FCL, nearest pair only", style.PURPLE, ":"),
+CERTIFIED = "certified"
+# The figure is about certified, in three ways of calling it. Name in the file: label, colour, line.
+CERTIFIED_LOOKS = {
     CERTIFIED: ("certified, unrelated poses", style.GREEN, (0, (5, 1, 1, 1))),
-    SLIDING: ("certified, sliding", style.ORANGE, (0, (4, 1.5))),
-    COHERENT: ("certified, sliding, coherent", style.BLACK, "-"),
+    "certified sliding": ("certified, sliding", style.ORANGE, (0, (4, 1.5))),
+    "certified coherent": ("certified, sliding, coherent", style.BLACK, "-"),
 }
+# What it is compared with looks like this, in the order of the file.
+PEER_LOOKS = ((style.VERMILLION, (0, (2.6, 0.8))), (style.BLUE, "-"), (style.PURPLE, ":"), (style.SKY, "--"),
+              (style.GREY, (0, (1, 1))), (style.YELLOW, "-"))
+REDUCED = "+reduction"  # ends the name of a search with the first reduction; the search alone is then left out
 STUDIES = {"dragon": "D", "bunny": "o", "armadillo": "s", "bunny-subdivided": "^"}
 STUDY_LABELS = {
     "dragon": "dragon on bunny of 75k",
@@ -69,6 +70,15 @@ def load(files):
     return studies
 
 
+def looks(studies):
+    """{name in the file: (label, colour, line)} of all that was measured: the peers, then certified."""
+    points = [point for study in studies.values() for point in study]
+    names = list(dict.fromkeys(name for point in points for name in point["methods"]))
+    peers = [name for name in names if name not in CERTIFIED_LOOKS and name + REDUCED not in names]
+    result = {name: (name, *PEER_LOOKS[index % len(PEER_LOOKS)]) for index, name in enumerate(peers)}
+    return {**result, **{name: look for name, look in CERTIFIED_LOOKS.items() if name in names}}
+
+
 def samples(points, method):
     """(points, poses) [us]."""
     return 1e6 * np.array([point["methods"][method]["seconds"] for point in points])
@@ -98,7 +108,7 @@ def draw_times(axes, studies):
             continue
         points = studies[study]
         x = triangles(points)
-        for method, (_, colour, line) in METHODS.items():
+        for method, (_, colour, line) in looks(studies).items():
             values = samples(points, method)
             axes.plot(x, np.median(values, axis=1), color=colour, ls=line, lw=0.8, marker=marker, ms=3.4, mec="white",
                       mew=0.4)
@@ -128,7 +138,7 @@ def draw_counters(axes, studies):
 def draw_cutoffs(axes, studies):
     points = studies["cutoff"]
     x = np.array([100 * point["cutoff"] for point in points])
-    for method, (_, colour, line) in METHODS.items():
+    for method, (_, colour, line) in looks(studies).items():
         values = samples(points, method)
         axes.plot(x, np.median(values, axis=1), color=colour, ls=line, lw=0.9, marker="o", ms=3.2, mec="white", mew=0.4)
     axes.set_xlabel("cutoff [% of the diagonal]")
@@ -142,7 +152,7 @@ def draw_contacts(axes, studies):
     points = studies["cutoff"]
     counts = np.concatenate([point["lmd_counts"] for point in points])
     edges = [1, 2, 3, 4, 6, 9, 13, 19, 28, 1000]
-    for method, (_, colour, line) in METHODS.items():
+    for method, (_, colour, line) in looks(studies).items():
         values = np.concatenate(list(samples(points, method)))
         groups = [(counts >= begin) & (counts < end) for begin, end in zip(edges, edges[1:])]
         groups = [group for group in groups if np.count_nonzero(group) >= 5]
@@ -162,7 +172,7 @@ def print_slopes(studies):
             continue
         points = studies[study]
         x = triangles(points)
-        for method, (label, _, _) in METHODS.items():
+        for method, (label, _, _) in looks(studies).items():
             slope, low, high = slope_with_interval(x, samples(points, method))
             print(f"| {STUDY_LABELS[study]} | {x[0]:.0f} to {x[-1]:.0f} | {label} | {slope:.3f} | {low:.3f} to {high:.3f} |")
 
@@ -188,7 +198,7 @@ def draw(studies):
         panel.set_xticks(ticks)
         panel.set_xticks([], minor=True)
         panel.xaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
-    keys = [Line2D([], [], color=colour, ls=line, lw=1.4, label=label) for label, colour, line in METHODS.values()]
+    keys = [Line2D([], [], color=colour, ls=line, lw=1.4, label=label) for label, colour, line in looks(studies).values()]
     first = figure.legend(handles=keys, loc="upper left", bbox_to_anchor=(0.07, 0.965), ncol=3, handlelength=2.6,
                           columnspacing=1.4, borderpad=0.1)
     figure.add_artist(first)

@@ -41,7 +41,7 @@ def row(method):
         search = total = "every frame"
     else:
         search = median_and_p99(method, "global_search")
-        total = median_and_p99(method, "search_with_reduction") if method.has_first_reduction() else "none"
+        total = median_and_p99(method, "search_with_reduction") if method.reduces else "none"
     return [
         method.label,
         search,

@@ -118,7 +118,7 @@ def draw(results):
     style.use_style()
     points = [Point(result, method) for result in results for method in result.methods.values()]
     names = list(dict.fromkeys(point.experiment for point in points))
-    colours = style.colours_of(dict.fromkeys(point.method.label for point in points))
+    colours = style.colours_of([point.method for point in points])
     markers = dict(zip(names, MARKERS * (len(names) // len(MARKERS) + 1)))
     key_rows = -(-(len(colours) + len(names) + 1) // LEGEND_COLUMNS)
     figure, axes = plt.subplots(1, len(PANELS), figsize=(style.TWO_COLUMNS_IN, 3.5), sharey=True, gridspec_kw={

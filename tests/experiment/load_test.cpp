@@ -2,13 +2,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/base/error.h>
 #include <lmdbench/experiment/experiment.h>
+#include <lmdbench/methods/registry.h>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
 #include <filesystem>
-#include <numbers>
 #include <string>
 #include <vector>
 
@@ -59,7 +59,7 @@ TEST(LoadExperiment, FillsDefaultsFromTheSchema) {
   ASSERT_EQ(experiment.methods.size(), 2u);
   EXPECT_EQ(experiment.methods[0].label, "original");
   EXPECT_EQ(experiment.methods[0].force_law, ForceLaw::LINEAR);
-  EXPECT_EQ(experiment.methods[1].options.visibility, Visibility::VERTEX_NORMAL);
+  EXPECT_EQ(experiment.methods[1].options["visibility"], "vertex-normal");
 }
 
 TEST(LoadExperiment, ResolvedJsonHasTheDefaultsAndResolvesToItself) {
@@ -83,7 +83,7 @@ TEST(LoadExperiment, OverridesTakeJsonOrStrings) {
                 R"(/methods/-={"name":"exhaustive","force_law":"linear","label":"truth"})", "/title=a=b"});
   EXPECT_EQ(experiment.driver.repetitions, 3);
   EXPECT_EQ(experiment.name, "other");
-  EXPECT_EQ(experiment.methods[0].options.line_cone, LineCone::TWO_SIDED);
+  EXPECT_EQ(experiment.methods[0].options["line_cone"], "two-sided");
   EXPECT_EQ(experiment.methods.at(2).label, "truth");
   EXPECT_EQ(experiment.title, "a=b") << "only the first = separates";
 }
@@ -94,27 +94,26 @@ TEST(LoadExperiment, EveryMethodOptionIsRead) {
                       "/methods/1/reduction=loss-free", "/methods/1/tracking_order=triangle-index",
                       "/methods/1/literal_g3=true",
                       R"(/methods/-={"name":"certified","force_law":"linear","frame_coherence":false})"});
-  EXPECT_TRUE(experiment.methods[0].options.literal_g3);
-  const MethodOptions& improved = experiment.methods[1].options;
-  EXPECT_EQ(improved.visibility, Visibility::ORTHOGONAL);
-  EXPECT_EQ(improved.reduction, Reduction::LOSS_FREE);
-  EXPECT_EQ(improved.tracking_order, TrackingOrder::TRIANGLE_INDEX);
-  EXPECT_TRUE(improved.literal_g3);
-  EXPECT_FALSE(experiment.methods[2].options.frame_coherence);
-  EXPECT_EQ(parse(MINIMAL, {"/methods/1/visibility=off"}).methods[1].options.visibility, Visibility::OFF);
+  EXPECT_EQ(experiment.methods[0].options["literal_g3"], true);
+  EXPECT_EQ(experiment.methods[1].options, nlohmann::json({{"visibility", "orthogonal"},
+                                                           {"reduction", "loss-free"},
+                                                           {"tracking_order", "triangle-index"},
+                                                           {"literal_g3", true}}));
+  EXPECT_EQ(experiment.methods[2].options, nlohmann::json({{"frame_coherence", false}}));
 }
 
-TEST(LoadExperiment, DefaultsOfMethodsAreThoseOfTheLibrary) {
-  const Experiment experiment = parse(MINIMAL);
-  const MethodOptions library;
-  for (const MethodChoice& method : experiment.methods) {
-    EXPECT_EQ(method.options.visibility, library.visibility);
-    EXPECT_EQ(method.options.reduction, library.reduction);
-    EXPECT_EQ(method.options.tracking_order, library.tracking_order);
-    EXPECT_EQ(method.options.line_cone, library.line_cone);
-    EXPECT_EQ(method.options.literal_g3, library.literal_g3);
-    EXPECT_EQ(method.options.frame_coherence, library.frame_coherence);
-    EXPECT_DOUBLE_EQ(method.options.g5_tolerance_rad, library.g5_tolerance_rad);
+/// Every method of the registry is known to the schema, with the defaults of its description and nothing
+/// else.
+TEST(LoadExperiment, OptionsOfMethodsAreThoseOfTheirDescriptions) {
+  for (const MethodDescription& method : method_descriptions()) {
+    const MethodChoice choice =
+        parse(MINIMAL, {"/methods/0/name=" + method.name, "/methods/0/label=it"}).methods[0];
+    EXPECT_EQ(choice.options, complete_options(method, {}, "")) << method.name;
+    EXPECT_EQ(choice.options.size(), method.options.size()) << method.name;
+    EXPECT_EQ(nlohmann::json::parse(choice.options_json).size(), method.options.size() + 3)
+        << "name, label and force_law besides";
+    EXPECT_THAT(message({"/methods/0/name=" + method.name, "/methods/0/no_such_option=1"}),
+                HasSubstr("/methods/0/no_such_option: unknown key"));
   }
 }
 
@@ -204,7 +203,7 @@ TEST(LoadExperiment, OneMethodMayAppearTwiceUnderTwoLabels) {
       MINIMAL, {"/methods/1/name=original", "/methods/1/label=strict", "/methods/1/g5_tolerance_deg=180"});
   EXPECT_EQ(experiment.methods[1].name, "original");
   EXPECT_EQ(experiment.methods[1].label, "strict");
-  EXPECT_DOUBLE_EQ(experiment.methods[1].options.g5_tolerance_rad, std::numbers::pi);
+  EXPECT_EQ(experiment.methods[1].options["g5_tolerance_deg"], 180);
 }
 
 TEST(LoadExperiment, LatencyIsAtMostTheSearchPeriod) {

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/base/error.h>
 #include <lmdbench/experiment/lockstep.h>
+#include <lmdbench/lmd/method_description.h>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -30,23 +31,27 @@ struct FakeTraits {
 /// driver's working set tells its history.
 class FakeMethod : public Method {
  public:
-  FakeMethod(std::string tag, FakeTraits traits, Log* log, double drift)
-      : tag_(std::move(tag)), traits_(traits), log_(log), drift_(drift) {}
+  enum class Counter { SEARCHES, TRACKED_LMDS };
 
-  std::string_view name() const override { return "fake"; }
-  bool tracks_locally() const override { return traits_.tracks_locally; }
-  int trackings_after_search() const override { return traits_.trackings_after_search; }
+  FakeMethod(std::string tag, FakeTraits traits, Log* log, double drift)
+      : tag_(std::move(tag)), log_(log), drift_(drift) {
+    description_.name = "fake";
+    description_.tracks_locally = traits.tracks_locally;
+    description_.trackings_after_search = traits.trackings_after_search;
+  }
+
+  const MethodDescription& description() const override { return description_; }
 
   void search(const Pose& X_WM, LmdSet& lmds, WorkCounters& counters) override {
     note("search", X_WM);
-    counters[Counter::NODE_PAIRS] += 1;
+    counters[Counter::SEARCHES] += 1;
     lmds.clear();
     for (std::int32_t i = 0; i < 3; ++i) lmds.push_back(lmd_at(X_WM, i));
   }
 
   void track(const Pose& X_WM, LmdSet& lmds, WorkCounters& counters) override {
     note("track", X_WM);
-    counters[Counter::TRACKING_STEPS] += lmds.size();
+    counters[Counter::TRACKED_LMDS] += lmds.size();
     if (lmds.size() == 3) lmds.pop_back();
     for (Lmd& lmd : lmds) lmd = lmd_at(X_WM, lmd.feature_moving.index);
   }
@@ -68,7 +73,7 @@ class FakeMethod : public Method {
   }
 
   std::string tag_;
-  FakeTraits traits_;
+  MethodDescription description_;
   Log* log_;
   double drift_;
 };
@@ -165,9 +170,11 @@ TEST(Lockstep, SearchRecordsAndTimes) {
   EXPECT_EQ(record.searches[1].frame, 4);
   EXPECT_EQ(record.searches[0].candidates, 3);
   EXPECT_EQ(record.searches[0].kept_after_reduction, 2);
-  EXPECT_EQ(record.searches[0].counters[Counter::NODE_PAIRS], 1u);
-  EXPECT_EQ(record.searches[0].counters[Counter::TRACKING_STEPS], 3u + 2u) << "reduction and second tracking";
-  EXPECT_EQ(record.searches[1].counters[Counter::TRACKING_STEPS], 3u) << "the run ended before it arrived";
+  EXPECT_EQ(record.searches[0].counters[FakeMethod::Counter::SEARCHES], 1u);
+  EXPECT_EQ(record.searches[0].counters[FakeMethod::Counter::TRACKED_LMDS], 3u + 2u)
+      << "reduction and second tracking";
+  EXPECT_EQ(record.searches[1].counters[FakeMethod::Counter::TRACKED_LMDS], 3u)
+      << "the run ended before it arrived";
   const RepetitionTimes& times = record.repetitions[0];
   EXPECT_EQ(times.local_update.size(), 6u);
   EXPECT_GE(times.global_search[1], 0.0);
@@ -190,7 +197,7 @@ TEST(Lockstep, MethodsWithoutLocalTrackingSearchInEveryFrame) {
   EXPECT_TRUE(records[0].searches.empty());
   EXPECT_EQ(records[0].frames[0].lmd_age, 0.0);
   EXPECT_EQ(records[0].frames[2].lmd_count, 3);
-  EXPECT_EQ(records[0].frames[2].counters[Counter::NODE_PAIRS], 1u);
+  EXPECT_EQ(records[0].frames[2].counters[FakeMethod::Counter::SEARCHES], 1u);
 }
 
 TEST(Lockstep, MethodsTakeTurnsInAlternatingOrder) {
@@ -256,7 +263,7 @@ TEST(Lockstep, LmdsBeyondTheCutoffStayInTheSetButAreNotReported) {
   EXPECT_EQ(records[0].frames[3].lmd_count, 2);
   EXPECT_EQ(records[0].frames[4].lmd_count, 0);
   EXPECT_TRUE(std::isnan(records[0].frames[4].minimum_distance));
-  EXPECT_EQ(records[0].frames[5].counters[Counter::TRACKING_STEPS], 2u) << "still tracked";
+  EXPECT_EQ(records[0].frames[5].counters[FakeMethod::Counter::TRACKED_LMDS], 2u) << "still tracked";
 }
 
 TEST(Lockstep, ClipsToTheDevice) {

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/experiment/plan.h>
+#include <lmdbench/methods/registry.h>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -9,6 +10,7 @@
 namespace lmdbench {
 namespace {
 
+using ::testing::AllOf;
 using ::testing::HasSubstr;
 
 Experiment shapes(const std::vector<Override>& overrides = {}) {
@@ -43,6 +45,25 @@ TEST(Plan, JsonHoldsTheResolvedExperiment) {
   EXPECT_EQ(json["experiment"]["frame_rate_hz"], 1000);
   EXPECT_EQ(json["needed"].size() + json["left_out"].size(), make_plan(experiment).items.size());
   EXPECT_THAT(plan_text(make_plan(experiment), experiment), HasSubstr("left out:\n"));
+}
+
+TEST(Plan, ListsEveryMethodWithItsOptionsAndDefaults) {
+  const Experiment experiment = shapes({"/methods/1/visibility=off"});
+  const auto json = nlohmann::json::parse(plan_json(make_plan(experiment), experiment));
+  ASSERT_EQ(json["methods"].size(), experiment.methods.size());
+  for (std::size_t i = 0; i < experiment.methods.size(); ++i) {
+    const MethodDescription& method = method_description(experiment.methods[i].name);
+    EXPECT_EQ(json["methods"][i]["summary"], method.summary);
+    EXPECT_EQ(json["methods"][i]["promise"], std::string(to_string(method.promise)));
+    ASSERT_EQ(json["methods"][i]["options"].size(), method.options.size());
+    for (const auto& option : json["methods"][i]["options"]) {
+      const std::string key = option["key"].get<std::string>();
+      EXPECT_EQ(option["default"], method.options[key]["default"]);
+      EXPECT_EQ(option["value"], key == "visibility" ? "off" : option["default"]) << key;
+    }
+  }
+  EXPECT_THAT(plan_text(make_plan(experiment), experiment),
+              AllOf(HasSubstr("\"off\" (default \"vertex-normal\")"), HasSubstr("line_cone ")));
 }
 
 TEST(Plan, EveryCommittedExperimentIsValid) {

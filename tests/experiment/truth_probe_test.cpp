@@ -127,7 +127,7 @@ TEST(FclProbe, AgreesOnSpheresAndComparesOnlyWhereItMeansSomething) {
   const Scene scene = spheres();
   const LockstepInput input =
       approach({0.04, 0.06, -0.1, 0.01});  // within, beyond the cutoff, in contact, within
-  const LockstepMethod improved{"improved", [scene] { return make_method("improved", scene, {}); }, PROFILE};
+  const LockstepMethod improved{"improved", [scene] { return make_method("improved", scene); }, PROFILE};
   const FclCheck check = probe_fcl(scene, input, {improved}, {0, 1, 2}, 1e-6, {});
   ASSERT_EQ(check.frames.size(), 3u);
   EXPECT_TRUE(check.exceptions.empty());
@@ -146,9 +146,14 @@ TEST(FclProbe, AgreesOnSpheresAndComparesOnlyWhereItMeansSomething) {
 class WrongMethod : public Method {
  public:
   explicit WrongMethod(double distance) : distance_(distance) {}
-  std::string_view name() const override { return "wrong"; }
-  bool tracks_locally() const override { return false; }
-  int trackings_after_search() const override { return 0; }
+  const MethodDescription& description() const override {
+    static const MethodDescription wrong = [] {
+      MethodDescription made;
+      made.name = "wrong";
+      return made;
+    }();
+    return wrong;
+  }
   void search(const Pose&, LmdSet& lmds, WorkCounters&) override {
     lmds.clear();
     if (std::isnan(distance_)) return;

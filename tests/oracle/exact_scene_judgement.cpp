@@ -52,9 +52,10 @@ std::vector<Judgement> judge_experiment(const std::filesystem::path& experiment_
   const std::int64_t samples = std::min(most_frames, frames);
   std::vector<Judgement> judgements;
   std::vector<std::unique_ptr<Method>> methods;
-  for (const char* name : {"exhaustive", "certified"}) {
-    judgements.push_back({experiment.name, name});
-    methods.push_back(make_method(name, run.scene));
+  for (const MethodDescription& description : method_descriptions()) {
+    if (description.promise != Promise::COMPLETE_SET) continue;
+    judgements.push_back({experiment.name, description.name});
+    methods.push_back(make_method(description.name, run.scene));
   }
   for (std::int64_t i = 0; i < samples; ++i) {
     const std::int64_t frame = samples == 1 ? 0 : i * (frames - 1) / (samples - 1);

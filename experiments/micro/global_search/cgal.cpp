@@ -39,7 +39,7 @@ class CgalVertices : public GlobalSearch {
 /// an upper bound of the minimum distance that is exact unless the nearest pair is edge on edge. Each query
 /// looks no farther than the best so far.
 SearchImplementation cgal_vertex_search() {
-  return {"cgal-vertices", Exactness::APPROXIMATE, false,
+  return {"cgal-vertices", Promise::APPROXIMATION, false,
           [](const Scene& scene) { return std::make_unique<CgalVertices>(scene); }};
 }
 

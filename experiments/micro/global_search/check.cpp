@@ -12,11 +12,11 @@ LmdError check_search(const SearchImplementation& implementation, GlobalSearch& 
     // What the paper's searches leave are candidates, a pair once for every triangle pair that found it.
     const LmdSet* lmds = search.lmds();
     LmdSet candidates;
-    if (lmds != nullptr && implementation.exactness == Exactness::APPROXIMATE) {
+    if (lmds != nullptr && implementation.promise == Promise::APPROXIMATION) {
       candidates = distinct_pairs(*lmds);
       lmds = &candidates;
     }
-    error.add(implementation.exactness, "pose " + std::to_string(i), scene, truth[i], lmds,
+    error.add(implementation.promise, "pose " + std::to_string(i), scene, truth[i], lmds,
               search.minimum_distance());
   }
   return error;

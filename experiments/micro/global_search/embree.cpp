@@ -48,7 +48,7 @@ class EmbreeSearch : public GlobalSearch {
 /// The nearest pair by Embree, which knows no queries between meshes: one point query a moving triangle,
 /// round its centre, that looks no farther than the best pair so far. Triangle distances are ours.
 SearchImplementation embree_search() {
-  return {"embree", Exactness::MINIMUM_DISTANCE, false,
+  return {"embree", Promise::NEAREST_PAIR, false,
           [](const Scene& scene) { return std::make_unique<EmbreeSearch>(scene); }};
 }
 

@@ -14,7 +14,7 @@
 
 namespace lmdbench::micro {
 
-/// Task "global search": from a pose, what is near what. One implementation a file; each is checked against
+/// Task "global search": from a pose, what is near what. Each implementation is checked against
 /// ground truth before it is timed.
 class GlobalSearch {
  public:
@@ -29,17 +29,21 @@ class GlobalSearch {
 
 struct SearchImplementation {
   std::string name;
-  Exactness exactness = Exactness::APPROXIMATE;
+  Promise promise = Promise::APPROXIMATION;
   bool slow = false;  ///< Only timed where asked for.
   std::function<std::unique_ptr<GlobalSearch>(const Scene&)> make;
 };
 
-SearchImplementation original_search();
-SearchImplementation improved_search();
-SearchImplementation improved_search_with_reduction();
-SearchImplementation certified_search();
+/// A method's `search`, followed by as many trackings as the global thread adds (paper, section 4.3): named
+/// after the method, with "+reduction" where trackings follow.
+SearchImplementation method_search(const std::string& method, int trackings = 0,
+                                   const nlohmann::json& options = nlohmann::json::object());
+
+/// Every method of the registry; those that reduce with and without the first reduction.
+std::vector<SearchImplementation> method_searches();
+
+/// `certified` without frame coherence.
 SearchImplementation certified_search_from_scratch();
-SearchImplementation exhaustive_search();
 SearchImplementation fcl_cold_search();
 SearchImplementation fcl_warm_search();
 SearchImplementation embree_search();
@@ -48,9 +52,5 @@ SearchImplementation cgal_vertex_search();
 /// All that this build knows, in the order of reports, but for `cgal_vertex_search`,
 /// which has a program of its own.
 std::vector<SearchImplementation> search_implementations();
-
-/// A method's `search` as an implementation, followed by its trackings in the global thread where wanted.
-std::unique_ptr<GlobalSearch> make_method_search(const std::string& method, const Scene& scene, int trackings,
-                                                 const MethodOptions& options = {});
 
 }  // namespace lmdbench::micro

@@ -5,14 +5,10 @@
 namespace lmdbench::micro {
 
 std::vector<SearchImplementation> search_implementations() {
-  std::vector<SearchImplementation> all = {original_search(),
-                                           improved_search(),
-                                           improved_search_with_reduction(),
-                                           certified_search(),
-                                           certified_search_from_scratch(),
-                                           exhaustive_search(),
-                                           fcl_cold_search(),
-                                           fcl_warm_search()};
+  std::vector<SearchImplementation> all = method_searches();
+  all.push_back(certified_search_from_scratch());
+  all.push_back(fcl_cold_search());
+  all.push_back(fcl_warm_search());
 #ifdef LMDBENCH_HAS_EMBREE
   all.push_back(embree_search());
 #endif

@@ -4,22 +4,19 @@
 
 #include <micro/frame_loop.h>
 
+#include <string>
 #include <vector>
 
 namespace lmdbench::micro {
 
-/// Task "local tracking": the LMD set of a frame from that of the frame before. Original and improved begin
-/// with the same set, the true one, and track it until the next one comes, as often as the experiment's
-/// search brings one. `certified` tracks nothing; its frame stands beside them.
+/// Task "local tracking": the LMD set of a frame from that of the frame before. Methods that track begin with
+/// the same set, the true one, and track it until the next one comes, as often as the experiment's search
+/// brings one. The frames of those that search in every frame stand beside them.
 
-FrameImplementation original_tracking();
-FrameImplementation improved_tracking();
-FrameImplementation certified_frame();
+/// A method of the registry, with its default options.
+FrameImplementation tracking_implementation(const std::string& method);
 
-/// All that this build knows.
+/// All methods but those that look at every pair of triangles.
 std::vector<FrameImplementation> tracking_implementations();
-
-/// Tracking by a method of the registry, with its default options.
-std::unique_ptr<FrameLoop> make_tracking(const std::string& method, const RecordedPath& path);
 
 }  // namespace lmdbench::micro

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/methods/registry.h>
 
+#include <micro/every_frame.h>
 #include <micro/local_tracking/implementation.h>
 
 namespace lmdbench::micro {
@@ -38,12 +39,21 @@ class Tracking : public FrameLoop {
 
 }  // namespace
 
-std::unique_ptr<FrameLoop> make_tracking(const std::string& method, const RecordedPath& path) {
-  return std::make_unique<Tracking>(method, path);
+FrameImplementation tracking_implementation(const std::string& method) {
+  const MethodDescription& description = method_description(method);
+  if (description.tracks_locally)
+    return {method, description.promise, false,
+            [method](const RecordedPath& path) { return std::make_unique<Tracking>(method, path); }};
+  const SearchImplementation search = method_search(method);
+  return {method, description.promise, description.brute_force,
+          [search](const RecordedPath& path) { return make_search_every_frame(search, path); }};
 }
 
 std::vector<FrameImplementation> tracking_implementations() {
-  return {original_tracking(), improved_tracking(), certified_frame()};
+  std::vector<FrameImplementation> all;
+  for (const MethodDescription& description : method_descriptions())
+    if (!description.brute_force) all.push_back(tracking_implementation(description.name));
+  return all;
 }
 
 }  // namespace lmdbench::micro

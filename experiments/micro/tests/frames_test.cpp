@@ -37,7 +37,7 @@ RecordedPath turning_path() {
     input.poses.push_back(pose);
   }
   std::vector<LockstepMethod> methods;
-  for (const std::string name : {"original", "improved", "certified"})
+  for (const std::string& name : method_names())
     methods.push_back({name, [name, scene = setting.scene] { return make_method(name, scene); }, profile});
   RecordedPath path{
       .name = "turn",
@@ -65,7 +65,8 @@ TEST(Frames, KeepTheirPromises) {
 TEST(Frames, AreChecked) {
   RecordedPath path = turning_path();
   for (LmdSet& truth : path.truth) truth.pop_back();
-  for (const auto& implementation : {certified_frame(), certified_whole_frame(), exhaustive_frame()}) {
+  for (const auto& implementation :
+       {tracking_implementation("certified"), method_frame("certified"), method_frame("exhaustive")}) {
     const auto loop = implementation.make(path);
     EXPECT_NE(check_frames(implementation, *loop, path).objection, "") << implementation.name;
   }
@@ -73,7 +74,7 @@ TEST(Frames, AreChecked) {
 
 TEST(LocalTracking, FollowsTheTrueSet) {
   const RecordedPath path = turning_path();
-  const FrameImplementation improved = improved_tracking();
+  const FrameImplementation improved = tracking_implementation("improved");
   const auto loop = improved.make(path);
   const LmdError error = check_frames(improved, *loop, path);
   EXPECT_EQ(error.minimum_missed, 0U);
@@ -83,11 +84,8 @@ TEST(LocalTracking, FollowsTheTrueSet) {
 TEST(WholeFrame, RendersTheForcesOfTheLockstepDriver) {
   const RecordedPath path = turning_path();
   const std::vector<MethodRecord> records = run_lockstep(path.methods, path.input, path.driver, {});
-  const FrameImplementation implementations[] = {original_frame(), improved_frame(), certified_whole_frame()};
-  ASSERT_EQ(records.size(), std::size(implementations));
   for (std::size_t m = 0; m < records.size(); ++m) {
-    EXPECT_EQ(records[m].label, implementations[m].name);
-    const auto loop = implementations[m].make(path);
+    const auto loop = method_frame(records[m].label).make(path);
     bool any = false;
     for (std::size_t frame = 0; frame < FRAME_COUNT; ++frame) {
       loop->step(frame);

@@ -12,9 +12,9 @@ namespace {
 class LmdErrorTest : public testing::Test {
  protected:
   LmdErrorTest() : setting_(shapes_setting(0.3, 1)) {}
-  LmdError error(Exactness exactness, const LmdSet* lmds, double minimum) const {
+  LmdError error(Promise promise, const LmdSet* lmds, double minimum) const {
     LmdError result;
-    result.add(exactness, "here", setting_.scene, setting_.truth[0], lmds, minimum);
+    result.add(promise, "here", setting_.scene, setting_.truth[0], lmds, minimum);
     return result;
   }
   const LmdSet& truth() const { return setting_.truth[0]; }
@@ -24,7 +24,7 @@ class LmdErrorTest : public testing::Test {
 
 TEST_F(LmdErrorTest, AcceptsTheTruth) {
   ASSERT_GE(truth().size(), 1U);
-  const LmdError result = error(Exactness::COMPLETE_SET, &truth(), truth()[0].distance);
+  const LmdError result = error(Promise::COMPLETE_SET, &truth(), truth()[0].distance);
   EXPECT_EQ(result.objection, "");
   EXPECT_EQ(result.same.recall(), 1.0);
   EXPECT_EQ(result.worst_minimum_error, 0.0);
@@ -32,8 +32,8 @@ TEST_F(LmdErrorTest, AcceptsTheTruth) {
 
 TEST_F(LmdErrorTest, ObjectsToAnIncompleteSetWhereCompletenessIsPromised) {
   const LmdSet nothing;
-  EXPECT_EQ(error(Exactness::COMPLETE_SET, &nothing, NAN).objection, "here: not the true LMD set");
-  const LmdError approximate = error(Exactness::APPROXIMATE, &nothing, NAN);
+  EXPECT_EQ(error(Promise::COMPLETE_SET, &nothing, NAN).objection, "here: not the true LMD set");
+  const LmdError approximate = error(Promise::APPROXIMATION, &nothing, NAN);
   EXPECT_EQ(approximate.objection, "");
   EXPECT_EQ(approximate.same.recall(), 0.0);
   EXPECT_TRUE(std::isinf(approximate.worst_minimum_error));
@@ -43,15 +43,15 @@ TEST_F(LmdErrorTest, ObjectsToALmdThatIsNone) {
   LmdSet more = truth();
   more.push_back(more[0]);
   more.back().feature_moving.index = more[0].feature_moving.index == 0 ? 1 : 0;
-  EXPECT_NE(error(Exactness::COMPLETE_SET, &more, truth()[0].distance).objection, "");
+  EXPECT_NE(error(Promise::COMPLETE_SET, &more, truth()[0].distance).objection, "");
 }
 
 TEST_F(LmdErrorTest, NobodyMayFindLessThanTheMinimum) {
   const double minimum = truth()[0].distance;
-  EXPECT_EQ(error(Exactness::APPROXIMATE, nullptr, 0.9 * minimum).objection,
+  EXPECT_EQ(error(Promise::APPROXIMATION, nullptr, 0.9 * minimum).objection,
             "here: a minimum distance below the true one");
-  EXPECT_NEAR(error(Exactness::APPROXIMATE, nullptr, 1.5 * minimum).worst_minimum_error, 0.5, 1e-12);
-  EXPECT_EQ(error(Exactness::MINIMUM_DISTANCE, nullptr, 1.5 * minimum).objection,
+  EXPECT_NEAR(error(Promise::APPROXIMATION, nullptr, 1.5 * minimum).worst_minimum_error, 0.5, 1e-12);
+  EXPECT_EQ(error(Promise::NEAREST_PAIR, nullptr, 1.5 * minimum).objection,
             "here: not the true minimum distance");
 }
 

@@ -17,7 +17,7 @@ TEST(GlobalSearches, KeepTheirPromises) {
     const auto search = implementation.make(setting.scene);
     const LmdError error = check_search(implementation, *search, setting.scene, setting.poses, setting.truth);
     EXPECT_EQ(error.objection, "") << implementation.name;
-    if (implementation.exactness != Exactness::APPROXIMATE) {
+    if (implementation.promise != Promise::APPROXIMATION) {
       EXPECT_EQ(error.minimum_missed, 0U) << implementation.name;
     }
   }
@@ -25,8 +25,8 @@ TEST(GlobalSearches, KeepTheirPromises) {
 
 TEST(GlobalSearches, AreCheckedAtEveryPose) {
   const Setting setting = shapes_setting(0.3, 6);
-  SearchImplementation lying = improved_search();
-  lying.exactness = Exactness::COMPLETE_SET;
+  SearchImplementation lying = method_search("improved");
+  lying.promise = Promise::COMPLETE_SET;
   const auto search = lying.make(setting.scene);
   EXPECT_NE(check_search(lying, *search, setting.scene, setting.poses, setting.truth).objection, "")
       << "candidates are no LMD set";

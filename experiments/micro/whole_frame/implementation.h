@@ -5,19 +5,19 @@
 #include <micro/frame_loop.h>
 #include <micro/global_search/implementation.h>
 
+#include <string>
 #include <vector>
 
 namespace lmdbench::micro {
 
-/// Task "whole frame": all that a haptic frame costs, from the pose to the force of the device. Original and
-/// improved search and track as the experiment configures it; their searches are spread over the frames
-/// between two of them, as if one core did everything. Peers that find a nearest pair only make no force.
+/// Task "whole frame": all that a haptic frame costs, from the pose to the force of the device. Methods that
+/// track locally search and track as the experiment configures it; their searches are spread over the frames
+/// between two of them, as if one core did everything. Peers outside the registry find a nearest pair and
+/// make no force.
 
-FrameImplementation original_frame();
-FrameImplementation improved_frame();
-FrameImplementation certified_whole_frame();
-FrameImplementation certified_from_scratch_frame();
-FrameImplementation exhaustive_frame();
+/// A method of the registry, as the experiment configures it or with its default options.
+FrameImplementation method_frame(const std::string& method);
+
 FrameImplementation fcl_cold_frame();
 FrameImplementation fcl_warm_frame();
 
@@ -27,7 +27,7 @@ std::vector<FrameImplementation> frame_implementations();
 /// A search in every frame, and the force of what it finds.
 FrameImplementation rendered_search(const SearchImplementation& search);
 
-/// A method of the experiment by its label, with local tracking and a search now and then, and the force.
-FrameImplementation rendered_tracking(const std::string& label);
+/// A method by its name, with local tracking and a search now and then, and the force.
+FrameImplementation rendered_tracking(const std::string& method);
 
 }  // namespace lmdbench::micro

@@ -4,9 +4,19 @@
 
 namespace lmdbench::micro {
 
+FrameImplementation method_frame(const std::string& method) {
+  return method_description(method).tracks_locally ? rendered_tracking(method)
+                                                   : rendered_search(method_search(method));
+}
+
 std::vector<FrameImplementation> frame_implementations() {
-  return {original_frame(),   improved_frame(), certified_whole_frame(), certified_from_scratch_frame(),
-          exhaustive_frame(), fcl_cold_frame(), fcl_warm_frame()};
+  std::vector<FrameImplementation> all;
+  for (const MethodDescription& description : method_descriptions())
+    all.push_back(method_frame(description.name));
+  all.push_back(rendered_search(certified_search_from_scratch()));
+  all.push_back(fcl_cold_frame());
+  all.push_back(fcl_warm_frame());
+  return all;
 }
 
 }  // namespace lmdbench::micro

@@ -26,7 +26,7 @@ void Rendered::step(std::size_t frame) {
 }
 
 FrameImplementation rendered_search(const SearchImplementation& search) {
-  return {search.name, search.exactness, search.slow, [search](const RecordedPath& path) {
+  return {search.name, search.promise, search.slow, [search](const RecordedPath& path) {
             return std::make_unique<Rendered>(make_search_every_frame(search, path), path.profile, path);
           }};
 }

@@ -43,10 +43,10 @@ class TwoRateLoop : public FrameLoop {
 
 }  // namespace
 
-FrameImplementation rendered_tracking(const std::string& label) {
-  return {label, Exactness::APPROXIMATE, false, [label](const RecordedPath& path) {
-            const LockstepMethod& method = path.method(label);
-            return std::make_unique<Rendered>(std::make_unique<TwoRateLoop>(method, path), method.profile,
+FrameImplementation rendered_tracking(const std::string& method) {
+  return {method, method_description(method).promise, false, [method](const RecordedPath& path) {
+            const LockstepMethod chosen = path.method(method);
+            return std::make_unique<Rendered>(std::make_unique<TwoRateLoop>(chosen, path), chosen.profile,
                                               path);
           }};
 }

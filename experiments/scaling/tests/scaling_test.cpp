@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/catalogue/shapes.h>
 #include <lmdbench/mesh/validity.h>
+#include <lmdbench/methods/certified/certified.h>
 #include <lmdbench/snch/minimum_distance.h>
 
 #include <gtest/gtest.h>
@@ -70,7 +71,7 @@ TEST(Measure, FindsCertifiedRightAndCountsItsWork) {
     EXPECT_EQ(series.objection, "") << series.name;
     EXPECT_EQ(series.seconds.size(), poses.size());
   }
-  EXPECT_GT(measurement.series[0].counters[0][Counter::NODE_PAIRS], 0u);
+  EXPECT_GT(measurement.series[0].counters[0][Certified::Counter::NODE_PAIRS], 0u);
   EXPECT_EQ(measurement.series[0].counters, measurement.series[1].counters)
       << "a slide changes no work from scratch";
   for (const std::size_t count : measurement.lmd_counts) EXPECT_GE(count, 1u);

@@ -137,7 +137,7 @@ class FormatTest(ScriptsTest):
         rows = self.rows()
         self.assertEqual(rows["force"], (2, "N"))
         self.assertEqual(rows["local_update_time"], (2, "s"))
-        self.assertEqual(rows["counters/node_pairs"], (1, "1"))
+        self.assertEqual(rows["counters/NAME"], (1, "1"))
         self.assertEqual(rows["/reference/force_linear"], (2, "N"))
         self.assertEqual(rows["summary/recall"], (1, "1"))
 

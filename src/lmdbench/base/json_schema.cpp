@@ -10,6 +10,7 @@
 #include <valijson/validator.hpp>
 
 #include <algorithm>
+#include <map>
 #include <numeric>
 #include <vector>
 
@@ -25,75 +26,96 @@ const Json& follow(const Json& schema, const Json& root) {
   return reference == schema.end() ? schema : root.at(Pointer(reference->get<std::string>().substr(1)));
 }
 
-/// "x-applies-when": whether a property exists in an object with these siblings.
-bool applies(const Json& property, const Json& object) {
-  const auto condition = property.find("x-applies-when");
-  if (condition == property.end()) return true;
-  for (const auto& [key, values] : condition->items()) {
-    const auto sibling = object.find(key);
-    if (sibling == object.end() || std::find(values.begin(), values.end(), *sibling) == values.end())
-      return false;
-  }
+/// Whether the constants that an "if" names are those of the object.
+bool holds(const Json& condition, const Json& object) {
+  if (!object.is_object()) return false;
+  for (const auto& [key, property] : condition["properties"].items())
+    if (!object.contains(key) || object[key] != property["const"]) return false;
   return true;
+}
+
+/// The schemas that hold for a value: its own, and of its "allOf" every "then" whose "if" names the value's
+/// constants.
+std::vector<const Json*> schemas_for(const Json& value, const Json& schema_or_reference, const Json& root) {
+  const Json& schema = follow(schema_or_reference, root);
+  std::vector<const Json*> result{&schema};
+  if (const auto choices = schema.find("allOf"); choices != schema.end())
+    for (const Json& choice : *choices)
+      if (holds(choice["if"], value)) result.push_back(&follow(choice["then"], root));
+  return result;
+}
+
+/// Which constants would give the object a key that it must not have: in words, or nothing where none would.
+std::string where_it_exists(const std::string& key, const Json& choices) {
+  std::map<std::string, std::vector<std::string>> constants;  // by the property that has them
+  for (const Json& choice : choices)
+    if (choice["then"]["properties"].contains(key))
+      for (const auto& [sibling, property] : choice["if"]["properties"].items())
+        constants[sibling].push_back(property["const"].dump());
+  std::string text;
+  for (const auto& [sibling, values] : constants)
+    text +=
+        fmt::format("{}\"{}\" is one of [{}]", text.empty() ? "" : " and ", sibling, fmt::join(values, ","));
+  return text;
 }
 
 void refuse_unknown(const Json& value, const Json& schema_or_reference, const Json& root,
                     const Pointer& place, const std::string& file) {
-  const Json& schema = follow(schema_or_reference, root);
-  if (value.is_array() && schema.contains("items")) {
-    for (std::size_t i = 0; i < value.size(); ++i)
-      refuse_unknown(value[i], schema["items"], root, place / i, file);
-  }
-  if (!value.is_object() || !schema.contains("properties")) return;
-  const Json& properties = schema["properties"];
-  std::vector<std::string> known;
-  for (const auto& [key, property] : properties.items())
-    if (applies(follow(property, root), value)) known.push_back(key);
-  for (const auto& [key, child] : value.items()) {
-    const bool is_known = std::find(known.begin(), known.end(), key) != known.end();
-    if (is_known) {
-      refuse_unknown(child, properties[key], root, place / key, file);
-    } else if (schema.value("additionalProperties", true) == false) {
-      const std::string near = nearest_word(key, known);
-      std::string problem = fmt::format("unknown key \"{}\"", key);
+  const Json& whole = follow(schema_or_reference, root);
+  for (const Json* schema : schemas_for(value, whole, root)) {
+    if (value.is_array() && schema->contains("items")) {
+      for (std::size_t i = 0; i < value.size(); ++i)
+        refuse_unknown(value[i], (*schema)["items"], root, place / i, file);
+    }
+    if (!value.is_object() || !schema->contains("properties")) continue;
+    const Json& properties = (*schema)["properties"];
+    for (const auto& [key, child] : value.items()) {
       if (properties.contains(key)) {
-        for (const auto& [sibling, values] : follow(properties[key], root)["x-applies-when"].items())
-          problem =
-              fmt::format("key \"{}\" exists only where \"{}\" is one of {}", key, sibling, values.dump());
+        refuse_unknown(child, properties[key], root, place / key, file);
+      } else if (schema->value("additionalProperties", true) == false) {
+        std::vector<std::string> known;
+        for (const auto& property : properties.items()) known.push_back(property.key());
+        const std::string near = nearest_word(key, known);
+        const std::string elsewhere = where_it_exists(key, whole.value("allOf", Json::array()));
+        throw UsageError(file, (place / key).to_string(),
+                         elsewhere.empty() ? fmt::format("unknown key \"{}\"", key)
+                                           : fmt::format("key \"{}\" exists only where {}", key, elsewhere),
+                         near.empty() ? fmt::format("known keys here: {}", fmt::join(known, ", "))
+                                      : fmt::format("did you mean \"{}\"?", near));
       }
-      throw UsageError(file, (place / key).to_string(), problem,
-                       near.empty() ? fmt::format("known keys here: {}", fmt::join(known, ", "))
-                                    : fmt::format("did you mean \"{}\"?", near));
     }
   }
 }
 
 void fill(Json& value, const Json& schema_or_reference, const Json& root) {
-  const Json& schema = follow(schema_or_reference, root);
-  if (value.is_array() && schema.contains("items")) {
-    for (Json& item : value) fill(item, schema["items"], root);
-  }
-  if (!value.is_object() || !schema.contains("properties")) return;
-  for (const auto& [key, property_or_reference] : schema["properties"].items()) {
-    const Json& property = follow(property_or_reference, root);
-    if (!value.contains(key) && property.contains("default") && applies(property, value))
-      value[key] = property["default"];
-    if (value.contains(key)) fill(value[key], property, root);
+  for (const Json* schema : schemas_for(value, schema_or_reference, root)) {
+    if (value.is_array() && schema->contains("items")) {
+      for (Json& item : value) fill(item, (*schema)["items"], root);
+    }
+    if (!value.is_object() || !schema->contains("properties")) continue;
+    for (const auto& [key, property_or_reference] : (*schema)["properties"].items()) {
+      const Json& property = follow(property_or_reference, root);
+      if (!value.contains(key) && property.contains("default")) value[key] = property["default"];
+      if (value.contains(key)) fill(value[key], property, root);
+    }
   }
 }
 
-/// The part of the schema that describes the value at `place`; an empty object when there is none.
-Json schema_at(const std::vector<std::string>& place, const Json& root) {
+/// The part of the schema that describes the document's value at `place`; an empty object when there is none.
+Json schema_at(const std::vector<std::string>& place, const Json& root, const Json& document) {
   const Json* schema = &root;
+  const Json* value = &document;
   for (const std::string& step : place) {
-    const Json& here = follow(*schema, root);
-    if (here.contains("items")) {
-      schema = &here["items"];
-    } else if (here.contains("properties") && here["properties"].contains(step)) {
-      schema = &here["properties"][step];
-    } else {
-      return Json::object();
+    const Json* next = nullptr;
+    for (const Json* here : schemas_for(*value, *schema, root)) {
+      if (here->contains("items"))
+        next = &(*here)["items"];
+      else if (here->contains("properties") && (*here)["properties"].contains(step))
+        next = &(*here)["properties"][step];
     }
+    if (next == nullptr) return Json::object();
+    schema = next;
+    value = value->is_array() ? &value->at(std::stoul(step)) : &value->at(step);
   }
   return follow(*schema, root);
 }
@@ -144,7 +166,7 @@ void validate_against_schema(const Json& document, const Json& schema_json, cons
   if (!problem.empty() && problem.back() == '.') problem.pop_back();
   if (!place.empty()) problem += fmt::format(", found {}", document.at(pointer).dump());
   throw UsageError(file, place.empty() ? "/" : pointer.to_string(), problem,
-                   expectation(schema_at(place, schema_json)));
+                   expectation(schema_at(place, schema_json, document)));
 }
 
 void fill_defaults(Json& document, const Json& schema) {

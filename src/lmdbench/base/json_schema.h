@@ -11,8 +11,9 @@
 /// the nearest known one) and defaults.
 namespace lmdbench {
 
-/// Keys that the schema does not know are refused wherever it says "additionalProperties": false. A property
-/// with "x-applies-when": {"name": ["original"]} exists only where the sibling key has one of these values.
+/// Keys that the schema does not know are refused wherever it says "additionalProperties": false. Properties
+/// that exist only beside certain values are given by "allOf": [{"if": {"properties": {KEY: {"const":
+/// VALUE}}}, "then": SCHEMA}].
 /// @throws UsageError with the JSON pointer of the first such key
 void refuse_unknown_keys(const nlohmann::json& document, const nlohmann::json& schema,
                          const std::string& file);

@@ -1,8 +1,11 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/base/error.h>
 #include <lmdbench/cli/commands.h>
 #include <lmdbench/experiment/experiment.h>
 #include <lmdbench/experiment/plan.h>
+#include <lmdbench/experiment/schema.h>
+#include <lmdbench/methods/registry.h>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -18,15 +21,26 @@ void add_plan_command(CLI::App& app) {
     std::string experiment;
     std::vector<std::string> overrides;
     bool json = false;
+    bool schema = false;
   };
   auto* command =
       app.add_subcommand("plan", "Say what an experiment needs, what is left out and why; run nothing");
   const auto options = std::make_shared<PlanOptions>();
-  command->add_option("experiment", options->experiment, "experiment file (JSON)")->required();
+  command->add_option("experiment", options->experiment, "experiment file (JSON)");
   command->add_option("--set", options->overrides, "override a value: /json/pointer=value; repeatable")
       ->allow_extra_args(false);
   command->add_flag("--json", options->json, "JSON, with the experiment and all its defaults");
+  command->add_flag(
+      "--schema", options->schema,
+      "print the JSON Schema of experiment files, with the options of every method, and no plan");
+  command->footer(methods_help());
   command->callback([options] {
+    if (options->schema) {
+      fmt::print("{}\n", experiment_schema().dump(2));
+      return;
+    }
+    if (options->experiment.empty())
+      throw UsageError("", "plan", "no experiment file", "name one: lmdbench plan EXPERIMENT.json");
     const Experiment experiment = load_experiment(options->experiment, options->overrides);
     const Plan plan = make_plan(experiment);
     if (options->json)

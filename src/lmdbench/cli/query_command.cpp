@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/base/error.h>
+#include <lmdbench/base/json_text.h>
 #include <lmdbench/catalogue/manifest.h>
 #include <lmdbench/cli/commands.h>
 #include <lmdbench/experiment/query.h>
@@ -14,12 +15,12 @@
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
-#include <algorithm>
 #include <cstdio>
 #include <iostream>
 #include <memory>
 #include <string>
 #include <utility>
+#include <vector>
 
 namespace lmdbench {
 namespace {
@@ -29,6 +30,7 @@ struct QueryOptions {
   std::string fixed;
   double cutoff = 0.0;
   std::string method = "certified";
+  std::vector<std::string> options;
   std::string poses;
   std::string folder = DEFAULT_MESH_FOLDER;
   bool json = false;
@@ -48,19 +50,29 @@ Path poses_of(const QueryOptions& options) {
   return read_tum(options.poses);
 }
 
+/// The method's options with what `--option` says.
+nlohmann::json chosen_options(const QueryOptions& options) {
+  nlohmann::json chosen = nlohmann::json::object();
+  for (const std::string& option : options.options) {
+    if (option.find('=') == std::string::npos)
+      throw UsageError("", "--option " + option, "not of the form key=value", "for example --option key=3");
+    apply_override(chosen, "/" + option);
+  }
+  return complete_options(method_description(options.method, "", "--method"), chosen, "--option");
+}
+
 void run(const QueryOptions& options) {
   if (!(options.cutoff > 0.0 && options.cutoff <= LARGEST_COORDINATE))
     throw UsageError(
         "", "--cutoff",
         fmt::format("{} is not a distance above 0 and at most {:g}", options.cutoff, LARGEST_COORDINATE),
         "give metres, for example --cutoff 0.005");
-  const auto& names = method_names();
-  if (std::find(names.begin(), names.end(), options.method) == names.end())
-    make_method(options.method, Scene{});  // throws; an unknown name should not wait for the meshes
+  // First, because a misspelt name or option should not wait for the meshes.
+  const nlohmann::json method_options = chosen_options(options);
   const Path poses = poses_of(options);
   const Scene scene{
       load(options.moving, options.folder), {load(options.fixed, options.folder)}, options.cutoff};
-  const std::unique_ptr<Method> method = make_method(options.method, scene);
+  const std::unique_ptr<Method> method = make_method(options.method, scene, method_options);
   for (const TimedPose& pose : poses) {
     const QueryAnswer answer = query(*method, pose, options.cutoff);
     fmt::print("{}{}", options.json ? query_json(answer) : query_text(answer), options.json ? "\n" : "");
@@ -76,9 +88,11 @@ void add_query_command(CLI::App& app) {
       ->required();
   command->add_option("--fixed", options->fixed, "fixed mesh, likewise")->required();
   command->add_option("--cutoff", options->cutoff, "LMDs up to this distance [m]")->required();
-  std::string names;
-  for (const std::string_view name : method_names()) names += (names.empty() ? "" : ", ") + std::string(name);
-  command->add_option("--method", options->method, "one of " + names)->capture_default_str();
+  command->add_option("--method", options->method, fmt::format("one of {}", fmt::join(method_names(), ", ")))
+      ->capture_default_str();
+  command->add_option("--option", options->options, "an option of the method: key=value; repeatable")
+      ->allow_extra_args(false);
+  command->footer(methods_help());
   command->add_option(
       "--poses", options->poses,
       "TUM trajectory of the moving mesh, - for standard input; one identity pose without it");

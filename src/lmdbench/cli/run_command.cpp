@@ -6,6 +6,7 @@
 #include <lmdbench/experiment/experiment.h>
 #include <lmdbench/experiment/run.h>
 #include <lmdbench/experiment/summary.h>
+#include <lmdbench/methods/registry.h>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -84,6 +85,7 @@ void add_run_command(CLI::App& app, const std::vector<std::string>& argv) {
       ->allow_extra_args(false);
   command->add_option("--driver", options->driver, "same as --set /driver/kind=...");
   command->add_flag("--json", options->json, "summary as JSON");
+  command->footer(methods_help());
   command->callback([options, argv] { run(*options, argv); });
 }
 

@@ -4,8 +4,9 @@
 
 #include <lmdbench/force/force_law.h>
 #include <lmdbench/geometry/pose.h>
-#include <lmdbench/lmd/method_options.h>
 #include <lmdbench/motion/interpolate.h>
+
+#include <nlohmann/json.hpp>
 
 #include <cstdint>
 #include <filesystem>
@@ -44,8 +45,8 @@ struct MethodChoice {
   std::string name;   ///< Name in the registry.
   std::string label;  ///< Unique; group of the result.
   ForceLaw force_law = ForceLaw::EXPONENTIAL;
-  MethodOptions options;
-  std::string options_json;  ///< The method's entry of the resolved experiment.
+  nlohmann::json options = nlohmann::json::object();  ///< Every option of the method.
+  std::string options_json;                           ///< The method's entry of the resolved experiment.
 };
 
 /// How searches and frames share the clock, see `lockstep.h`.
@@ -89,8 +90,5 @@ Experiment load_experiment(const std::filesystem::path& file, const std::vector<
 /// The same from text; `file` serves messages and relative names.
 Experiment parse_experiment(const std::string& text, const std::filesystem::path& file,
                             const std::vector<Override>& overrides = {});
-
-/// The JSON Schema that is compiled into the program.
-const std::string& experiment_schema_text();
 
 }  // namespace lmdbench

@@ -5,6 +5,7 @@
 #include <lmdbench/base/json_schema.h>
 #include <lmdbench/base/json_text.h>
 #include <lmdbench/experiment/experiment.h>
+#include <lmdbench/experiment/schema.h>
 #include <lmdbench/methods/registry.h>
 #include <lmdbench/motion/tum_file.h>
 
@@ -12,7 +13,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <set>
 
 namespace lmdbench {
@@ -73,35 +73,18 @@ MethodChoice method_choice(const Json& entry) {
   choice.label = entry["label"].get<std::string>();
   choice.force_law = entry["force_law"] == "linear" ? ForceLaw::LINEAR : ForceLaw::EXPONENTIAL;
   choice.options_json = entry.dump();
-  MethodOptions& options = choice.options;
-  if (entry.contains("g5_tolerance_deg"))
-    options.g5_tolerance_rad = entry["g5_tolerance_deg"].get<double>() * std::numbers::pi / 180.0;
-  if (entry.contains("line_cone"))
-    options.line_cone = entry["line_cone"] == "two-sided" ? LineCone::TWO_SIDED : LineCone::ONE_SIDED;
-  if (entry.contains("visibility"))
-    options.visibility = entry["visibility"] == "orthogonal" ? Visibility::ORTHOGONAL
-                         : entry["visibility"] == "off"      ? Visibility::OFF
-                                                             : Visibility::VERTEX_NORMAL;
-  if (entry.contains("reduction"))
-    options.reduction = entry["reduction"] == "loss-free" ? Reduction::LOSS_FREE : Reduction::PUBLISHED;
-  if (entry.contains("tracking_order"))
-    options.tracking_order = entry["tracking_order"] == "triangle-index" ? TrackingOrder::TRIANGLE_INDEX
-                                                                         : TrackingOrder::NEAREST_FIRST;
-  if (entry.contains("frame_coherence")) options.frame_coherence = entry["frame_coherence"].get<bool>();
-  if (entry.contains("literal_g3")) options.literal_g3 = entry["literal_g3"].get<bool>();
+  for (const auto& option : method_description(choice.name).options.items())
+    choice.options[option.key()] = entry[option.key()];
   return choice;
 }
 
-void check_method_names(const Json& methods, const std::string& file) {
-  const std::vector<std::string> known(method_names().begin(), method_names().end());
-  for (std::size_t i = 0; i < methods.size(); ++i) {
-    const std::string name = methods[i]["name"].get<std::string>();
-    if (std::find(known.begin(), known.end(), name) != known.end()) continue;
-    const std::string near = nearest_word(name, known);
-    throw UsageError(file, fmt::format("/methods/{}/name", i), fmt::format("unknown method \"{}\"", name),
-                     near.empty() ? fmt::format("known methods: {}", fmt::join(known, ", "))
-                                  : fmt::format("did you mean \"{}\"?", near));
-  }
+/// Before the validator's check, which could only list the methods' names.
+void check_method_names(const Json& document, const std::string& file) {
+  if (!document.is_object() || !document.contains("methods") || !document["methods"].is_array()) return;
+  const Json& methods = document["methods"];
+  for (std::size_t i = 0; i < methods.size(); ++i)
+    if (methods[i].is_object() && methods[i].contains("name") && methods[i]["name"].is_string())
+      method_description(methods[i]["name"].get<std::string>(), file, fmt::format("/methods/{}/name", i));
 }
 
 void check_labels(const std::vector<MethodChoice>& methods, const std::string& file) {
@@ -118,7 +101,6 @@ Experiment from_json(Json document, const std::filesystem::path& path) {
   const std::string file = path.string();
   for (Json& method : document["methods"])
     if (!method.contains("label")) method["label"] = method["name"];
-  check_method_names(document["methods"], file);
 
   Experiment experiment;
   experiment.file = path;
@@ -174,10 +156,11 @@ double ForceChoice::saturation(double moving_diagonal) const {
 
 Experiment parse_experiment(const std::string& text, const std::filesystem::path& file,
                             const std::vector<Override>& overrides) {
-  static const Json schema = Json::parse(experiment_schema_text());
+  const Json& schema = experiment_schema();
   Json document = parse_json(text, file.string());
   for (const Override& entry : overrides) apply_override(document, entry);
   // The validator goes last but one: a misspelt key would else be reported as a missing one.
+  check_method_names(document, file.string());
   refuse_unknown_keys(document, schema, file.string());
   validate_against_schema(document, schema, file.string());
   fill_defaults(document, schema);

@@ -5,6 +5,7 @@
 #include <lmdbench/experiment/lockstep.h>
 #include <lmdbench/experiment/two_rate.h>
 #include <lmdbench/force/aggregate.h>
+#include <lmdbench/lmd/method_description.h>
 
 #include <fmt/format.h>
 #include <xxhash.h>
@@ -54,7 +55,7 @@ class MethodRun {
   MethodRun(const LockstepMethod& method, const LockstepInput& input, const DriverChoice& driver)
       : input_(input), profile_(method.profile), memory_(method.profile.cutoff) {
     std::unique_ptr<Method> first = method.make();
-    if (first->tracks_locally())
+    if (first->description().tracks_locally)
       two_rate_.emplace(std::move(first), method.make(), driver);
     else
       every_frame_ = std::move(first);

@@ -7,23 +7,47 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
-#include <memory>
 
 namespace lmdbench {
 namespace {
 
-/// Whether a method tracks locally is a property of its class: asked of an instance
-/// on a scene of one triangle.
-bool tracks_locally(const MethodChoice& choice) {
-  TriangleMesh mesh;
-  mesh.vertices = {Vec3::Zero(), Vec3::UnitX(), Vec3::UnitY()};
-  mesh.triangles = {{0, 1, 2}};
-  const auto body = std::make_shared<const Body>("plan", build_surface(mesh));
-  return make_method(choice.name, Scene{body, {body}, 1.0}, choice.options)->tracks_locally();
-}
+using Json = nlohmann::json;
 
 std::string join_labels(const std::vector<std::string>& labels) {
   return fmt::format("{}", fmt::join(labels, ", "));
+}
+
+/// A method of the experiment with its options, with the default beside a value that is another.
+std::string method_text(const MethodChoice& choice) {
+  const MethodDescription& method = method_description(choice.name);
+  std::string text =
+      fmt::format("  {}: {} ({}, force law {})\n", choice.label, method.summary, to_string(method.promise),
+                  choice.force_law == ForceLaw::LINEAR ? "linear" : "exponential");
+  for (const auto& [key, value] : choice.options.items()) {
+    const Json& standard = method.options[key]["default"];
+    text += fmt::format("    {:<34} {}{}\n", key, value.dump(),
+                        value == standard ? "" : fmt::format(" (default {})", standard.dump()));
+  }
+  return text;
+}
+
+nlohmann::ordered_json method_json(const MethodChoice& choice) {
+  const MethodDescription& method = method_description(choice.name);
+  nlohmann::ordered_json json{{"label", choice.label},
+                              {"name", method.name},
+                              {"summary", method.summary},
+                              {"promise", to_string(method.promise)},
+                              {"tracks_locally", method.tracks_locally},
+                              {"options", nlohmann::ordered_json::array()},
+                              {"counters", nlohmann::ordered_json::array()}};
+  for (const auto& [key, value] : choice.options.items())
+    json["options"].push_back({{"key", key},
+                               {"value", value},
+                               {"default", method.options[key]["default"]},
+                               {"description", method.options[key]["description"]}});
+  for (const CounterDescription& counter : method.counters)
+    json["counters"].push_back({{"name", counter.name}, {"description", counter.summary}});
+  return json;
 }
 
 }  // namespace
@@ -37,7 +61,7 @@ Plan make_plan(const Experiment& experiment) {
   std::vector<std::string> tracking;
   std::vector<std::string> searching;
   for (const MethodChoice& choice : experiment.methods)
-    (tracks_locally(choice) ? tracking : searching).push_back(choice.label);
+    (method_description(choice.name).tracks_locally ? tracking : searching).push_back(choice.label);
 
   Plan plan;
   const auto add = [&](Part part, const std::string& name, bool needed, const std::string& why_needed,
@@ -82,12 +106,16 @@ std::string plan_text(const Plan& plan, const Experiment& experiment) {
     for (const PlanItem& item : plan.items)
       if (item.needed == needed) text += fmt::format("  {:<36} {}\n", item.name, item.why);
   }
+  text += "methods:\n";
+  for (const MethodChoice& choice : experiment.methods) text += method_text(choice);
   return text;
 }
 
 std::string plan_json(const Plan& plan, const Experiment& experiment) {
   nlohmann::ordered_json json;
   json["experiment"] = nlohmann::ordered_json::parse(experiment.resolved_json);
+  json["methods"] = nlohmann::ordered_json::array();
+  for (const MethodChoice& choice : experiment.methods) json["methods"].push_back(method_json(choice));
   json["needed"] = nlohmann::ordered_json::array();
   json["left_out"] = nlohmann::ordered_json::array();
   for (const PlanItem& item : plan.items)

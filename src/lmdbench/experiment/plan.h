@@ -39,10 +39,13 @@ struct Plan {
 
 Plan make_plan(const Experiment& experiment);
 
-/// For people: one line a part.
+/// For people: one line a part, one an option of each method.
 std::string plan_text(const Plan& plan, const Experiment& experiment);
 
-/// JSON text: {"experiment": resolved experiment, "needed": [{"part", "why"}], "left_out": [...]}.
+/// JSON text: {"experiment": resolved experiment, "methods": [{"label", "name", "summary", "promise",
+/// "tracks_locally", "options": [{"key", "value", "default", "description"}],
+/// "counters": [{"name", "description"}]}], "needed": [{"part", "why"}],
+/// "left_out": [...]}.
 std::string plan_json(const Plan& plan, const Experiment& experiment);
 
 }  // namespace lmdbench

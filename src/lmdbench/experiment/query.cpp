@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/experiment/query.h>
+#include <lmdbench/lmd/method_description.h>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -26,14 +27,17 @@ Json feature_json(const FeatureId& feature) {
 QueryAnswer query(Method& method, const TimedPose& pose, double cutoff) {
   QueryAnswer answer;
   answer.time = pose.time;
-  answer.method = method.name();
+  answer.method = method.description().name;
+  WorkCounters counters;
   const auto begin = std::chrono::steady_clock::now();
-  method.search(pose.pose, answer.lmds, answer.counters);
-  for (int i = 0; i < method.trackings_after_search(); ++i)
-    method.track(pose.pose, answer.lmds, answer.counters);
+  method.search(pose.pose, answer.lmds, counters);
+  for (int i = 0; i < method.description().trackings_after_search; ++i)
+    method.track(pose.pose, answer.lmds, counters);
   answer.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   answer.lmds = within_cutoff(answer.lmds, cutoff);
   std::stable_sort(answer.lmds.begin(), answer.lmds.end(), lmd_less);
+  for (const CounterDescription& counter : method.description().counters)
+    answer.counters.emplace_back(counter.name, counters.values[counter.index]);
   return answer;
 }
 
@@ -51,8 +55,7 @@ std::string query_json(const QueryAnswer& answer) {
                             {"feature_fixed", feature_json(lmd.feature_fixed)}});
   }
   json["counters"] = Json::object();
-  for (std::size_t i = 0; i < COUNTER_COUNT; ++i)
-    json["counters"][std::string(counter_name(static_cast<Counter>(i)))] = answer.counters.values[i];
+  for (const auto& [name, value] : answer.counters) json["counters"][name] = value;
   json["seconds"] = answer.seconds;
   return json.dump();
 }

@@ -4,10 +4,12 @@
 
 #include <lmdbench/lmd/lmd.h>
 #include <lmdbench/lmd/method.h>
-#include <lmdbench/lmd/work_counters.h>
 #include <lmdbench/motion/path.h>
 
+#include <cstdint>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace lmdbench {
 
@@ -15,9 +17,9 @@ namespace lmdbench {
 struct QueryAnswer {
   double time = 0.0;  ///< Of the pose [s].
   std::string method;
-  LmdSet lmds;  ///< Sorted by `lmd_less`, world coordinates.
-  WorkCounters counters;
-  double seconds = 0.0;  ///< What the method took.
+  LmdSet lmds;                                                  ///< Sorted by `lmd_less`, world coordinates.
+  std::vector<std::pair<std::string, std::uint64_t>> counters;  ///< The method's, by name.
+  double seconds = 0.0;                                         ///< What the method took.
 };
 
 /// Searches at the pose; methods that track after a search (the improved algorithm's

@@ -5,6 +5,7 @@
 #include <lmdbench/experiment/experiment.h>
 #include <lmdbench/geometry/pose.h>
 #include <lmdbench/lmd/method.h>
+#include <lmdbench/lmd/method_description.h>
 
 #include <cstdint>
 #include <memory>
@@ -75,7 +76,7 @@ class TwoRate {
     observer.run(Stage::GLOBAL_SEARCH,
                  [&](WorkCounters& counters) { global_->search(X_WM, lmds, counters); });
     search.candidates = static_cast<std::int64_t>(lmds.size());
-    if (global_->trackings_after_search() > 0)
+    if (global_->description().trackings_after_search > 0)
       observer.run(Stage::FIRST_REDUCTION,
                    [&](WorkCounters& counters) { global_->track(X_WM, lmds, counters); });
     search.kept_after_reduction = static_cast<std::int64_t>(lmds.size());
@@ -86,7 +87,7 @@ class TwoRate {
   /// moment.
   template <typename Observer>
   void receive(const Pose& X_WM, Observer& observer) {
-    const int later_trackings = global_->trackings_after_search() - 1;
+    const int later_trackings = global_->description().trackings_after_search - 1;
     if (later_trackings > 0) {
       observer.run(Stage::SECOND_TRACKING, [&](WorkCounters& counters) {
         for (int i = 0; i < later_trackings; ++i) global_->track(X_WM, pending_->lmds, counters);

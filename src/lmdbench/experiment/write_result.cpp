@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/experiment/summary.h>
 #include <lmdbench/experiment/write_result.h>
-#include <lmdbench/lmd/work_counters.h>
+#include <lmdbench/methods/registry.h>
 
 #include <fmt/format.h>
 
@@ -38,16 +38,15 @@ void write_column(ResultWriter& writer, const DatasetInfo& info, const std::vect
   }
 }
 
-/// Counters of the rows, one dataset a counter.
+/// Counters of the rows, one dataset a counter that the method counts there.
 template <typename Row>
 void write_counters(ResultWriter& writer, const std::string& group, const std::vector<Row>& rows,
-                    const std::string& of) {
-  for (std::size_t i = 0; i < COUNTER_COUNT; ++i) {
-    const auto counter = static_cast<Counter>(i);
-    const std::string name(counter_name(counter));
-    write_column(writer, {fmt::format("{}/{}", group, name), "1", fmt::format("{} of the {}", name, of)},
-                 rows, [&](const Row& row) { return static_cast<std::int64_t>(row.counters[counter]); });
-  }
+                    const std::vector<CounterDescription>& counters, const std::string& of) {
+  for (const CounterDescription& counter : counters)
+    write_column(
+        writer,
+        {fmt::format("{}/{}", group, counter.name), "1", fmt::format("{}, of the {}", counter.summary, of)},
+        rows, [&](const Row& row) { return static_cast<std::int64_t>(row.counters.values[counter.index]); });
 }
 
 /// Times of all repetitions as a (repetition, column) array.
@@ -61,7 +60,8 @@ void write_times(ResultWriter& writer, const DatasetInfo& info,
                {repetitions.size(), (repetitions.front().*times).size()});
 }
 
-void write_frames(ResultWriter& writer, const std::string& group, const MethodRecord& record) {
+void write_frames(ResultWriter& writer, const std::string& group, const MethodDescription& method,
+                  const MethodRecord& record) {
   const std::vector<FrameRecord>& frames = record.frames;
   write_column(writer, {group + "/force", "N", "rendered force on the moving mesh, world frame"}, frames,
                [](const FrameRecord& f) { return f.force; });
@@ -74,43 +74,50 @@ void write_frames(ResultWriter& writer, const std::string& group, const MethodRe
                frames, [](const FrameRecord& f) { return f.torque; });
   write_column(writer, {group + "/lmd_count", "1", "LMDs within the cutoff"}, frames,
                [](const FrameRecord& f) { return f.lmd_count; });
-  write_column(
-      writer,
-      {group + "/lmd_count_before_reduction", "1", "LMD candidates of the search behind the set in use"},
-      frames, [](const FrameRecord& f) { return f.lmd_count_before_reduction; });
-  write_column(writer, {group + "/reduction_ratio", "1", "LMD candidates divided by LMDs kept"}, frames,
-               [](const FrameRecord& f) {
-                 return f.lmd_count > 0 ? f.lmd_count_before_reduction / static_cast<double>(f.lmd_count)
-                                        : UNSET;
-               });
+  if (method.tracks_locally) {
+    write_column(
+        writer,
+        {group + "/lmd_count_before_reduction", "1", "LMD candidates of the search behind the set in use"},
+        frames, [](const FrameRecord& f) { return f.lmd_count_before_reduction; });
+    write_column(writer, {group + "/reduction_ratio", "1", "LMD candidates divided by LMDs kept"}, frames,
+                 [](const FrameRecord& f) {
+                   return f.lmd_count > 0 ? f.lmd_count_before_reduction / static_cast<double>(f.lmd_count)
+                                          : UNSET;
+                 });
+    write_column(writer, {group + "/lmd_age", "s", "time since the pose that the set in use was searched at"},
+                 frames, [](const FrameRecord& f) { return f.lmd_age; });
+  }
   write_column(writer, {group + "/minimum_distance", "m", "smallest LMD distance"}, frames,
                [](const FrameRecord& f) { return f.minimum_distance; });
-  write_column(writer, {group + "/lmd_age", "s", "time since the pose that the set in use was searched at"},
-               frames, [](const FrameRecord& f) { return f.lmd_age; });
   write_column(writer, {group + "/effective_stiffness", "N/m", "slope of the force's length along the force"},
                frames, [](const FrameRecord& f) { return f.effective_stiffness; });
   write_column(
       writer,
       {group + "/contact_without_direction", "1", "LMDs at distance 0, which keep their last direction"},
       frames, [](const FrameRecord& f) { return f.contact_without_direction; });
-  write_counters(writer, group + "/counters", frames, "frame's local part");
+  write_counters(writer, group + "/counters", frames, method.local_counters(), "frame's local part");
   write_times(writer, {group + "/local_update_time", "s", "time of the frame's local part, by repetition"},
               record.repetitions, &RepetitionTimes::local_update);
 }
 
-void write_searches(ResultWriter& writer, const std::string& group, const MethodRecord& record) {
+/// What only a method with a search of its own rate has.
+void write_searches(ResultWriter& writer, const std::string& group, const MethodDescription& method,
+                    const MethodRecord& record) {
   const std::vector<SearchRecord>& searches = record.searches;
   write_column(writer, {group + "/global_frame", "1", "frame that the global search started in"}, searches,
                [](const SearchRecord& s) { return s.frame; });
   write_column(writer, {group + "/candidates", "1", "LMD candidates that the search found"}, searches,
                [](const SearchRecord& s) { return s.candidates; });
-  write_column(writer, {group + "/kept_after_reduction", "1", "LMDs left by the first tracking"}, searches,
-               [](const SearchRecord& s) { return s.kept_after_reduction; });
-  write_counters(writer, group + "/global_counters", searches, "global search and its trackings");
+  write_counters(writer, group + "/global_counters", searches, method.global_counters(),
+                 "global search and its trackings");
   write_times(writer, {group + "/global_search_time", "s", "time of the global search, by repetition"},
               record.repetitions, &RepetitionTimes::global_search);
+  if (method.trackings_after_search == 0) return;
+  write_column(writer, {group + "/kept_after_reduction", "1", "LMDs left by the first tracking"}, searches,
+               [](const SearchRecord& s) { return s.kept_after_reduction; });
   write_times(writer, {group + "/first_reduction_time", "s", "time of the first tracking, by repetition"},
               record.repetitions, &RepetitionTimes::first_reduction);
+  if (method.trackings_after_search == 1) return;
   write_times(writer, {group + "/second_tracking_time", "s", "time of the second tracking, by repetition"},
               record.repetitions, &RepetitionTimes::second_tracking);
 }
@@ -177,13 +184,19 @@ void write_method(ResultWriter& writer, const Experiment& experiment, const RunR
   const MethodChoice& choice = experiment.methods[index];
   const MethodRecord& record = result.records[index];
   const std::string group = "/methods/" + choice.label;
+  const MethodDescription& method = method_description(choice.name);
   writer.attribute(group, "method", choice.name);
+  writer.attribute(group, "method_order", static_cast<std::int64_t>(method_order(choice.name)));
+  writer.attribute(group, "about", method.summary);
+  writer.attribute(group, "promise", std::string(to_string(method.promise)));
+  writer.attribute(group, "tracks_locally", std::int64_t{method.tracks_locally});
+  writer.attribute(group, "trackings_after_search", std::int64_t{method.trackings_after_search});
   writer.attribute(group, "force_law",
                    std::string(choice.force_law == ForceLaw::LINEAR ? "linear" : "exponential"));
   writer.attribute(group, "options", choice.options_json);
   writer.attribute(group, "result_hash", fmt::format("{:016x}", record.result_hash));
-  write_frames(writer, group, record);
-  write_searches(writer, group, record);
+  write_frames(writer, group, method, record);
+  if (method.tracks_locally) write_searches(writer, group, method, record);
   if (!result.truth.empty()) write_truth(writer, group + "/truth", result.truth, result.comparisons[index]);
   if (experiment.record_lmds) write_lmd_lists(writer, group + "/lmds", record);
   if (result.fcl) {

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <lmdbench/lmd/lmd.h>
-#include <lmdbench/lmd/work_counters.h>
 #include <lmdbench/mesh/surface.h>
 
 #include <cstdint>
@@ -50,12 +49,13 @@ inline void set_direction(Lmd& lmd, const Vec3& last_direction) {
 
 /// Walks `start` to its local minimum.
 /// @param evaluate (triangle_moving, triangle_fixed) -> TrackedPair at the current pose
+/// @param steps    rounds of L1..L4, is added to
 template <class Evaluate>
 WalkEnd walk_to_minimum(const Surface& moving, const Surface& fixed, const Lmd& start, Evaluate&& evaluate,
-                        WorkCounters& counters) {
+                        std::uint64_t& steps) {
   WalkEnd end{start, false};
   for (bool first_round = true;; first_round = false) {
-    ++counters[Counter::TRACKING_STEPS];
+    ++steps;
     TrackedPair shortest;
     bool any = false;
     for (const std::int32_t t_moving : moving.incident_triangles(end.lmd.feature_moving)) {

@@ -6,26 +6,18 @@
 #include <lmdbench/lmd/lmd.h>
 #include <lmdbench/lmd/work_counters.h>
 
-#include <string_view>
-
 namespace lmdbench {
 
+struct MethodDescription;
+
 /// One way to find the LMD set of a scene. A method owns its scratch memory and is used by one thread at a
-/// time; the bodies that it reads are immutable and shared. Drivers, tests, benchmarks and reports take lists
-/// of methods; a new one is a new file and a line in `registry.cpp`.
+/// time; the bodies that it reads are immutable and shared.
 class Method {
  public:
   virtual ~Method() = default;
 
-  virtual std::string_view name() const = 0;
-
-  /// Whether the method needs local tracking between searches. If not, drivers call
-  /// `search` in every haptic frame.
-  virtual bool tracks_locally() const = 0;
-
-  /// How many times `track` runs in the global thread right after a search (paper, section 4.3; decision
-  /// E11): 0 for the original, 2 for the improved algorithm (first reduction, second tracking).
-  virtual int trackings_after_search() const = 0;
+  /// What is known of the method without an instance; the same object for all of them.
+  virtual const MethodDescription& description() const = 0;
 
   /// Finds an LMD set from scratch.
   /// @param X_WM     pose of the moving mesh

@@ -1,65 +1,73 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/base/error.h>
-#include <lmdbench/methods/certified/certified.h>
-#include <lmdbench/methods/exhaustive/exhaustive.h>
-#include <lmdbench/methods/improved/improved.h>
-#include <lmdbench/methods/original/original.h>
+#include <lmdbench/base/json_schema.h>
 #include <lmdbench/methods/registry.h>
 
+#include <fmt/format.h>
+
 #include <algorithm>
-#include <array>
-#include <string>
+#include <utility>
 
 namespace lmdbench {
-
 namespace {
 
-struct Registration {
-  std::string_view name;
-  std::unique_ptr<Method> (*make)(const Scene& scene, const MethodOptions& options);
-};
+using Json = nlohmann::json;
 
-/// A new method is a line here.
-constexpr std::array REGISTRY{
-    Registration{"original",
-                 [](const Scene& scene, const MethodOptions& options) -> std::unique_ptr<Method> {
-                   return std::make_unique<Original>(scene, options);
-                 }},
-    Registration{"improved",
-                 [](const Scene& scene, const MethodOptions& options) -> std::unique_ptr<Method> {
-                   return std::make_unique<Improved>(scene, options);
-                 }},
-    Registration{"certified",
-                 [](const Scene& scene, const MethodOptions& options) -> std::unique_ptr<Method> {
-                   return std::make_unique<Certified>(scene, options);
-                 }},
-    Registration{"exhaustive",
-                 [](const Scene& scene, const MethodOptions&) -> std::unique_ptr<Method> {
-                   return std::make_unique<Exhaustive>(scene);
-                 }},
-};
+auto find(std::string_view name) {
+  const auto& all = method_descriptions();
+  return std::find_if(all.begin(), all.end(),
+                      [&](const MethodDescription& description) { return description.name == name; });
+}
 
 }  // namespace
 
-const std::vector<std::string_view>& method_names() {
-  static const std::vector<std::string_view> names = [] {
-    std::vector<std::string_view> result;
-    for (const Registration& registration : REGISTRY) result.push_back(registration.name);
-    return result;
-  }();
+std::vector<std::string> method_names() {
+  std::vector<std::string> names;
+  for (const MethodDescription& description : method_descriptions()) names.push_back(description.name);
   return names;
 }
 
-std::unique_ptr<Method> make_method(std::string_view name, const Scene& scene, const MethodOptions& options) {
-  const auto found = std::find_if(REGISTRY.begin(), REGISTRY.end(), [&](const Registration& registration) {
-    return registration.name == name;
-  });
-  if (found != REGISTRY.end()) return found->make(scene, options);
-  std::string known;
-  for (const std::string_view other : method_names())
-    known += (known.empty() ? "" : ", ") + std::string(other);
-  throw UsageError("", "method", "there is no method '" + std::string(name) + "'", "choose one of: " + known);
+const MethodDescription& method_description(std::string_view name, const std::string& file,
+                                            const std::string& place) {
+  const auto found = find(name);
+  if (found != method_descriptions().end()) return *found;
+  const std::string near = nearest_word(std::string(name), method_names());
+  throw UsageError(file, place, fmt::format("unknown method \"{}\"", name),
+                   near.empty() ? fmt::format("known methods: {}", fmt::join(method_names(), ", "))
+                                : fmt::format("did you mean \"{}\"?", near));
+}
+
+std::size_t method_order(std::string_view name) {
+  return static_cast<std::size_t>(find(name) - method_descriptions().begin());
+}
+
+Json complete_options(const MethodDescription& description, Json options, const std::string& file) {
+  const Json schema{{"type", "object"}, {"additionalProperties", false}, {"properties", description.options}};
+  if (options.is_null()) options = Json::object();
+  refuse_unknown_keys(options, schema, file);
+  validate_against_schema(options, schema, file);
+  fill_defaults(options, schema);
+  return options;
+}
+
+std::unique_ptr<Method> make_method(std::string_view name, const Scene& scene, const Json& options) {
+  const MethodDescription& description = method_description(name);
+  return description.make(scene, complete_options(description, options, "options of " + description.name));
+}
+
+std::string methods_help() {
+  std::string text = "Methods and their options:\n";
+  for (const MethodDescription& description : method_descriptions()) {
+    text +=
+        fmt::format("  {}: {} ({})\n", description.name, description.summary, to_string(description.promise));
+    for (const auto& [key, property] : description.options.items())
+      text += fmt::format(
+          "    {} = {} ({}): {}\n", key, property["default"].dump(),
+          property.contains("enum") ? property["enum"].dump() : property["type"].get<std::string>(),
+          property["description"].get<std::string>());
+  }
+  return text;
 }
 
 }  // namespace lmdbench

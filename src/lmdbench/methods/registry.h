@@ -3,20 +3,47 @@
 #pragma once
 
 #include <lmdbench/lmd/method.h>
-#include <lmdbench/lmd/method_options.h>
+#include <lmdbench/lmd/method_description.h>
 #include <lmdbench/lmd/scene.h>
 
+#include <nlohmann/json.hpp>
+
 #include <memory>
+#include <string>
 #include <string_view>
 #include <vector>
 
+/// The methods of this build. Drivers, tests, benchmarks and reports take the list from here and what they
+/// must know of each from its description.
 namespace lmdbench {
 
-/// Names that `make_method` knows, in the order of reports.
-const std::vector<std::string_view>& method_names();
+/// In the order of reports.
+const std::vector<MethodDescription>& method_descriptions();
 
-/// @throws UsageError for an unknown name, listing the known ones
+/// Their names, for messages.
+std::vector<std::string> method_names();
+
+/// @throws UsageError for an unknown name, with the nearest one or the known ones
+/// @param file,place where the name stands, for the message
+const MethodDescription& method_description(std::string_view name, const std::string& file = "",
+                                            const std::string& place = "method");
+
+/// Place in the order of reports. Figures take colours by it, so that a method looks the same everywhere.
+std::size_t method_order(std::string_view name);
+
+/// Checks options against the method's schema and fills in the defaults.
+/// @param file for the message
+/// @throws UsageError naming the option at fault
+nlohmann::json complete_options(const MethodDescription& description, nlohmann::json options,
+                                const std::string& file);
+
+/// Makes a method on a scene.
+/// @param options need not name those that keep their defaults
+/// @throws UsageError for an unknown name or an option that does not fit
 std::unique_ptr<Method> make_method(std::string_view name, const Scene& scene,
-                                    const MethodOptions& options = {});
+                                    const nlohmann::json& options = nlohmann::json::object());
+
+/// For `--help`: a paragraph a method, with its options, their values and defaults.
+std::string methods_help();
 
 }  // namespace lmdbench

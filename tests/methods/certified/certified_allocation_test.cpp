@@ -60,7 +60,7 @@ namespace {
 
 /// Runs the poses twice and counts what the second round allocates.
 std::size_t allocations_after_warm_up(const Scene& scene, bool coherent, const std::vector<Pose>& poses) {
-  MethodOptions options;
+  CertifiedOptions options;
   options.frame_coherence = coherent;
   Certified method(scene, options);
   LmdSet lmds;

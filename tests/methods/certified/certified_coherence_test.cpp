@@ -45,7 +45,7 @@ void expect_truth_along(const Scene& scene, double cutoff, const std::vector<Pos
                         std::size_t& lmd_count) {
   Scene limited = scene;
   limited.cutoff = cutoff;
-  MethodOptions from_scratch;
+  CertifiedOptions from_scratch;
   from_scratch.frame_coherence = false;
   lmd_count = 0;
   Certified coherent(limited), scratch(limited, from_scratch);
@@ -66,7 +66,7 @@ void expect_truth_along(const Scene& scene, double cutoff, const std::vector<Pos
       ASSERT_NEAR(kept[i].distance, truth[i].distance, 1e-12) << "frame " << frame;
     }
   }
-  EXPECT_LT(of_kept[Counter::NODE_PAIRS], of_fresh[Counter::NODE_PAIRS]);
+  EXPECT_LT(of_kept[Certified::Counter::NODE_PAIRS], of_fresh[Certified::Counter::NODE_PAIRS]);
 }
 
 void expect_truth_along(const Scene& scene, double cutoff, const std::vector<Pose>& poses) {
@@ -159,7 +159,7 @@ TEST(CertifiedCoherence, AJumpLeavesNoWorkBehind) {
   const auto work_along_slide = [&] {
     WorkCounters counters;
     for (const Pose& pose : slide) certified.search(pose, lmds, counters);
-    return counters[Counter::NODE_PAIRS] + counters[Counter::LEAF_PAIRS];
+    return counters[Certified::Counter::NODE_PAIRS] + counters[Certified::Counter::LEAF_PAIRS];
   };
   const std::uint64_t undisturbed = work_along_slide();
   Pose elsewhere = begin;

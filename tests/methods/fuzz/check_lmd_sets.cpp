@@ -83,7 +83,7 @@ std::string text_of(const LmdSet& lmds) {
   return text.str();
 }
 
-LmdSet search(const FuzzScene& fuzz, std::string_view name, const MethodOptions& options = {}) {
+LmdSet search(const FuzzScene& fuzz, std::string_view name, const nlohmann::json& options = {}) {
   LmdSet lmds;
   WorkCounters counters;
   make_method(name, fuzz.scene, options)->search(fuzz.X_WM, lmds, counters);
@@ -139,9 +139,7 @@ std::string broken_promise(const FuzzScene& fuzz) {
   if (truth.empty() || truth.front().distance == 0.0 || !sound(*fuzz.scene.moving) ||
       !sound(*fuzz.scene.fixed[0]))
     return {};
-  MethodOptions without_visibility;
-  without_visibility.visibility = Visibility::OFF;
-  const LmdSet candidates = search(fuzz, "improved", without_visibility);
+  const LmdSet candidates = search(fuzz, "improved", {{"visibility", "off"}});
   if (!(minimum_distance(candidates) <= minimum_distance(truth) + 1e-12))
     return complain("candidates without the nearest LMD:\n" + text_of(candidates));
   return {};

@@ -17,8 +17,8 @@ bool holds(const LmdSet& set, const Lmd& lmd) {
   return std::any_of(set.begin(), set.end(), [&](const Lmd& other) { return same_feature_pair(other, lmd); });
 }
 
-MethodOptions with(Visibility visibility, Reduction reduction) {
-  MethodOptions options;
+ImprovedOptions with(Visibility visibility, Reduction reduction) {
+  ImprovedOptions options;
   options.visibility = visibility;
   options.reduction = reduction;
   return options;
@@ -65,8 +65,8 @@ TEST_F(ImprovedTest, VisibilityCullsLeafPairsAndNeverAddsCandidates) {
     Improved(scene, with(Visibility::OFF, Reduction::PUBLISHED)).search(pose, all, counters_);
     Improved(scene, with(Visibility::VERTEX_NORMAL, Reduction::PUBLISHED)).search(pose, culled, work);
     EXPECT_LE(culled.size(), all.size());
-    EXPECT_EQ(work[Counter::LEAF_PAIRS],
-              work[Counter::REJECTED_VISIBILITY] + work[Counter::TRIANGLE_DISTANCES]);
+    EXPECT_EQ(work[Improved::Counter::LEAF_PAIRS],
+              work[Improved::Counter::REJECTED_VISIBILITY] + work[Improved::Counter::TRIANGLE_DISTANCES]);
     for (const Lmd& lmd : culled)
       EXPECT_TRUE(std::any_of(all.begin(), all.end(), [&](const Lmd& other) {
         return other.triangle_moving == lmd.triangle_moving && other.triangle_fixed == lmd.triangle_fixed &&
@@ -84,9 +84,9 @@ TEST_F(ImprovedTest, EachVisibilityPolicyCullsOnCoarseMeshes) {
     LmdSet candidates;
     WorkCounters work;
     Improved(scene, with(visibility, Reduction::PUBLISHED)).search(pose, candidates, work);
-    EXPECT_EQ(work[Counter::LEAF_PAIRS],
-              work[Counter::REJECTED_VISIBILITY] + work[Counter::TRIANGLE_DISTANCES]);
-    return work[Counter::REJECTED_VISIBILITY];
+    EXPECT_EQ(work[Improved::Counter::LEAF_PAIRS],
+              work[Improved::Counter::REJECTED_VISIBILITY] + work[Improved::Counter::TRIANGLE_DISTANCES]);
+    return work[Improved::Counter::REJECTED_VISIBILITY];
   };
   EXPECT_EQ(culled(Visibility::OFF), 0u);
   EXPECT_GT(culled(Visibility::VERTEX_NORMAL), 0u);
@@ -129,7 +129,7 @@ TEST_F(ImprovedTest, PublishedReductionKeepsASubsetWithTheNearestPair) {
 TEST_F(ImprovedTest, ThePublishedReductionLosesLmdsInAnOrderThatIgnoresDistance) {
   std::size_t total = 0, nearest_first = 0, by_index = 0;
   on_poses(6, [&](const Scene& scene, const Pose& pose, const LmdSet& truth) {
-    MethodOptions options = with(Visibility::OFF, Reduction::PUBLISHED);
+    ImprovedOptions options = with(Visibility::OFF, Reduction::PUBLISHED);
     LmdSet ordered, unordered;
     Improved first(scene, options);
     options.tracking_order = TrackingOrder::TRIANGLE_INDEX;
@@ -198,7 +198,7 @@ TEST_F(ImprovedTest, TheCacheSavesDistancesOfNeighbours) {
     WorkCounters work;
     improved.search(pose, lmds, counters_);
     improved.track(pose, lmds, work);
-    EXPECT_GT(work[Counter::CACHE_HITS], work[Counter::TRIANGLE_DISTANCES]);
+    EXPECT_GT(work[Improved::Counter::CACHE_HITS], work[Improved::Counter::TRIANGLE_DISTANCES]);
   });
 }
 
@@ -207,7 +207,7 @@ TEST_F(ImprovedTest, TheCacheSavesDistancesOfNeighbours) {
 TEST_F(ImprovedTest, LiteralG3LosesAlmostEverything) {
   std::mt19937_64 random(22);
   const Scene scene = make_scene(make_blob(0.04, 0.01, 4), make_blob(0.05, 0.012, 4), 0.03);
-  MethodOptions literal = with(Visibility::OFF, Reduction::PUBLISHED);
+  ImprovedOptions literal = with(Visibility::OFF, Reduction::PUBLISHED);
   literal.literal_g3 = true;
   std::size_t kept = 0, total = 0;
   for (int i = 0; i < 10; ++i) {

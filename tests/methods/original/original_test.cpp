@@ -92,8 +92,8 @@ class OriginalTest : public ::testing::Test {
  protected:
   LmdSet search(const Scene& scene, const Pose& pose, double tolerance,
                 LineCone line_cone = LineCone::ONE_SIDED) {
-    MethodOptions options;
-    options.g5_tolerance_rad = tolerance;
+    OriginalOptions options;
+    options.g5_tolerance_deg = tolerance * 180.0 / std::numbers::pi;
     options.line_cone = line_cone;
     Original original(scene, options);
     LmdSet lmds;
@@ -113,8 +113,8 @@ TEST_F(OriginalTest, AWiderToleranceKeepsMoreAndTheWidestAll) {
     tight += search(scene, pose, 0.05).size();
     loose += search(scene, pose, 0.6).size();
     all += search(scene, pose, std::numbers::pi).size();
-    EXPECT_EQ(work_[Counter::REJECTED_G5], 0u);
-    EXPECT_EQ(work_[Counter::FEATURE_POINT_DISTANCES], 49 * work_[Counter::LEAF_PAIRS]);
+    EXPECT_EQ(work_[Original::Counter::REJECTED_G5], 0u);
+    EXPECT_EQ(work_[Original::Counter::FEATURE_POINT_DISTANCES], 49 * work_[Original::Counter::LEAF_PAIRS]);
   }
   EXPECT_LT(tight, loose);
   EXPECT_LT(loose, all);
@@ -127,11 +127,11 @@ TEST_F(OriginalTest, ATwoSidedLineConeLetsMoreNodePairsThrough) {
   for (int i = 0; i < 5; ++i) {
     const Pose pose = testing::grazing_pose(scene, 0.002, random);
     search(scene, pose, 0.5, LineCone::ONE_SIDED);
-    const auto one_sided = work_[Counter::LEAF_PAIRS];
+    const auto one_sided = work_[Original::Counter::LEAF_PAIRS];
     search(scene, pose, 0.5, LineCone::TWO_SIDED);
-    EXPECT_GE(work_[Counter::LEAF_PAIRS], one_sided);
+    EXPECT_GE(work_[Original::Counter::LEAF_PAIRS], one_sided);
     all_one_sided += one_sided;
-    all_two_sided += work_[Counter::LEAF_PAIRS];
+    all_two_sided += work_[Original::Counter::LEAF_PAIRS];
   }
   EXPECT_GT(all_two_sided, all_one_sided) << "pairs whose normals face away from each other pass, too";
 }
@@ -144,7 +144,7 @@ TEST_F(OriginalTest, AVertexPairIsOneLmd) {
   const LmdSet lmds = search(scene, pose, 0.1);
   ASSERT_EQ(lmds.size(), 1u);
   EXPECT_EQ(lmds[0].feature_moving.kind, FeatureKind::VERTEX);
-  EXPECT_GT(work_[Counter::DROPPED_DUPLICATES], 0u);
+  EXPECT_GT(work_[Original::Counter::DROPPED_DUPLICATES], 0u);
 }
 
 /// The defect that the paper sets out to mend: over a large triangle the nearest feature points are far off.

@@ -4,6 +4,7 @@
 #include <lmdbench/geometry/segment_distance.h>
 #include <lmdbench/geometry/triangle_distance.h>
 #include <lmdbench/lmd/first_order.h>
+#include <lmdbench/lmd/search_counters.h>
 #include <lmdbench/lmd/triangle_pair.h>
 #include <lmdbench/methods/certified/certified.h>
 #include <lmdbench/methods/certified/touch.h>
@@ -123,10 +124,16 @@ bool strict_points(const PairFilter& filter, const FeatureId& on_moving, const F
 
 }  // namespace
 
-Certified::Certified(Scene scene, const MethodOptions& options, WideKernel kernel)
-    : scene_(std::move(scene)), coherent_(options.frame_coherence), kernel_(kernel) {
-  double extent = scene_.moving->prepared<WideHierarchy>().radius;
-  for (const auto& body : scene_.fixed) extent = std::max(extent, body->prepared<WideHierarchy>().radius);
+Certified::Certified(Scene scene, const CertifiedOptions& options, WideKernel kernel)
+    : scene_(std::move(scene)),
+      hierarchy_moving_(scene_.moving->prepared<WideHierarchy>()),
+      coherent_(options.frame_coherence),
+      kernel_(kernel) {
+  double extent = hierarchy_moving_.radius;
+  for (const auto& body : scene_.fixed) {
+    hierarchies_fixed_.push_back(&body->prepared<WideHierarchy>());
+    extent = std::max(extent, hierarchies_fixed_.back()->radius);
+  }
   // Without a cutoff that means something there is nothing to save, and lever arms would be without bound.
   coherent_ = coherent_ && scene_.cutoff <= 10.0 * extent;
   kept_.resize(scene_.fixed.size());
@@ -222,13 +229,11 @@ void Certified::report(double coordinates, LmdSet& lmds) {
 
 void Certified::search(const Pose& X_WM, LmdSet& lmds, WorkCounters& counters) {
   const RigidTransform transform(X_WM);
-  const WideHierarchy& moving = scene_.moving->prepared<WideHierarchy>();
+  const WideHierarchy& moving = hierarchy_moving_;
   minima_.clear();
   double coordinates = transform.point(moving.origin).cwiseAbs().maxCoeff() + moving.radius;
-  for (const auto& body : scene_.fixed) {
-    const WideHierarchy& fixed = body->prepared<WideHierarchy>();
-    coordinates = std::max(coordinates, fixed.origin.cwiseAbs().maxCoeff() + fixed.radius);
-  }
+  for (const WideHierarchy* fixed : hierarchies_fixed_)
+    coordinates = std::max(coordinates, fixed->origin.cwiseAbs().maxCoeff() + fixed->radius);
   // The same in neighbouring frames, so that what was kept with it stays valid.
   const double touch = RELATIVE_TOUCH * std::exp2(std::ceil(std::log2(coordinates)));
   const double longest = std::max(scene_.cutoff, touch);  // distance of what is looked for
@@ -248,7 +253,7 @@ void Certified::search(const Pose& X_WM, LmdSet& lmds, WorkCounters& counters) {
 
   for (std::size_t i = 0; i < scene_.fixed.size(); ++i) {
     const auto body = static_cast<std::int32_t>(i);
-    const WideHierarchy& fixed = scene_.fixed[i]->prepared<WideHierarchy>();
+    const WideHierarchy& fixed = *hierarchies_fixed_[i];
     const PairFilter filter{scene_.moving->surface(),
                             transform,
                             scene_.fixed[i]->surface(),
@@ -288,10 +293,7 @@ void Certified::search(const Pose& X_WM, LmdSet& lmds, WorkCounters& counters) {
       for (const WidePair& pair : scratch_.touch_pairs) decide_pair(pair, true, 1.0);
     }
     decide_pending(filter, body, counters);
-    counters[Counter::NODE_PAIRS] += work.node_pairs;
-    counters[Counter::REJECTED_G1] += work.rejected_g1;
-    counters[Counter::REJECTED_G2] += work.rejected_g2;
-    counters[Counter::REJECTED_G3] += work.rejected_g3;
+    add_traversal<Counter>(counters, work);
   }
   report(coordinates, lmds);
 }

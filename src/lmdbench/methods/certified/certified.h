@@ -3,19 +3,21 @@
 #pragma once
 
 #include <lmdbench/lmd/method.h>
-#include <lmdbench/lmd/method_options.h>
 #include <lmdbench/lmd/plateau.h>
 #include <lmdbench/lmd/scene.h>
 #include <lmdbench/methods/certified/coherence/coherence_policy.h>
 #include <lmdbench/methods/certified/coherence/traversal_front.h>
 #include <lmdbench/methods/certified/filter.h>
 #include <lmdbench/methods/certified/hierarchy/wide_traversal.h>
+#include <lmdbench/methods/certified/options.h>
 
 #include <cstdint>
 #include <utility>
 #include <vector>
 
 namespace lmdbench {
+
+const MethodDescription& certified_method();
 
 /// The third algorithm (design section 4): the exact and complete LMD set in every
 /// frame, without a second rate.
@@ -53,12 +55,23 @@ namespace lmdbench {
 /// either way; the work counters tell what was done.
 class Certified : public Method {
  public:
-  /// @param kernel form of the node test where the frame is searched from scratch
-  explicit Certified(Scene scene, const MethodOptions& options = {}, WideKernel kernel = WideKernel::VECTOR);
+  /// What it counts.
+  enum class Counter : std::uint8_t {
+    NODE_PAIRS,
+    REJECTED_G1,
+    REJECTED_G2,
+    REJECTED_G3,
+    LEAF_PAIRS,
+    REJECTED_CUTOFF,
+    TRIANGLE_DISTANCES,
+    FIRST_ORDER_TESTS
+  };
 
-  std::string_view name() const override { return "certified"; }
-  bool tracks_locally() const override { return false; }
-  int trackings_after_search() const override { return 0; }
+  /// @param kernel form of the node test where the frame is searched from scratch
+  explicit Certified(Scene scene, const CertifiedOptions& options = {},
+                     WideKernel kernel = WideKernel::VECTOR);
+
+  const MethodDescription& description() const override { return certified_method(); }
   void search(const Pose& X_WM, LmdSet& lmds, WorkCounters& counters) override;
   void track(const Pose& X_WM, LmdSet& lmds, WorkCounters& counters) override {
     search(X_WM, lmds, counters);
@@ -80,6 +93,8 @@ class Certified : public Method {
   void report(double coordinates, LmdSet& lmds);
 
   Scene scene_;
+  const WideHierarchy& hierarchy_moving_;
+  std::vector<const WideHierarchy*> hierarchies_fixed_;  ///< One a fixed body.
   bool coherent_;
   WideKernel kernel_;
   double touch_ = 0.0;

@@ -12,17 +12,20 @@
 
 namespace lmdbench {
 
+const MethodDescription& exhaustive_method();
+
 /// Ground truth (design section 2): every triangle pair within the cutoff, exact triangle distance, the
 /// first-order test, one entry per feature pair and per plateau. Slow and simple on purpose; it shares no
 /// search code with what it judges: no hierarchy and no cone, only a uniform grid that lists the fixed
 /// triangles near a box.
 class Exhaustive : public Method {
  public:
+  /// What it counts.
+  enum class Counter : std::uint8_t { LEAF_PAIRS, REJECTED_CUTOFF, TRIANGLE_DISTANCES, FIRST_ORDER_TESTS };
+
   explicit Exhaustive(Scene scene);
 
-  std::string_view name() const override { return "exhaustive"; }
-  bool tracks_locally() const override { return false; }
-  int trackings_after_search() const override { return 0; }
+  const MethodDescription& description() const override { return exhaustive_method(); }
   void search(const Pose& X_WM, LmdSet& lmds, WorkCounters& counters) override;
   void track(const Pose& X_WM, LmdSet& lmds, WorkCounters& counters) override {
     search(X_WM, lmds, counters);

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <tuple>
+#include <utility>
 
 namespace lmdbench {
 
@@ -46,6 +47,11 @@ bool triangles_less(const Lmd& a, const Lmd& b) {
 
 }  // namespace
 
+Improved::Improved(Scene scene, const ImprovedOptions& options)
+    : scene_(std::move(scene)), options_(options), hierarchy_moving_(scene_.moving->prepared<Hierarchy>()) {
+  for (const auto& body : scene_.fixed) hierarchies_fixed_.push_back(&body->prepared<Hierarchy>());
+}
+
 void Improved::search(const Pose& X_WM, LmdSet& lmds, WorkCounters& counters) {
   lmds.clear();
   const RigidTransform transform(X_WM);
@@ -56,9 +62,8 @@ void Improved::search(const Pose& X_WM, LmdSet& lmds, WorkCounters& counters) {
 
 void Improved::search_body(const RigidTransform& X_WM, std::int32_t fixed_body, LmdSet& lmds,
                            WorkCounters& counters) {
-  const Body& fixed_body_ref = *scene_.fixed[static_cast<std::size_t>(fixed_body)];
   const Surface& moving = scene_.moving->surface();
-  const Surface& fixed = fixed_body_ref.surface();
+  const Surface& fixed = scene_.fixed[static_cast<std::size_t>(fixed_body)]->surface();
   const auto visit_leaves = [&](std::int32_t t_moving, std::int32_t t_fixed) {
     const ShadedTriangle a = to_world(shaded_triangle(moving, t_moving), X_WM);
     const ShadedTriangle b = shaded_triangle(fixed, t_fixed);
@@ -75,13 +80,13 @@ void Improved::search_body(const RigidTransform& X_WM, std::int32_t fixed_body, 
     set_direction(lmd, lmd.direction);
     lmds.push_back(lmd);
   };
-  const Hierarchy& hierarchy_moving = scene_.moving->prepared<Hierarchy>();
-  const Hierarchy& hierarchy_fixed = fixed_body_ref.prepared<Hierarchy>();
-  add_traversal(counters, options_.literal_g3
-                              ? traversal_.run<DirectionTest::LITERAL>(hierarchy_moving, hierarchy_fixed,
-                                                                       X_WM, scene_.cutoff, visit_leaves)
-                              : traversal_.run<DirectionTest::RAY>(hierarchy_moving, hierarchy_fixed, X_WM,
-                                                                   scene_.cutoff, visit_leaves));
+  const Hierarchy& hierarchy_fixed = *hierarchies_fixed_[static_cast<std::size_t>(fixed_body)];
+  add_traversal<Counter>(
+      counters, options_.literal_g3
+                    ? traversal_.run<DirectionTest::LITERAL>(hierarchy_moving_, hierarchy_fixed, X_WM,
+                                                             scene_.cutoff, visit_leaves)
+                    : traversal_.run<DirectionTest::RAY>(hierarchy_moving_, hierarchy_fixed, X_WM,
+                                                         scene_.cutoff, visit_leaves));
 }
 
 void Improved::track(const Pose& X_WM, LmdSet& lmds, WorkCounters& counters) {
@@ -107,7 +112,7 @@ void Improved::track(const Pose& X_WM, LmdSet& lmds, WorkCounters& counters) {
       return TrackedPair{entry->lmd,
                          options_.reduction == Reduction::PUBLISHED && entry->initiator != number};
     };
-    const WalkEnd end = walk_to_minimum(moving, fixed, lmd, evaluate, counters);
+    const WalkEnd end = walk_to_minimum(moving, fixed, lmd, evaluate, counters[Counter::TRACKING_STEPS]);
     ++number;
     const bool drop = end.is_duplicate || (options_.reduction == Reduction::LOSS_FREE &&
                                            std::any_of(kept_.begin(), kept_.end(), [&](const Lmd& other) {

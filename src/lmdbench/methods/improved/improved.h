@@ -3,15 +3,17 @@
 #pragma once
 
 #include <lmdbench/lmd/method.h>
-#include <lmdbench/lmd/method_options.h>
 #include <lmdbench/lmd/scene.h>
+#include <lmdbench/methods/improved/options.h>
 #include <lmdbench/methods/improved/result_cache.h>
 #include <lmdbench/snch/traversal.h>
 
 #include <cstdint>
-#include <utility>
+#include <vector>
 
 namespace lmdbench {
+
+const MethodDescription& improved_method();
 
 /// The improved algorithm (paper, section 4).
 ///   Global search: G1, G2, G3.a/b on the nodes; at the leaves the visibility pre-test, then the exact
@@ -26,11 +28,24 @@ namespace lmdbench {
 /// happened to look at and left; `Reduction::LOSS_FREE` drops only what ends on the same feature pair.
 class Improved : public Method {
  public:
-  Improved(Scene scene, const MethodOptions& options) : scene_(std::move(scene)), options_(options) {}
+  /// What it counts.
+  enum class Counter : std::uint8_t {
+    NODE_PAIRS,
+    REJECTED_G1,
+    REJECTED_G2,
+    REJECTED_G3,
+    LEAF_PAIRS,
+    REJECTED_VISIBILITY,
+    REJECTED_CUTOFF,
+    TRIANGLE_DISTANCES,
+    CACHE_HITS,
+    TRACKING_STEPS,
+    DROPPED_DUPLICATES
+  };
 
-  std::string_view name() const override { return "improved"; }
-  bool tracks_locally() const override { return true; }
-  int trackings_after_search() const override { return 2; }
+  explicit Improved(Scene scene, const ImprovedOptions& options = {});
+
+  const MethodDescription& description() const override { return improved_method(); }
   void search(const Pose& X_WM, LmdSet& lmds, WorkCounters& counters) override;
   void track(const Pose& X_WM, LmdSet& lmds, WorkCounters& counters) override;
 
@@ -38,7 +53,9 @@ class Improved : public Method {
   void search_body(const RigidTransform& X_WM, std::int32_t fixed_body, LmdSet& lmds, WorkCounters& counters);
 
   Scene scene_;
-  MethodOptions options_;
+  ImprovedOptions options_;
+  const Hierarchy& hierarchy_moving_;
+  std::vector<const Hierarchy*> hierarchies_fixed_;  ///< One a fixed body.
   DualTraversal traversal_;
   ResultCache cache_;
   LmdSet kept_;

@@ -3,7 +3,7 @@
 #pragma once
 
 #include <lmdbench/geometry/types.h>
-#include <lmdbench/lmd/method_options.h>
+#include <lmdbench/methods/improved/options.h>
 
 #include <array>
 

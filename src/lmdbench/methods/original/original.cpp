@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <utility>
 
 namespace lmdbench {
@@ -17,17 +18,25 @@ namespace {
 void drop_duplicates(LmdSet& lmds, WorkCounters& counters) {
   std::sort(lmds.begin(), lmds.end(), lmd_less);
   const auto end = std::unique(lmds.begin(), lmds.end(), same_feature_pair);
-  counters[Counter::DROPPED_DUPLICATES] += static_cast<std::uint64_t>(lmds.end() - end);
+  counters[Original::Counter::DROPPED_DUPLICATES] += static_cast<std::uint64_t>(lmds.end() - end);
   lmds.erase(end, lmds.end());
+}
+
+double radians(double degrees) {
+  return degrees * std::numbers::pi / 180.0;
 }
 
 }  // namespace
 
-Original::Original(Scene scene, const MethodOptions& options)
+Original::Original(Scene scene, const OriginalOptions& options)
     : scene_(std::move(scene)),
       options_(options),
-      verify_moving_(scene_.moving->surface(), options.g5_tolerance_rad) {
-  for (const auto& body : scene_.fixed) verify_fixed_.emplace_back(body->surface(), options.g5_tolerance_rad);
+      hierarchy_moving_(scene_.moving->prepared<Hierarchy>()),
+      verify_moving_(scene_.moving->surface(), radians(options.g5_tolerance_deg)) {
+  for (const auto& body : scene_.fixed) {
+    hierarchies_fixed_.push_back(&body->prepared<Hierarchy>());
+    verify_fixed_.emplace_back(body->surface(), radians(options.g5_tolerance_deg));
+  }
 }
 
 Lmd Original::feature_point_pair(const RigidTransform& X_WM, std::int32_t fixed_body, std::int32_t t_moving,
@@ -60,7 +69,6 @@ void Original::search(const Pose& X_WM, LmdSet& lmds, WorkCounters& counters) {
 
 void Original::search_body(const RigidTransform& X_WM, std::int32_t fixed_body, LmdSet& lmds,
                            WorkCounters& counters) {
-  const Body& fixed = *scene_.fixed[static_cast<std::size_t>(fixed_body)];
   const DirectionVerification& verify_fixed = verify_fixed_[static_cast<std::size_t>(fixed_body)];
   const auto visit_leaves = [&](std::int32_t t_moving, std::int32_t t_fixed) {
     Lmd lmd = feature_point_pair(X_WM, fixed_body, t_moving, t_fixed, counters);
@@ -77,17 +85,16 @@ void Original::search_body(const RigidTransform& X_WM, std::int32_t fixed_body, 
     }
     lmds.push_back(lmd);
   };
-  const Hierarchy& hierarchy_moving = scene_.moving->prepared<Hierarchy>();
-  const Hierarchy& hierarchy_fixed = fixed.prepared<Hierarchy>();
+  const Hierarchy& hierarchy_fixed = *hierarchies_fixed_[static_cast<std::size_t>(fixed_body)];
   const auto run = [&]<DirectionTest TEST>() {
-    return traversal_.run<TEST>(hierarchy_moving, hierarchy_fixed, X_WM, scene_.cutoff, visit_leaves);
+    return traversal_.run<TEST>(hierarchy_moving_, hierarchy_fixed, X_WM, scene_.cutoff, visit_leaves);
   };
   if (options_.literal_g3) {
-    add_traversal(counters, run.operator()<DirectionTest::LITERAL>());
+    add_traversal<Counter>(counters, run.operator()<DirectionTest::LITERAL>());
   } else if (options_.line_cone == LineCone::TWO_SIDED) {
-    add_traversal(counters, run.operator()<DirectionTest::LINE>());
+    add_traversal<Counter>(counters, run.operator()<DirectionTest::LINE>());
   } else {
-    add_traversal(counters, run.operator()<DirectionTest::RAY>());
+    add_traversal<Counter>(counters, run.operator()<DirectionTest::RAY>());
   }
 }
 
@@ -98,7 +105,8 @@ void Original::track(const Pose& X_WM, LmdSet& lmds, WorkCounters& counters) {
     const auto evaluate = [&](std::int32_t t_moving, std::int32_t t_fixed) {
       return TrackedPair{feature_point_pair(transform, lmd.fixed_body, t_moving, t_fixed, counters)};
     };
-    lmd = walk_to_minimum(scene_.moving->surface(), fixed, lmd, evaluate, counters).lmd;
+    lmd = walk_to_minimum(scene_.moving->surface(), fixed, lmd, evaluate, counters[Counter::TRACKING_STEPS])
+              .lmd;
   }
   drop_duplicates(lmds, counters);
 }

@@ -3,15 +3,17 @@
 #pragma once
 
 #include <lmdbench/lmd/method.h>
-#include <lmdbench/lmd/method_options.h>
 #include <lmdbench/lmd/scene.h>
 #include <lmdbench/methods/original/direction_verification.h>
+#include <lmdbench/methods/original/options.h>
 #include <lmdbench/snch/traversal.h>
 
 #include <cstdint>
 #include <vector>
 
 namespace lmdbench {
+
+const MethodDescription& original_method();
 
 /// The original algorithm (Johnson and Cohen 2001; Johnson and Willemsen 2003, 2004; as told in the
 /// paper, section 3.2).
@@ -24,11 +26,23 @@ namespace lmdbench {
 /// pair of feature points are one LMD.
 class Original : public Method {
  public:
-  Original(Scene scene, const MethodOptions& options);
+  /// What it counts.
+  enum class Counter : std::uint8_t {
+    NODE_PAIRS,
+    REJECTED_G1,
+    REJECTED_G2,
+    REJECTED_G3,
+    LEAF_PAIRS,
+    REJECTED_CUTOFF,
+    REJECTED_G5,
+    FEATURE_POINT_DISTANCES,
+    TRACKING_STEPS,
+    DROPPED_DUPLICATES
+  };
 
-  std::string_view name() const override { return "original"; }
-  bool tracks_locally() const override { return true; }
-  int trackings_after_search() const override { return 0; }
+  explicit Original(Scene scene, const OriginalOptions& options = {});
+
+  const MethodDescription& description() const override { return original_method(); }
   void search(const Pose& X_WM, LmdSet& lmds, WorkCounters& counters) override;
   void track(const Pose& X_WM, LmdSet& lmds, WorkCounters& counters) override;
 
@@ -38,7 +52,9 @@ class Original : public Method {
                          std::int32_t t_fixed, WorkCounters& counters) const;
 
   Scene scene_;
-  MethodOptions options_;
+  OriginalOptions options_;
+  const Hierarchy& hierarchy_moving_;
+  std::vector<const Hierarchy*> hierarchies_fixed_;  ///< One a fixed body.
   DirectionVerification verify_moving_;
   std::vector<DirectionVerification> verify_fixed_;  ///< One a fixed body.
   DualTraversal traversal_;

@@ -1,0 +1,38 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/experiment/schema.h>
+#include <lmdbench/experiment/schema_text.h>
+#include <lmdbench/methods/registry.h>
+
+namespace lmdbench {
+namespace {
+
+using Json = nlohmann::json;
+
+/// An entry of "methods" with every method's options: which ones there are depends on its name.
+void add_methods(Json& entry) {
+  Json choices = Json::array();
+  for (const MethodDescription& method : method_descriptions()) {
+    Json properties = entry["properties"];
+    properties.update(method.options);
+    choices.push_back(
+        {{"if", {{"properties", {{"name", {{"const", method.name}}}}}, {"required", {"name"}}}},
+         {"then",
+          {{"description", method.summary}, {"additionalProperties", false}, {"properties", properties}}}});
+  }
+  entry["properties"]["name"]["enum"] = method_names();
+  entry["allOf"] = std::move(choices);
+}
+
+}  // namespace
+
+const Json& experiment_schema() {
+  static const Json schema = [] {
+    Json text = Json::parse(experiment_schema_text());
+    add_methods(text["properties"]["methods"]["items"]);
+    return text;
+  }();
+  return schema;
+}
+
+}  // namespace lmdbench

@@ -1,0 +1,90 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <lmdbench/lmd/method.h>
+#include <lmdbench/lmd/scene.h>
+
+#include <nlohmann/json.hpp>
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace lmdbench {
+
+/// What a method's set is meant to be, and so how it is judged.
+enum class Promise : std::uint8_t {
+  COMPLETE_SET,   ///< The true LMD set, in every frame.
+  APPROXIMATION,  ///< May miss LMDs and report pairs that are none; its error is reported.
+  NEAREST_PAIR    ///< The one nearest pair, with its true distance.
+};
+
+/// "complete-set", "approximation", "nearest-pair".
+std::string_view to_string(Promise promise);
+
+/// In which part of a method a kind of work is done.
+enum class CountedBy : std::uint8_t { SEARCH, TRACKING, BOTH };
+
+/// One counter of a method.
+struct CounterDescription {
+  /// @param value of the method's enumeration
+  template <class Counter>
+  CounterDescription(Counter value, std::string called, std::string meaning, CountedBy part)
+      : index(static_cast<std::size_t>(value)),
+        name(std::move(called)),
+        summary(std::move(meaning)),
+        counted_by(part) {}
+
+  std::size_t index;  ///< Into WorkCounters::values.
+  std::string name;   ///< In files and reports, snake_case.
+  std::string summary;
+  CountedBy counted_by;
+};
+
+/// All that the rest of the program knows of a method. Schema, checks, help, plan, result groups, reports and
+/// benchmarks are made from it, so that a new method is its folder and a line in `methods/CMakeLists.txt`.
+struct MethodDescription {
+  std::string name;     ///< In experiment files, snake_case or kebab-case.
+  std::string summary;  ///< One sentence without a full stop.
+  Promise promise = Promise::APPROXIMATION;
+
+  /// Whether the method needs local tracking between searches. If not, drivers call `search` in every haptic
+  /// frame.
+  bool tracks_locally = false;
+
+  /// How many times `track` runs in the global thread right after a search (paper, section 4.3; decision
+  /// E11): 0 for the original, 2 for the improved algorithm (first reduction, second tracking).
+  int trackings_after_search = 0;
+
+  /// Whether a search looks at every pair of triangles, so that benchmarks time it only where asked to.
+  bool brute_force = false;
+
+  /// The options, as "properties" of a draft-07 JSON Schema; each has a description and a default.
+  nlohmann::json options = nlohmann::json::object();
+
+  /// Every value of the method's enumeration, in the order of reports.
+  std::vector<CounterDescription> counters;
+
+  /// Makes an instance.
+  /// @param options checked against `options`, with all defaults filled in
+  std::function<std::unique_ptr<Method>(const Scene& scene, const nlohmann::json& options)> make;
+
+  /// What is counted in the local part of a frame: by tracking, or by a search where every frame has one.
+  std::vector<CounterDescription> local_counters() const;
+
+  /// What is counted in the global part: by the search and by the trackings after it; nothing where there is
+  /// none.
+  std::vector<CounterDescription> global_counters() const;
+};
+
+/// The properties with the defaults that the method's options have as a JSON object, so that each default
+/// stands in one place.
+/// @throws std::logic_error when a property has no default, or a default no property
+nlohmann::json with_defaults(nlohmann::json properties, const nlohmann::json& defaults);
+
+}  // namespace lmdbench

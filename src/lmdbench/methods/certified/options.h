@@ -1,0 +1,12 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+namespace lmdbench {
+
+/// Free choices of `certified`. Members are called as in experiment files.
+struct CertifiedOptions {
+  bool frame_coherence = true;  ///< Reuse the last frames' tests; the set is the same either way.
+};
+
+}  // namespace lmdbench

@@ -1,0 +1,163 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/base/error.h>
+#include <lmdbench/catalogue/shapes.h>
+#include <lmdbench/methods/registry.h>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <support/message_of.h>
+#include <support/scenes.h>
+
+#include <random>
+#include <regex>
+#include <set>
+#include <vector>
+
+namespace lmdbench {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+
+TEST(Registry, DescriptionsAreCompleteAndDistinct) {
+  const std::regex name_form("[a-z][a-z0-9_-]*");
+  std::set<std::string> names, summaries;
+  for (const MethodDescription& method : method_descriptions()) {
+    EXPECT_TRUE(std::regex_match(method.name, name_form)) << method.name;
+    EXPECT_TRUE(names.insert(method.name).second) << method.name;
+    EXPECT_TRUE(summaries.insert(method.summary).second) << method.summary;
+    EXPECT_GT(method.summary.size(), 20U) << method.name;
+    EXPECT_NE(method.summary.back(), '.') << method.name;
+    EXPECT_TRUE(method.tracks_locally || method.trackings_after_search == 0) << method.name;
+    for (const auto& [key, property] : method.options.items()) {
+      EXPECT_TRUE(property.contains("default")) << method.name << " " << key;
+      EXPECT_TRUE(property.contains("type") || property.contains("enum")) << method.name << " " << key;
+      EXPECT_GT(property.value("description", "").size(), 10U) << method.name << " " << key;
+      EXPECT_TRUE(key != "name" && key != "label" && key != "force_law")
+          << method.name << ": taken by the experiment";
+    }
+    EXPECT_EQ(&method_description(method.name), &method);
+    EXPECT_EQ(&method, &method_descriptions().at(method_order(method.name)));
+  }
+}
+
+/// A counter that two names share, or that has none, would be lost.
+TEST(Registry, EveryCounterHasOneName) {
+  for (const MethodDescription& method : method_descriptions()) {
+    std::set<std::string> names;
+    std::set<std::size_t> indices;
+    for (const CounterDescription& counter : method.counters) {
+      EXPECT_TRUE(names.insert(counter.name).second) << method.name << " " << counter.name;
+      EXPECT_TRUE(indices.insert(counter.index).second) << method.name << " " << counter.name;
+      EXPECT_LT(counter.index, method.counters.size()) << method.name << " " << counter.name;
+      EXPECT_FALSE(counter.summary.empty()) << counter.name;
+    }
+    EXPECT_LE(method.counters.size(), WorkCounters::CAPACITY) << method.name;
+    EXPECT_EQ(method.global_counters().empty(), !method.tracks_locally) << method.name;
+  }
+}
+
+/// What a method counts is what its description says, in the parts that it says.
+TEST(Registry, MethodsCountWhatTheyDescribe) {
+  // Grazing poses of curved meshes, and a box flush over a plate, where nothing is decided by a closed form.
+  const Scene curved = testing::make_scene(make_blob(0.5, 0.1, 3), make_torus(0.5, 0.2, 32, 16), 0.1);
+  const Scene flush = testing::make_scene(make_box({0.2, 0.2, 0.2}, 2), make_box({1.0, 1.0, 0.1}, 4), 0.1);
+  std::mt19937_64 random(5);
+  std::vector<Pose> grazing;
+  for (int i = 0; i < 5; ++i) grazing.push_back(testing::grazing_pose(curved, 0.01, random));
+  Pose over;
+  over.translation = {0.01, 0.02, 0.24};
+  for (const MethodDescription& description : method_descriptions()) {
+    WorkCounters searched, tracked;
+    const auto count = [&](const Scene& scene, const std::vector<Pose>& poses) {
+      const auto method = make_method(description.name, scene);
+      EXPECT_EQ(&method->description(), &method->description());
+      EXPECT_EQ(method->description().name, description.name);
+      for (const Pose& pose : poses) {
+        LmdSet lmds;
+        method->search(pose, lmds, searched);
+        if (description.tracks_locally) method->track(pose, lmds, tracked);
+      }
+    };
+    count(curved, grazing);
+    count(flush, {over});
+    for (const CounterDescription& counter : description.counters) {
+      const std::string about = description.name + " " + counter.name;
+      EXPECT_TRUE(searched.values[counter.index] == 0 || counter.counted_by != CountedBy::TRACKING) << about;
+      EXPECT_TRUE(tracked.values[counter.index] == 0 || counter.counted_by != CountedBy::SEARCH) << about;
+      EXPECT_GT(searched.values[counter.index] + tracked.values[counter.index], 0U)
+          << about << " is never counted";
+    }
+    for (std::size_t i = description.counters.size(); i < WorkCounters::CAPACITY; ++i)
+      EXPECT_EQ(searched.values[i] + tracked.values[i], 0U)
+          << description.name << " counts value " << i << " without a name";
+  }
+}
+
+TEST(Registry, UnknownNamesAndOptionsAreRefused) {
+  const Scene scene = testing::make_scene(make_blob(0.5, 0.1, 2), make_blob(0.5, 0.1, 2), 0.1);
+  EXPECT_THAT(testing::message_of<UsageError>([&] { make_method("improvd", scene); }),
+              AllOf(HasSubstr("unknown method \"improvd\""), HasSubstr("did you mean \"improved\"?")));
+  EXPECT_THAT(testing::message_of<UsageError>([&] { make_method("gjk", scene); }),
+              HasSubstr("known methods: original, improved"));
+  EXPECT_THAT(testing::message_of<UsageError>([&] {
+                make_method("improved", scene, {{"visibilty", "off"}});
+              }),
+              AllOf(HasSubstr("options of improved: /visibilty"), HasSubstr("did you mean \"visibility\"?")));
+  EXPECT_THAT(testing::message_of<UsageError>([&] {
+                make_method("improved", scene, {{"visibility", "on"}});
+              }),
+              AllOf(HasSubstr("/visibility"), HasSubstr("vertex-normal")));
+  EXPECT_THAT(testing::message_of<UsageError>([&] {
+                make_method("original", scene, {{"g5_tolerance_deg", -1}});
+              }),
+              AllOf(HasSubstr("/g5_tolerance_deg"), HasSubstr("number >= 0")));
+}
+
+TEST(Registry, OptionsReachTheMethod) {
+  const Scene scene = testing::make_scene(make_blob(0.5, 0.1, 3), make_torus(0.5, 0.2, 32, 16), 0.1);
+  std::mt19937_64 random(7);
+  const Pose pose = testing::grazing_pose(scene, 0.01, random);
+  const auto work = [&](const std::string& name, const nlohmann::json& options) {
+    const auto method = make_method(name, scene, options);
+    LmdSet lmds;
+    WorkCounters counters;
+    for (int i = 0; i < 3; ++i) {
+      method->search(pose, lmds, counters);
+      method->track(pose, lmds, counters);
+    }
+    return counters;
+  };
+  const std::pair<std::string, nlohmann::json> choices[] = {
+      {"original", {{"g5_tolerance_deg", 180}}},
+      {"original", {{"line_cone", "two-sided"}}},
+      {"original", {{"literal_g3", true}}},
+      {"improved", {{"visibility", "orthogonal"}}},
+      {"improved", {{"visibility", "off"}}},
+      {"improved", {{"reduction", "loss-free"}}},
+      {"improved", {{"tracking_order", "triangle-index"}}},
+      {"improved", {{"literal_g3", true}}},
+      {"certified", {{"frame_coherence", false}}},
+  };
+  for (const auto& [name, options] : choices)
+    EXPECT_NE(work(name, options), work(name, {})) << name << " ignores " << options.dump();
+}
+
+TEST(Registry, HelpNamesEveryMethodAndOption) {
+  const std::string help = methods_help();
+  for (const MethodDescription& method : method_descriptions()) {
+    EXPECT_THAT(help, HasSubstr(method.name + ": " + method.summary));
+    for (const auto& option : method.options.items()) EXPECT_THAT(help, HasSubstr(option.key() + " = "));
+  }
+}
+
+TEST(WithDefaults, MatchesPropertiesAndDefaults) {
+  const nlohmann::json properties = {{"a", {{"type", "number"}}}};
+  EXPECT_EQ(with_defaults(properties, {{"a", 3}})["a"]["default"], 3);
+  EXPECT_THROW(with_defaults(properties, {{"a", 3}, {"b", 4}}), std::logic_error);
+  EXPECT_THROW(with_defaults(properties, nlohmann::json::object()), std::logic_error);
+}
+
+}  // namespace
+}  // namespace lmdbench
