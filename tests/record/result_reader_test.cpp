@@ -92,6 +92,9 @@ TEST(ResultReader, ListsGroupsDatasetsAndAttributesInOrder) {
   EXPECT_EQ(reader.real_attribute("/scene", "cutoff_m"), 0.25);
   EXPECT_EQ(reader.integer_attribute("/", "format_version"), RESULT_FORMAT_VERSION);
   EXPECT_EQ(reader.text_attribute("/methods/b/force", "units"), "N");
+  EXPECT_EQ(reader.attribute_kind("/scene", "cutoff_m"), ElementKind::REAL);
+  EXPECT_EQ(reader.attribute_kind("/", "format"), ElementKind::TEXT);
+  EXPECT_EQ(reader.attribute_kind("/", "absent"), std::nullopt);
   EXPECT_EQ(reader.text_attribute("/scene", "absent"), std::nullopt);
   EXPECT_EQ(reader.text_attribute("/absent", "units"), std::nullopt);
 }

@@ -16,5 +16,8 @@ namespace lmdbench {
 void add_run_command(CLI::App& app, const std::vector<std::string>& argv);
 void add_plan_command(CLI::App& app);
 void add_query_command(CLI::App& app);
+/// @param exit_status receives the exit code of the verdict
+void add_compare_command(CLI::App& app, int& exit_status);
+void add_doctor_command(CLI::App& app);
 
 }  // namespace lmdbench

@@ -55,6 +55,9 @@ int run_program(int argc, char** argv) {
   add_run_command(app, {argv, argv + argc});
   add_plan_command(app);
   add_query_command(app);
+  int exit_status = static_cast<int>(ExitCode::DONE);
+  add_compare_command(app, exit_status);
+  add_doctor_command(app);
   add_mesh_command(app);
   add_path_command(app);
   try {
@@ -67,7 +70,7 @@ int run_program(int argc, char** argv) {
   if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0)
     throw EnvironmentError("", "standard output", "cannot be written",
                            "check the disk or the reader of the pipe");
-  return static_cast<int>(ExitCode::DONE);
+  return exit_status;
 }
 
 }  // namespace

@@ -94,16 +94,14 @@ class ResultReader::Implementation {
   ElementKind kind(const std::string& path) const {
     const Hdf5Handle dataset = open_dataset(path);
     const Hdf5Handle type(H5Dget_type(dataset.get()), &H5Tclose);
-    switch (H5Tget_class(type.get())) {
-      case H5T_FLOAT:
-        return ElementKind::REAL;
-      case H5T_INTEGER:
-        return ElementKind::INTEGER;
-      case H5T_STRING:
-        return ElementKind::TEXT;
-      default:
-        fail(path, "holds neither numbers nor texts");
-    }
+    return kind_of(path, type);
+  }
+
+  std::optional<ElementKind> attribute_kind(const std::string& object, const std::string& name) const {
+    const std::optional<Hdf5Handle> attribute = open_attribute(object, name);
+    if (!attribute) return std::nullopt;
+    const Hdf5Handle type(H5Aget_type(attribute->get()), &H5Tclose);
+    return kind_of(object + ", attribute " + name, type);
   }
 
   template <typename Value>
@@ -187,6 +185,19 @@ class ResultReader::Implementation {
  private:
   [[noreturn]] void fail(const std::string& place, const std::string& problem) const {
     throw InputError(name_.string(), place, problem, RUN_AGAIN);
+  }
+
+  ElementKind kind_of(const std::string& place, const Hdf5Handle& type) const {
+    switch (H5Tget_class(type.get())) {
+      case H5T_FLOAT:
+        return ElementKind::REAL;
+      case H5T_INTEGER:
+        return ElementKind::INTEGER;
+      case H5T_STRING:
+        return ElementKind::TEXT;
+      default:
+        fail(place, "holds neither numbers nor texts");
+    }
   }
 
   void check_format() const {
@@ -308,6 +319,11 @@ std::vector<std::string> ResultReader::texts(const std::string& dataset) const {
 
 std::vector<std::string> ResultReader::attributes(const std::string& object) const {
   return implementation_->attributes(object);
+}
+
+std::optional<ElementKind> ResultReader::attribute_kind(const std::string& object,
+                                                        const std::string& name) const {
+  return implementation_->attribute_kind(object, name);
 }
 
 std::optional<std::string> ResultReader::text_attribute(const std::string& object,

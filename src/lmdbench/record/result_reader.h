@@ -53,6 +53,8 @@ class ResultReader {
 
   /// Names of the attributes of a group or dataset, sorted; empty where the object is missing.
   std::vector<std::string> attributes(const std::string& object) const;
+  /// What an attribute holds; unset where there is none of that name.
+  std::optional<ElementKind> attribute_kind(const std::string& object, const std::string& name) const;
   /// Attributes of a group or dataset ("/" is the root); unset where there is none of that name.
   std::optional<std::string> text_attribute(const std::string& object, const std::string& name) const;
   std::optional<std::int64_t> integer_attribute(const std::string& object, const std::string& name) const;

@@ -1,0 +1,251 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/base/error.h>
+#include <lmdbench/base/file_hash.h>
+#include <lmdbench/base/json_schema.h>
+#include <lmdbench/comparison/compare.h>
+#include <lmdbench/comparison/experiment_differences.h>
+#include <lmdbench/comparison/machine_differences.h>
+#include <lmdbench/comparison/work_of_stage.h>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <iterator>
+#include <map>
+
+namespace lmdbench {
+namespace {
+
+using Files = std::vector<ResultReader>;
+
+Files open_side(const std::vector<std::filesystem::path>& names, const std::string& side) {
+  if (names.empty()) throw UsageError("", "--" + side, "no result file", "give at least one");
+  Files files;
+  std::map<std::string, std::string> seen;
+  for (const std::filesystem::path& name : names) {
+    files.emplace_back(name);
+    const auto [found, fresh] = seen.emplace(sha256_of_file(name), name.string());
+    if (!fresh)
+      throw UsageError(name.string(), "", "the same file as " + found->second + ", also given to --" + side,
+                       "give every process' result once: a copy is no replicate");
+  }
+  return files;
+}
+
+/// Replicates are runs of one program on one experiment: their deterministic part is the same bits.
+void check_replicates(const Files& files) {
+  for (std::size_t i = 1; i < files.size(); ++i) {
+    std::vector<Difference> differences = experiment_differences(files.front(), files[i]);
+    if (differences.empty()) differences = exact_differences(files.front(), files[i], {});
+    if (!differences.empty())
+      throw InputError(files[i].file().string(),
+                       differences.front().method + " " + differences.front().dataset,
+                       "differs from " + files.front().file().string() + ", so the two are no replicates",
+                       "give each side results of one program on one experiment");
+  }
+}
+
+void check_allowed(const std::vector<std::string>& names, const ResultReader& base,
+                   const ResultReader& candidate) {
+  std::vector<std::string> known = counters_of(base);
+  const std::vector<std::string> other = counters_of(candidate);
+  known.insert(known.end(), other.begin(), other.end());
+  for (const std::string& name : names) {
+    if (std::find(known.begin(), known.end(), name) != known.end()) continue;
+    const std::string nearest = nearest_word(name, known);
+    throw UsageError("", "--allow", "no counter '" + name + "' in these files",
+                     nearest.empty() ? "take a name of the group counters" : "did you mean " + nearest + "?");
+  }
+}
+
+MachineComparison compare_machines(const Files& base, const Files& candidate) {
+  MachineComparison machine;
+  machine.base = machine_of(base.front());
+  machine.candidate = machine_of(candidate.front());
+  machine.build_notes = build_differences(base.front(), candidate.front());
+  for (const Files* side : {&base, &candidate}) {
+    for (const ResultReader& file : *side) {
+      for (const std::string& reason : machine_differences(base.front(), file))
+        if (std::find(machine.reasons.begin(), machine.reasons.end(), reason) == machine.reasons.end())
+          machine.reasons.push_back(reason);
+    }
+  }
+  machine.comparable = machine.reasons.empty();
+  return machine;
+}
+
+/// Samples to compare: (method, stage) in the order of reports, and one value a process for either side.
+struct Sample {
+  std::string method;
+  std::string stage;
+  std::vector<double> base;
+  std::vector<double> candidate;
+};
+
+/// Values of one stage, where every process has it.
+std::vector<double> column(const std::vector<StageTimes>& processes, const std::string& method,
+                           const std::string& stage) {
+  std::vector<double> values;
+  for (const StageTimes& process : processes) {
+    const auto of_method = process.find(method);
+    if (of_method == process.end()) return {};
+    const auto of_stage = of_method->second.find(stage);
+    if (of_stage == of_method->second.end()) return {};
+    values.push_back(of_stage->second);
+  }
+  return values;
+}
+
+std::vector<Sample> stage_samples(const Comparison& comparison) {
+  std::vector<Sample> samples;
+  for (const auto& [method, times] : comparison.base.front()) {
+    for (const TimedStage& stage : stages()) {
+      const std::string name(stage.name);
+      Sample sample{method, name, column(comparison.base, method, name),
+                    column(comparison.candidate, method, name)};
+      if (!sample.base.empty() && !sample.candidate.empty()) samples.push_back(std::move(sample));
+    }
+  }
+  return samples;
+}
+
+/// Total time of every method over that of the one before it, process by process.
+std::vector<Sample> ratio_samples(const Comparison& comparison, const std::vector<std::string>& methods) {
+  const auto totals = [](const std::vector<StageTimes>& processes, const std::string& method) {
+    std::vector<double> values;
+    for (const StageTimes& process : processes) {
+      double sum = 0.0;
+      for (const auto& [stage, seconds] : process.at(method)) sum += seconds;
+      values.push_back(sum);
+    }
+    return values;
+  };
+  const auto over = [&](const std::vector<StageTimes>& processes, const std::string& a,
+                        const std::string& b) {
+    std::vector<double> values = totals(processes, a);
+    const std::vector<double> divisors = totals(processes, b);
+    for (std::size_t i = 0; i < values.size(); ++i) values[i] /= divisors[i];
+    return values;
+  };
+  std::vector<Sample> samples;
+  for (std::size_t i = 1; i < methods.size(); ++i)
+    samples.push_back({methods[i] + " / " + methods[i - 1], "all stages",
+                       over(comparison.base, methods[i], methods[i - 1]),
+                       over(comparison.candidate, methods[i], methods[i - 1])});
+  return samples;
+}
+
+/// Labels that both sides time: the methods of the paper first, in its order, then others by name.
+std::vector<std::string> common_methods(const Comparison& comparison) {
+  std::vector<std::string> methods;
+  for (const auto& [method, times] : comparison.base.front())
+    if (comparison.candidate.front().contains(method)) methods.push_back(method);
+  const auto rank = [](const std::string& label) {
+    return label == "original" ? 0 : label == "improved" ? 1 : 2;
+  };
+  std::stable_sort(methods.begin(), methods.end(),
+                   [&](const std::string& a, const std::string& b) { return rank(a) < rank(b); });
+  return methods;
+}
+
+void compare_times(const Files& base, const Files& candidate, const CompareOptions& options,
+                   Comparison& comparison) {
+  std::size_t repetitions = measured_repetitions(base.front());
+  for (const Files* side : {&base, &candidate})
+    for (const ResultReader& file : *side) repetitions = std::min(repetitions, measured_repetitions(file));
+  comparison.repetitions = repetitions;
+  for (const ResultReader& file : base) comparison.base.push_back(stage_times(file, repetitions));
+  for (const ResultReader& file : candidate) comparison.candidate.push_back(stage_times(file, repetitions));
+
+  const bool absolute = comparison.machine.comparable;
+  const std::vector<Sample> samples =
+      absolute ? stage_samples(comparison) : ratio_samples(comparison, common_methods(comparison));
+  const double least_effect =
+      absolute ? options.least_effect : std::max(options.least_effect, CROSS_MACHINE_EFFECT);
+  // Bonferroni: the chance of a false alarm is shared out among the stages.
+  const double error = options.false_alarm / static_cast<double>(std::max<std::size_t>(samples.size(), 1));
+  for (const Sample& sample : samples) {
+    Timing timing = judge_timing(sample.base, sample.candidate, least_effect, error);
+    timing.method = sample.method;
+    timing.stage = sample.stage;
+    if (absolute && (timing.verdict == Verdict::SLOWER || timing.verdict == Verdict::FASTER))
+      timing.work = work_of_stage(base.front(), candidate.front(), sample.method, sample.stage);
+    comparison.timings.push_back(std::move(timing));
+  }
+}
+
+void note_limits(Comparison& comparison) {
+  if (!comparison.machine.comparable)
+    comparison.notes.push_back(fmt::format(
+        "absolute times are not compared, the machines differ; methods are compared with each other within "
+        "each file, changes under {:.0f} % are taken for the machine's",
+        100.0 * CROSS_MACHINE_EFFECT));
+  const std::size_t base = comparison.base.size(), candidate = comparison.candidate.size();
+  if (base == 1 && candidate == 1)
+    comparison.notes.push_back(fmt::format(
+        "one process a side shows only changes by a factor of {:g} and more: frames and repetitions of one "
+        "process share its luck; give several files a side (--base A1.h5 A2.h5 --candidate B1.h5 B2.h5)",
+        SINGLE_PROCESS_FACTOR));
+  std::size_t needed = 0;
+  for (const Timing& timing : comparison.timings)
+    needed = std::max(needed, timing.processes_needed.value_or(0));
+  if (needed > 0)
+    comparison.notes.push_back(
+        fmt::format("unsure at {} and {} processes; with this noise about {} a side would decide", base,
+                    candidate, needed));
+}
+
+Verdict overall(const Comparison& comparison) {
+  if (!comparison.differences.empty()) return Verdict::CHANGED;
+  const auto any = [&](Verdict verdict) {
+    return std::any_of(comparison.timings.begin(), comparison.timings.end(),
+                       [&](const Timing& timing) { return timing.verdict == verdict; });
+  };
+  for (const Verdict verdict : {Verdict::SLOWER, Verdict::UNSURE, Verdict::FASTER})
+    if (any(verdict)) return verdict;
+  return Verdict::SAME;
+}
+
+}  // namespace
+
+Comparison compare_results(const std::vector<std::filesystem::path>& base_names,
+                           const std::vector<std::filesystem::path>& candidate_names,
+                           const CompareOptions& options) {
+  const Files base = open_side(base_names, "base"), candidate = open_side(candidate_names, "candidate");
+  check_allowed(options.exact.allowed_counters, base.front(), candidate.front());
+  check_replicates(base);
+  check_replicates(candidate);
+  Comparison comparison;
+  comparison.machine = compare_machines(base, candidate);
+  comparison.differences = experiment_differences(base.front(), candidate.front());
+  const bool same_experiment = comparison.differences.empty();
+  for (Difference& difference : exact_differences(base.front(), candidate.front(), options.exact))
+    comparison.differences.push_back(std::move(difference));
+  for (const std::string& name : additions(base.front(), candidate.front()))
+    comparison.notes.push_back("only the candidate has " + name);
+  if (same_experiment) {
+    compare_times(base, candidate, options, comparison);
+    note_limits(comparison);
+  } else {
+    comparison.notes.emplace_back("the experiments or their inputs differ, so times are not compared");
+  }
+  comparison.verdict = overall(comparison);
+  return comparison;
+}
+
+int exit_code(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::SAME:
+    case Verdict::FASTER:
+      return static_cast<int>(ExitCode::DONE);
+    case Verdict::SLOWER:
+    case Verdict::CHANGED:
+      return static_cast<int>(ExitCode::CHECK_FAILED);
+    case Verdict::UNSURE:
+      break;
+  }
+  return static_cast<int>(ExitCode::ENVIRONMENT);
+}
+
+}  // namespace lmdbench

@@ -1,0 +1,61 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <lmdbench/comparison/difference.h>
+#include <lmdbench/comparison/exact_differences.h>
+#include <lmdbench/comparison/stage_times.h>
+#include <lmdbench/comparison/timing_verdict.h>
+
+#include <cstddef>
+#include <filesystem>
+#include <string>
+#include <utility>
+#include <vector>
+
+/// Comparing the results of two builds on one experiment: first what must be the same bits, then times.
+namespace lmdbench {
+
+struct CompareOptions {
+  ExactOptions exact;
+  double least_effect = 0.05;  ///< Relative change of a time that matters
+  double false_alarm = 0.01;   ///< Probability of a false "slower" over all stages of all methods together
+};
+
+/// Facts about the machines and builds behind the two sides.
+struct MachineComparison {
+  bool comparable = true;                ///< Whether absolute times were compared
+  std::vector<std::string> reasons;      ///< Why not
+  std::vector<std::string> build_notes;  ///< Compiler, flags, libraries that differ
+  std::vector<std::pair<std::string, std::string>> base;
+  std::vector<std::pair<std::string, std::string>> candidate;
+};
+
+struct Comparison {
+  Verdict verdict = Verdict::UNSURE;  ///< The worst of all: changed, slower, unsure, faster, same
+  std::vector<Difference> differences;
+  std::vector<Timing> timings;  ///< By method, then in the order of `stages()`
+  MachineComparison machine;
+  std::vector<std::string> notes;  ///< What a reader must know, in plain words
+  std::size_t repetitions = 0;     ///< Measured repetitions that were used of every process
+  std::vector<StageTimes> base;    ///< One a process
+  std::vector<StageTimes> candidate;
+};
+
+/// Compares results; several files a side are replicates by process. Times are compared by stage and method where the
+/// machines are alike; else the times of the methods relative to each other within every file are compared, with a least
+/// effect of at least CROSS_MACHINE_EFFECT. Results of different experiments are `changed`, and no times are compared.
+/// @throws InputError  when a file is no result, or when replicates of one side have other results than their first
+/// @throws UsageError  when a side has no file or one file twice, or for an unknown counter in `allowed_counters`
+Comparison compare_results(const std::vector<std::filesystem::path>& base,
+                           const std::vector<std::filesystem::path>& candidate,
+                           const CompareOptions& options);
+
+/// Relative speeds of methods move by this much with caches and vector units alone: our estimate, to keep a change of
+/// machine from looking like a change of the program.
+inline constexpr double CROSS_MACHINE_EFFECT = 0.5;
+
+/// 0 for same and faster, 1 for slower and changed, 4 for unsure.
+int exit_code(Verdict verdict);
+
+}  // namespace lmdbench

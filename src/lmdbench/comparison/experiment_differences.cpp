@@ -1,0 +1,112 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/base/error.h>
+#include <lmdbench/comparison/exact_differences.h>
+#include <lmdbench/comparison/experiment_differences.h>
+
+#include <algorithm>
+#include <map>
+#include <utility>
+
+namespace lmdbench {
+namespace {
+
+constexpr const char* EXPERIMENT = "/provenance/experiment";
+
+/// The part of the experiment that decides results.
+nlohmann::json deciding_part(const ResultReader& file) {
+  const std::vector<std::string> texts = file.texts(EXPERIMENT);
+  nlohmann::json experiment = nlohmann::json::parse(texts.empty() ? "" : texts.front(), nullptr, false);
+  if (!experiment.is_object())
+    throw InputError(file.file().string(), EXPERIMENT, "is no JSON object",
+                     "make the file again with lmdbench run");
+  for (const char* key : {"$schema", "name", "title", "mesh_folder", "probes", "record"})
+    experiment.erase(key);
+  if (experiment["path"].is_object()) experiment["path"].erase("file");  // its SHA-256 is compared
+  if (experiment["driver"].is_object()) {
+    experiment["driver"].erase("repetitions");
+    experiment["driver"].erase("block_frames");
+  }
+  nlohmann::json by_label = nlohmann::json::object();
+  for (const nlohmann::json& method : experiment["methods"])
+    if (method.is_object()) by_label[method.value("label", method.value("name", ""))] = method;
+  experiment["methods"] = by_label;
+  return experiment;
+}
+
+/// First values that differ among keys that both sides have; methods that only one side has are the methods' business.
+void compare_json(const nlohmann::json& base, const nlohmann::json& candidate, const std::string& pointer,
+                  std::vector<Difference>& differences) {
+  if (base.is_object() && candidate.is_object()) {
+    for (const auto& [key, value] : base.items())
+      if (candidate.contains(key)) compare_json(value, candidate[key], pointer + "/" + key, differences);
+    return;
+  }
+  if (base != candidate)
+    differences.push_back({"", EXPERIMENT + std::string(":") + pointer, std::nullopt, base, candidate, 0});
+}
+
+std::map<std::string, std::string> input_hashes(const ResultReader& file) {
+  const std::vector<std::string> roles = file.texts("/provenance/inputs/role");
+  const std::vector<std::string> hashes = file.texts("/provenance/inputs/sha256");
+  std::map<std::string, std::string> by_role;
+  for (std::size_t i = 0; i < std::min(roles.size(), hashes.size()); ++i) by_role[roles[i]] = hashes[i];
+  return by_role;
+}
+
+void compare_inputs(const ResultReader& base, const ResultReader& candidate,
+                    std::vector<Difference>& differences) {
+  const std::map<std::string, std::string> other = input_hashes(candidate);
+  for (const auto& [role, hash] : input_hashes(base)) {
+    const auto found = other.find(role);
+    if (found != other.end() && found->second != hash)
+      differences.push_back({"", "/provenance/inputs/sha256:" + role, std::nullopt, hash, found->second, 0});
+  }
+}
+
+/// Null where there is none.
+nlohmann::json attribute(const ResultReader& file, const std::string& object, const std::string& name) {
+  const std::optional<ElementKind> kind = file.attribute_kind(object, name);
+  if (!kind) return nullptr;
+  switch (*kind) {
+    case ElementKind::REAL:
+      return *file.real_attribute(object, name);
+    case ElementKind::INTEGER:
+      return *file.integer_attribute(object, name);
+    case ElementKind::TEXT:
+      break;
+  }
+  return *file.text_attribute(object, name);
+}
+
+/// Attributes of /scene and of its meshes. A mesh's name does not matter, and its `validity` follows from what its
+/// SHA-256 covers.
+void compare_scene(const ResultReader& base, const ResultReader& candidate, const std::string& group,
+                   std::vector<Difference>& differences) {
+  for (const std::string& name : base.attributes(group)) {
+    if (name == "validity" || name == "mesh") continue;
+    nlohmann::json a = attribute(base, group, name), b = attribute(candidate, group, name);
+    if (!b.is_null() && a != b)
+      differences.push_back({"", group + ":" + name, std::nullopt, std::move(a), std::move(b), 0});
+  }
+  for (const std::string& mesh : base.groups(group)) {
+    if (candidate.has(group + "/" + mesh))
+      compare_scene(base, candidate, group + "/" + mesh, differences);
+    else
+      differences.push_back({"", group + "/" + mesh, std::nullopt, "present", "absent", 0});
+  }
+}
+
+}  // namespace
+
+std::vector<Difference> experiment_differences(const ResultReader& base, const ResultReader& candidate) {
+  std::vector<Difference> differences;
+  compare_json(deciding_part(base), deciding_part(candidate), "", differences);
+  compare_inputs(base, candidate, differences);
+  compare_scene(base, candidate, "/scene", differences);
+  for (Difference& difference : group_differences(base, candidate, "/path"))
+    differences.push_back(std::move(difference));
+  return differences;
+}
+
+}  // namespace lmdbench

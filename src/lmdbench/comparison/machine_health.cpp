@@ -1,0 +1,189 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/comparison/machine_health.h>
+#include <lmdbench/record/machine_info.h>
+
+#include <fmt/format.h>
+#include <linux/perf_event.h>
+#include <sched.h>
+#include <sys/syscall.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdlib>
+#include <cstring>
+#include <fstream>
+#include <functional>
+#include <optional>
+#include <set>
+#include <sstream>
+
+namespace lmdbench {
+namespace {
+
+constexpr const char* UNKNOWN = "unknown";
+/// More waiting programs than this share of the processors, and a timed one has to share its core now and then.
+constexpr double LARGEST_LOAD_PER_PROCESSOR = 0.5;
+/// One percent of stolen time already doubles some frames.
+constexpr double LARGEST_STOLEN_SHARE = 0.001;
+
+std::string first_line(const std::string& file) {
+  std::ifstream stream(file);
+  std::string line;
+  if (!std::getline(stream, line) || line.empty()) return UNKNOWN;
+  return line;
+}
+
+/// Whether this process may count its own instructions.
+std::string hardware_counters() {
+  struct perf_event_attr attributes {};
+  attributes.type = PERF_TYPE_HARDWARE;
+  attributes.size = sizeof(attributes);
+  attributes.config = PERF_COUNT_HW_INSTRUCTIONS;
+  attributes.exclude_kernel = 1;
+  attributes.exclude_hv = 1;
+  const long descriptor = ::syscall(SYS_perf_event_open, &attributes, 0, -1, -1, 0UL);
+  if (descriptor < 0) return std::strerror(errno);
+  ::close(static_cast<int>(descriptor));
+  return "yes";
+}
+
+/// "0-1,4" as numbers.
+std::set<int> processor_list(const std::string& text) {
+  std::set<int> numbers;
+  std::istringstream stream(text);
+  for (std::string part; std::getline(stream, part, ',');) {
+    int first = 0, last = 0;
+    const int found = std::sscanf(part.c_str(), "%d-%d", &first, &last);
+    if (found < 1) continue;
+    for (int i = first; i <= (found == 2 ? last : first); ++i) numbers.insert(i);
+  }
+  return numbers;
+}
+
+std::string smt_siblings() {
+  cpu_set_t usable;
+  if (::sched_getaffinity(0, sizeof(usable), &usable) != 0) return UNKNOWN;
+  std::string shared;
+  bool known = false;
+  for (int i = 0; i < CPU_SETSIZE; ++i) {
+    if (!CPU_ISSET(i, &usable)) continue;
+    const std::string list =
+        first_line(fmt::format("/sys/devices/system/cpu/cpu{}/topology/thread_siblings_list", i));
+    if (list == UNKNOWN) continue;
+    known = true;
+    if (processor_list(list).size() > 1) shared += (shared.empty() ? "" : "; ") + list;
+  }
+  if (!known) return UNKNOWN;
+  return shared.empty() ? "none" : shared;
+}
+
+/// "max 100000" of version 2 means no limit.
+std::string cpu_quota() {
+  const std::string limit = first_line("/sys/fs/cgroup/cpu.max");
+  if (limit == UNKNOWN) return UNKNOWN;
+  return limit.starts_with("max") ? "none" : limit;
+}
+
+std::string stolen_share() {
+  std::istringstream fields(first_line("/proc/stat"));
+  std::string name;
+  fields >> name;
+  constexpr int STEAL_FIELD = 7;  // user nice system idle iowait irq softirq steal
+  double total = 0.0, stolen = 0.0, value = 0.0;
+  for (int field = 0; field <= STEAL_FIELD && fields >> value; ++field) {
+    total += value;
+    if (field == STEAL_FIELD) stolen = value;
+  }
+  return name == "cpu" && total > 0.0 ? fmt::format("{:.4f}", stolen / total) : UNKNOWN;
+}
+
+std::optional<double> number(const std::string& text) {
+  char* end = nullptr;
+  const double value = std::strtod(text.c_str(), &end);
+  if (end == text.c_str()) return std::nullopt;
+  return value;
+}
+
+std::string fact(const MachineFacts& facts, const std::string& name) {
+  const auto found = facts.find(name);
+  return found == facts.end() ? UNKNOWN : found->second;
+}
+
+}  // namespace
+
+std::string_view health_name(Health health) {
+  switch (health) {
+    case Health::GOOD:
+      return "good";
+    case Health::BAD:
+      return "bad";
+    case Health::UNKNOWN:
+      break;
+  }
+  return "unknown";
+}
+
+MachineFacts machine_facts() {
+  MachineFacts facts;
+  for (const auto& [name, value] : machine_info()) facts[name] = value;
+  facts["hardware_counters"] = hardware_counters();
+  facts["smt_siblings"] = smt_siblings();
+  facts["cpu_quota"] = cpu_quota();
+  facts["stolen_share"] = stolen_share();
+  return facts;
+}
+
+std::vector<HealthFinding> judge_machine(const MachineFacts& facts) {
+  std::vector<HealthFinding> findings;
+  const auto add = [&](const std::string& name, const std::string& key,
+                       const std::function<bool(std::string)>& good, const std::string& why,
+                       const std::string& remedy) {
+    HealthFinding finding{name, Health::UNKNOWN, fact(facts, key), why, ""};
+    if (finding.value != UNKNOWN) finding.health = good(finding.value) ? Health::GOOD : Health::BAD;
+    if (finding.health != Health::GOOD) finding.remedy = remedy;
+    findings.push_back(std::move(finding));
+  };
+  const auto equals = [](const std::string& wanted) {
+    return [wanted](const std::string& value) { return value == wanted; };
+  };
+  const double processors = number(fact(facts, "logical_processors")).value_or(1.0);
+  add("frequency governor", "frequency_governor", equals("performance"),
+      "the processor's frequency follows the load, so the first frames are slower than later ones",
+      "cpupower frequency-set -g performance");
+  add("frequency boost", "frequency_boost", equals("off"),
+      "boost depends on temperature and on what the other cores do",
+      "echo 0 > /sys/devices/system/cpu/cpufreq/boost, or 1 > .../intel_pstate/no_turbo");
+  add(
+      "load", "load_average_1_minute",
+      [&](const std::string& value) {
+        return number(value).value_or(0.0) <= LARGEST_LOAD_PER_PROCESSOR * processors;
+      },
+      fmt::format("other programs want the same {:g} processors and caches", processors),
+      "wait until they are done, or give lmdbench a machine of its own");
+  add("virtual machine", "virtual_machine", equals("no"),
+      "neighbours on the same hardware cannot be seen from here",
+      "measure on hardware of your own; else use more processes (lmdbench compare --base A1.h5 A2.h5 ...)");
+  add(
+      "stolen time", "stolen_share",
+      [](const std::string& value) { return number(value).value_or(0.0) <= LARGEST_STOLEN_SHARE; },
+      "share of the time that the hypervisor gave to other machines", "a machine with dedicated processors");
+  add("SMT sibling", "smt_siblings", equals("none"),
+      "two processors that share a core slow each other down by up to a half",
+      "echo off > /sys/devices/system/cpu/smt/control, or taskset to one processor of each core and leave "
+      "the other idle");
+  add("processor quota", "cpu_quota", equals("none"),
+      "the control group stops the program for the rest of a period when its share is used up",
+      "run without the container's processor limit");
+  add("hardware counters", "hardware_counters", equals("yes"),
+      "instructions cannot be counted, so only work counters and callgrind are free of noise",
+      "sysctl kernel.perf_event_paranoid=1; virtual machines often have none");
+  add("address randomisation", "address_space_randomisation", equals("off"),
+      "every process has another layout in memory and caches, so one process shows little",
+      "compare several processes a side, or start them with setarch --addr-no-randomize");
+  add("clock", "clock_source", equals("tsc"), "a slow clock makes short stages look longer",
+      "echo tsc > /sys/devices/system/clocksource/clocksource0/current_clocksource");
+  return findings;
+}
+
+}  // namespace lmdbench

@@ -1,0 +1,75 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/base/error.h>
+#include <lmdbench/comparison/stage_times.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace lmdbench {
+namespace {
+
+/// Sum over the columns of the least value of each; NaN where a column was never measured. 0 for no columns.
+double sum_of_minima(const std::vector<double>& times, std::size_t first_row, std::size_t end_row,
+                     std::size_t columns) {
+  double sum = 0.0;
+  for (std::size_t column = 0; column < columns; ++column) {
+    double least = std::numeric_limits<double>::infinity();
+    for (std::size_t row = first_row; row < end_row; ++row) {
+      const double time = times[row * columns + column];
+      if (time < least) least = time;
+    }
+    if (std::isfinite(least)) sum += least;
+  }
+  return sum;
+}
+
+std::size_t warm_up(const ResultReader& file) {
+  return static_cast<std::size_t>(
+      std::max<std::int64_t>(file.integer_attribute("/methods", "warm_up_repetitions").value_or(0), 0));
+}
+
+}  // namespace
+
+const std::vector<TimedStage>& stages() {
+  static const std::vector<TimedStage> ALL{{"search", "global_search_time", "global_counters"},
+                                           {"reduction", "first_reduction_time", "global_counters"},
+                                           {"second tracking", "second_tracking_time", "global_counters"},
+                                           {"local update", "local_update_time", "counters"}};
+  return ALL;
+}
+
+std::size_t measured_repetitions(const ResultReader& file) {
+  std::size_t least = std::numeric_limits<std::size_t>::max();
+  for (const std::string& label : file.groups("/methods")) {
+    const std::string dataset = "/methods/" + label + "/local_update_time";
+    const std::vector<std::size_t> shape = file.shape(dataset);
+    if (shape.size() != 2 || shape[0] <= warm_up(file))
+      throw InputError(file.file().string(), dataset, "holds no measured repetition",
+                       "run the experiment with /driver/repetitions of 2 or more");
+    least = std::min(least, shape[0] - warm_up(file));
+  }
+  return least;
+}
+
+StageTimes stage_times(const ResultReader& file, std::size_t repetitions) {
+  StageTimes times;
+  for (const std::string& label : file.groups("/methods")) {
+    for (const TimedStage& stage : stages()) {
+      const std::string dataset = "/methods/" + label + "/" + std::string(stage.dataset);
+      if (!file.has(dataset)) continue;
+      const std::vector<std::size_t> shape = file.shape(dataset);
+      if (shape.size() != 2 || shape[0] < warm_up(file) + repetitions)
+        throw InputError(file.file().string(), dataset,
+                         "has another shape than (repetitions, frames or searches)",
+                         "make the file again with lmdbench run");
+      const double sum =
+          sum_of_minima(file.reals(dataset), warm_up(file), warm_up(file) + repetitions, shape[1]);
+      if (sum > 0.0) times[label][std::string(stage.name)] = sum;
+    }
+  }
+  return times;
+}
+
+}  // namespace lmdbench

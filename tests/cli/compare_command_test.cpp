@@ -1,0 +1,146 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "program.h"
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <hdf5.h>
+#include <nlohmann/json.hpp>
+
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <vector>
+
+namespace lmdbench::testing {
+namespace {
+
+using ::testing::AnyOf;
+using ::testing::HasSubstr;
+
+const std::string RUN = "run '" LMDBENCH_SOURCE_DIR
+                        "/experiments/shapes.json' --set /frames=60 --set /driver/repetitions=3 "
+                        "--set /probes/truth/stride_frames=20 --set /probes/fcl/stride_frames=0 ";
+
+/// Replaces one element of a dataset of a result, as another version of the program might have left it.
+void plant(const std::filesystem::path& file, const char* dataset, std::vector<hsize_t> at, hid_t type,
+           const void* value) {
+  const hid_t id = H5Fopen(file.c_str(), H5F_ACC_RDWR, H5P_DEFAULT);
+  const hid_t data = H5Dopen2(id, dataset, H5P_DEFAULT);
+  const hid_t space = H5Dget_space(data);
+  const std::vector<hsize_t> one(at.size(), 1);
+  const hid_t memory = H5Screate_simple(static_cast<int>(one.size()), one.data(), nullptr);
+  H5Sselect_hyperslab(space, H5S_SELECT_SET, at.data(), nullptr, one.data(), nullptr);
+  ASSERT_GE(H5Dwrite(data, type, memory, space, H5P_DEFAULT, value), 0);
+  H5Sclose(memory);
+  H5Sclose(space);
+  H5Dclose(data);
+  H5Fclose(id);
+}
+
+class CompareCommand : public ::testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    scratch_ = std::make_unique<ScratchDirectory>();
+    ASSERT_EQ(lmdbench(RUN + "--out a.h5", scratch_->path()).code, 0);
+    ASSERT_EQ(lmdbench(RUN + "--out b.h5", scratch_->path()).code, 0);
+  }
+  static void TearDownTestSuite() { scratch_.reset(); }
+  /// A copy of the second run, to be changed.
+  static std::filesystem::path copy(const std::string& name) {
+    std::filesystem::copy_file(*scratch_ / "b.h5", *scratch_ / name);
+    return *scratch_ / name;
+  }
+  static Outcome compare(const std::string& arguments) {
+    return lmdbench("compare " + arguments, scratch_->path());
+  }
+
+  static std::unique_ptr<ScratchDirectory> scratch_;
+};
+std::unique_ptr<ScratchDirectory> CompareCommand::scratch_;
+
+TEST_F(CompareCommand, TwoRunsOfOneExperimentAreSameOrUnsure) {
+  const Outcome outcome = compare("a.h5 b.h5 --json");
+  EXPECT_THAT(outcome.code, AnyOf(0, 4)) << outcome.err;
+  const auto json = nlohmann::json::parse(outcome.out);
+  EXPECT_TRUE(json["differences"].empty());
+  EXPECT_EQ(json["timings"].size(), 6U) << "original: search and local update; improved: all four";
+}
+
+TEST_F(CompareCommand, OrderOfMethodsDoesNotMatter) {
+  ASSERT_EQ(lmdbench(RUN + "--set '/methods=[{\"name\":\"improved\",\"force_law\":\"exponential\"},"
+                           "{\"name\":\"original\",\"force_law\":\"linear\"}]' --out swapped.h5",
+                     scratch_->path())
+                .code,
+            0);
+  const Outcome outcome = compare("a.h5 swapped.h5 --json");
+  EXPECT_THAT(outcome.code, AnyOf(0, 4)) << outcome.out;
+  EXPECT_TRUE(nlohmann::json::parse(outcome.out)["differences"].empty());
+}
+
+TEST_F(CompareCommand, PlantedBehaviourIsNamed) {
+  const std::filesystem::path file = copy("planted.h5");
+  const std::int64_t lost = 77;
+  plant(file, "/methods/improved/lmd_count", {41}, H5T_NATIVE_INT64, &lost);
+  const Outcome outcome = compare("a.h5 planted.h5 --json --junit junit.xml");
+  EXPECT_EQ(outcome.code, 1);
+  const auto difference = nlohmann::json::parse(outcome.out)["differences"][0];
+  EXPECT_EQ(difference["method"], "improved");
+  EXPECT_EQ(difference["dataset"], "lmd_count");
+  EXPECT_EQ(difference["frame"], 41);
+  EXPECT_EQ(difference["candidate"], 77);
+  EXPECT_THAT(compare("a.h5 planted.h5").out, HasSubstr("improved: lmd_count differs in frame 41: "));
+  EXPECT_THAT(compare("a.h5 planted.h5 --markdown").out, HasSubstr("| improved | `lmd_count` | 41 |"));
+  EXPECT_THAT(read_text(*scratch_ / "junit.xml"), HasSubstr("<failure type=\"changed\""));
+}
+
+TEST_F(CompareCommand, CountersCanBeAllowed) {
+  const std::filesystem::path file = copy("counter.h5");
+  const std::int64_t more = 123456;
+  plant(file, "/methods/original/global_counters/node_pairs", {1}, H5T_NATIVE_INT64, &more);
+  const Outcome changed = compare("a.h5 counter.h5 --json");
+  EXPECT_EQ(changed.code, 1);
+  EXPECT_EQ(nlohmann::json::parse(changed.out)["differences"][0]["dataset"], "global_counters/node_pairs");
+  EXPECT_EQ(nlohmann::json::parse(changed.out)["differences"][0]["frame"], 20);
+  EXPECT_THAT(compare("a.h5 counter.h5 --allow node_pairs").code, AnyOf(0, 4));
+  const Outcome unknown = compare("a.h5 counter.h5 --allow node_pear");
+  EXPECT_EQ(unknown.code, 2);
+  EXPECT_THAT(unknown.err, HasSubstr("node_pairs"));
+}
+
+TEST_F(CompareCommand, AFileThatIsNoResult) {
+  std::ofstream(*scratch_ / "text.h5") << "no HDF5";
+  for (const std::string arguments : {"a.h5 text.h5", "absent.h5 a.h5", "--base a.h5 --candidate text.h5"}) {
+    const Outcome outcome = compare(arguments);
+    EXPECT_EQ(outcome.code, 3) << arguments;
+    EXPECT_THAT(outcome.err, HasSubstr("remedy: ")) << arguments;
+  }
+}
+
+TEST_F(CompareCommand, WrongUsage) {
+  for (const std::string arguments : {"", "a.h5", "a.h5 b.h5 --base a.h5", "--base a.h5", "--candidate a.h5",
+                                      "a.h5 b.h5 --threshold -1", "--base a.h5 a.h5 --candidate b.h5"})
+    EXPECT_EQ(compare(arguments).code, 2) << arguments;
+}
+
+TEST_F(CompareCommand, BenchmarkFilesHoldBothSides) {
+  const Outcome outcome = compare("a.h5 b.h5 --benchmark b.json --benchmark-base a.json");
+  EXPECT_THAT(outcome.code, AnyOf(0, 4));
+  for (const char* name : {"a.json", "b.json"}) {
+    const auto json = nlohmann::json::parse(read_text(*scratch_ / name));
+    EXPECT_EQ(json["benchmarks"].size(), 6U);
+    EXPECT_GT(json["benchmarks"][0]["real_time"].get<double>(), 0.0);
+  }
+}
+
+TEST(DoctorCommand, NamesEveryFindingAndTheNoise) {
+  const Outcome outcome = lmdbench("doctor --json");
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  const auto json = nlohmann::json::parse(outcome.out);
+  EXPECT_GE(json["findings"].size(), 10U);
+  for (const auto& finding : json["findings"])
+    EXPECT_EQ(finding["health"] == "good", finding["remedy"].get<std::string>().empty()) << finding.dump();
+  EXPECT_GT(json["noise"]["spread"].get<double>(), 0.0);
+}
+
+}  // namespace
+}  // namespace lmdbench::testing

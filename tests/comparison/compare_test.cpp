@@ -1,0 +1,158 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/base/error.h>
+#include <lmdbench/comparison/compare.h>
+
+#include "synthetic_result.h"
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <support/scratch_directory.h>
+
+#include <filesystem>
+
+namespace lmdbench {
+namespace {
+
+using ::testing::HasSubstr;
+using testing::ScratchDirectory;
+using testing::SyntheticResult;
+using Paths = std::vector<std::filesystem::path>;
+
+class Compare : public ::testing::Test {
+ protected:
+  /// `count` processes with a spread of half a percent.
+  Paths side(SyntheticResult result, const std::string& name, int count) {
+    Paths paths;
+    for (int i = 0; i < count; ++i) {
+      result.process_factor = 1.0 + 0.005 * i;
+      result.jitter = 1e-9 * static_cast<double>(counter_++);
+      paths.push_back(result.write(scratch_ / (name + std::to_string(i) + ".h5")));
+    }
+    return paths;
+  }
+  const Timing& timing(const Comparison& comparison, const std::string& method, const std::string& stage) {
+    for (const Timing& t : comparison.timings)
+      if (t.method == method && t.stage == stage) return t;
+    throw std::runtime_error("no timing " + method + "/" + stage);
+  }
+  ScratchDirectory scratch_;
+  int counter_ = 0;
+};
+
+TEST_F(Compare, OneProcessASideOfTheSameProgram) {
+  const Comparison found = compare_results(side({}, "a", 1), side({}, "b", 1), {});
+  EXPECT_EQ(found.verdict, Verdict::SAME);
+  EXPECT_EQ(found.timings.size(), 3U) << "original: search and local update; certified: local update";
+  EXPECT_EQ(timing(found, "original", "search").estimate.detectable, SINGLE_PROCESS_FACTOR - 1.0);
+  ASSERT_FALSE(found.notes.empty());
+  EXPECT_THAT(found.notes.back(), HasSubstr("one process a side"));
+  const Comparison itself = compare_results(side({}, "a", 1), {scratch_ / "a0.h5"}, {});
+  EXPECT_EQ(itself.verdict, Verdict::SAME);
+}
+
+TEST_F(Compare, AWholeProcessThatIsSlowerShowsNothingAlone) {
+  SyntheticResult slow;
+  slow.slowdown = {{"original/search", 1.4}, {"original/local update", 1.4}, {"certified/local update", 1.4}};
+  EXPECT_EQ(compare_results(side({}, "a", 1), side(slow, "b", 1), {}).verdict, Verdict::UNSURE);
+  EXPECT_EQ(compare_results(side({}, "a", 5), side(slow, "b", 5), {}).verdict, Verdict::SLOWER);
+}
+
+TEST_F(Compare, SlowerNamesTheStageAndItsWork) {
+  SyntheticResult slow;
+  slow.slowdown["original/search"] = 1.15;
+  const Comparison found = compare_results(side({}, "a", 6), side(slow, "b", 6), {});
+  EXPECT_EQ(found.verdict, Verdict::SLOWER);
+  EXPECT_EQ(timing(found, "original", "search").verdict, Verdict::SLOWER);
+  EXPECT_NEAR(timing(found, "original", "search").estimate.ratio, 1.15, 0.01);
+  EXPECT_THAT(timing(found, "original", "search").work, HasSubstr("the same work"));
+  EXPECT_EQ(timing(found, "original", "local update").verdict, Verdict::SAME);
+  EXPECT_EQ(timing(found, "certified", "local update").verdict, Verdict::SAME);
+  EXPECT_EQ(compare_results(side(slow, "a", 6), side({}, "b", 6), {}).verdict, Verdict::FASTER);
+  CompareOptions lenient;
+  lenient.least_effect = 0.3;
+  EXPECT_EQ(compare_results(side({}, "a", 6), side(slow, "b", 6), lenient).verdict, Verdict::SAME);
+}
+
+TEST_F(Compare, MoreWorkIsNamed) {
+  SyntheticResult slow;
+  slow.slowdown["original/search"] = 1.15;
+  slow.search_with_more_work = 0;
+  CompareOptions options;
+  options.exact.allowed_counters = {"node_pairs"};
+  const Comparison found = compare_results(side({}, "a", 6), side(slow, "b", 6), options);
+  EXPECT_EQ(found.verdict, Verdict::SLOWER);
+  EXPECT_EQ(timing(found, "original", "search").work, "more work: node_pairs +5 %");
+  EXPECT_EQ(compare_results(side({}, "a", 6), side(slow, "b", 6), {}).verdict, Verdict::CHANGED);
+}
+
+TEST_F(Compare, ASpikeInOneRepetitionDoesNotCount) {
+  SyntheticResult spike;
+  spike.spike_frame = 1;
+  EXPECT_EQ(compare_results(side({}, "a", 4), side(spike, "b", 4), {}).verdict, Verdict::SAME);
+}
+
+TEST_F(Compare, OnlyAsManyRepetitionsAsAllHave) {
+  SyntheticResult more;
+  more.repetitions = 5;
+  EXPECT_EQ(compare_results(side({}, "a", 2), side(more, "b", 2), {}).repetitions, 2U);
+  SyntheticResult none;
+  none.repetitions = 1;
+  EXPECT_THROW(compare_results(side({}, "a", 1), side(none, "b", 1), {}), InputError);
+}
+
+TEST_F(Compare, MachinesThatDifferAreComparedByRatios) {
+  SyntheticResult other, changed;
+  other.processor = changed.processor = "processor B";
+  other.slowdown = {
+      {"original/search", 3.0}, {"original/local update", 3.0}, {"certified/local update", 3.0}};
+  const Comparison slow_machine = compare_results(side({}, "a", 4), side(other, "b", 4), {});
+  EXPECT_EQ(slow_machine.verdict, Verdict::SAME);
+  EXPECT_FALSE(slow_machine.machine.comparable);
+  ASSERT_EQ(slow_machine.machine.reasons.size(), 1U);
+  EXPECT_THAT(slow_machine.machine.reasons[0], HasSubstr("'processor A' and 'processor B'"));
+  ASSERT_EQ(slow_machine.timings.size(), 1U);
+  EXPECT_EQ(slow_machine.timings[0].method, "certified / original");
+  changed.slowdown = {{"certified/local update", 2.0}};
+  EXPECT_EQ(compare_results(side({}, "a", 4), side(changed, "b", 4), {}).verdict, Verdict::SLOWER);
+}
+
+TEST_F(Compare, AnotherExperimentIsChangedAndNotTimed) {
+  SyntheticResult other;
+  other.cutoff = 0.02;
+  const Comparison found = compare_results(side({}, "a", 1), side(other, "b", 1), {});
+  EXPECT_EQ(found.verdict, Verdict::CHANGED);
+  EXPECT_TRUE(found.timings.empty());
+}
+
+TEST_F(Compare, CopiesAndStrangersAreNoReplicates) {
+  const Paths a = side({}, "a", 1);
+  std::filesystem::copy_file(a[0], scratch_ / "copy.h5");
+  EXPECT_THROW(compare_results({a[0], scratch_ / "copy.h5"}, side({}, "b", 1), {}), UsageError);
+  SyntheticResult changed;
+  changed.frame_with_other_force = 2;
+  Paths mixed = side({}, "c", 1);
+  mixed.push_back(side(changed, "d", 1)[0]);
+  EXPECT_THROW(compare_results(a, mixed, {}), InputError);
+}
+
+TEST_F(Compare, UnknownCounterNamesItsNeighbour) {
+  CompareOptions options;
+  options.exact.allowed_counters = {"node_pair"};
+  try {
+    compare_results(side({}, "a", 1), side({}, "b", 1), options);
+    FAIL() << "accepted";
+  } catch (const UsageError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("node_pairs"));
+  }
+}
+
+TEST(CompareExitCodes, AreTheContracts) {
+  EXPECT_EQ(exit_code(Verdict::SAME), 0);
+  EXPECT_EQ(exit_code(Verdict::FASTER), 0);
+  EXPECT_EQ(exit_code(Verdict::SLOWER), 1);
+  EXPECT_EQ(exit_code(Verdict::CHANGED), 1);
+  EXPECT_EQ(exit_code(Verdict::UNSURE), 4);
+}
+
+}  // namespace
+}  // namespace lmdbench

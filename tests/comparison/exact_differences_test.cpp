@@ -1,0 +1,141 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/comparison/exact_differences.h>
+#include <lmdbench/comparison/experiment_differences.h>
+
+#include "synthetic_result.h"
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <support/scratch_directory.h>
+
+#include <cmath>
+
+namespace lmdbench {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::IsEmpty;
+using testing::ScratchDirectory;
+using testing::SyntheticResult;
+
+class ExactDifferences : public ::testing::Test {
+ protected:
+  std::vector<Difference> differences(const SyntheticResult& base, const SyntheticResult& candidate,
+                                      const ExactOptions& options = {}) {
+    return exact_differences(open(base, "base.h5"), open(candidate, "candidate.h5"), options);
+  }
+  ResultReader open(const SyntheticResult& result, const std::string& name) {
+    return ResultReader(result.write(scratch_ / name));
+  }
+  ScratchDirectory scratch_;
+};
+
+TEST_F(ExactDifferences, SameBitsAndOtherTimesAreNoDifference) {
+  SyntheticResult slower;
+  slower.process_factor = 3.0;
+  EXPECT_THAT(differences({}, slower), IsEmpty());
+}
+
+TEST_F(ExactDifferences, LastBitOfAForceIsNamed) {
+  SyntheticResult candidate;
+  candidate.frame_with_other_force = 7;
+  const std::vector<Difference> found = differences({}, candidate);
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_EQ(found[0].method, "original");
+  EXPECT_EQ(found[0].dataset, "force");
+  EXPECT_EQ(found[0].frame, 7);
+  EXPECT_EQ(found[0].rows, 1U);
+  EXPECT_EQ(found[0].base[2].get<double>(), 0.1 * 8);
+  EXPECT_EQ(found[0].candidate[2].get<double>(), std::nextafter(0.1 * 8, 1.0));
+  EXPECT_NE(found[0].base.dump(), found[0].candidate.dump()) << "text must show the last bit";
+}
+
+TEST_F(ExactDifferences, ToleranceIsRelativeToTheRow) {
+  SyntheticResult candidate;
+  candidate.frame_with_other_force = 7;
+  ExactOptions options;
+  options.tolerance_relative = 1e-15;
+  EXPECT_THAT(differences({}, candidate, options), IsEmpty());
+  options.tolerance_relative = 1e-17;
+  EXPECT_EQ(differences({}, candidate, options).size(), 1U);
+}
+
+TEST_F(ExactDifferences, LostLmdIsNamedByFrame) {
+  SyntheticResult base, candidate;
+  base.lists = candidate.lists = true;
+  candidate.frame_with_lost_lmd = 4;
+  const std::vector<Difference> found = differences(base, candidate);
+  ASSERT_EQ(found.size(), 2U) << "entries behind the lost one are shifted, not different";
+  EXPECT_EQ(found[0].dataset, "lmd_count");
+  EXPECT_EQ(found[0].frame, 4);
+  EXPECT_EQ(found[0].base, 3);
+  EXPECT_EQ(found[0].candidate, 2);
+  EXPECT_EQ(found[1].dataset, "lmds/frame_offset");
+  EXPECT_EQ(found[1].frame, 4);
+}
+
+TEST_F(ExactDifferences, CountersOfSearchesAreNamedByTheirFrameAndCanBeAllowed) {
+  SyntheticResult candidate;
+  candidate.search_with_more_work = 1;
+  const std::vector<Difference> found = differences({}, candidate);
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_EQ(found[0].dataset, "global_counters/node_pairs");
+  EXPECT_EQ(found[0].frame, 5);
+  ExactOptions options;
+  options.allowed_counters = {"leaf_pairs"};
+  EXPECT_EQ(differences({}, candidate, options).size(), 1U);
+  options.allowed_counters = {"node_pairs"};
+  EXPECT_THAT(differences({}, candidate, options), IsEmpty());
+}
+
+TEST_F(ExactDifferences, LossIsADifferenceAndAdditionIsNot) {
+  SyntheticResult more, one;
+  more.extra_counter = "bounds";
+  one.methods = {"original"};
+  EXPECT_THAT(differences({}, more), IsEmpty());
+  EXPECT_THAT(additions(open({}, "a.h5"), open(more, "b.h5")), ElementsAre("certified/counters/bounds"));
+  const std::vector<Difference> counter = differences(more, {});
+  ASSERT_EQ(counter.size(), 1U);
+  EXPECT_EQ(counter[0].dataset, "counters/bounds");
+  EXPECT_EQ(counter[0].candidate, "absent");
+  const std::vector<Difference> method = differences({}, one);
+  ASSERT_EQ(method.size(), 1U);
+  EXPECT_EQ(method[0].method, "certified");
+  EXPECT_THAT(additions(open(one, "a.h5"), open({}, "b.h5")), ElementsAre("method certified"));
+}
+
+TEST_F(ExactDifferences, NumbersOfTheSummaryHaveNoFrame) {
+  SyntheticResult candidate;
+  candidate.summary = 0.75;
+  const std::vector<Difference> found = differences({}, candidate);
+  ASSERT_EQ(found.size(), 2U);  // one a method
+  EXPECT_EQ(found[0].dataset, "summary/force_error_p99_n");
+  EXPECT_EQ(found[0].frame, std::nullopt);
+}
+
+TEST_F(ExactDifferences, OrderOfMethodsDoesNotMatter) {
+  SyntheticResult candidate;
+  candidate.methods = {"certified", "original"};
+  EXPECT_THAT(differences({}, candidate), IsEmpty());
+  EXPECT_THAT(experiment_differences(open({}, "a.h5"), open(candidate, "b.h5")), IsEmpty());
+}
+
+TEST_F(ExactDifferences, OtherExperimentsAndInputsAreNamed) {
+  SyntheticResult force, mesh, more;
+  force.cutoff = 0.02;
+  mesh.moving_hash = "bb";
+  more.repetitions = 4;
+  const std::vector<Difference> found = experiment_differences(open({}, "a.h5"), open(force, "b.h5"));
+  ASSERT_EQ(found.size(), 2U);
+  EXPECT_EQ(found[0].dataset, "/provenance/experiment:/force/cutoff_m");
+  EXPECT_EQ(found[0].base, 0.01);
+  EXPECT_EQ(found[0].candidate, 0.02);
+  EXPECT_EQ(found[1].dataset, "/scene:cutoff_m");
+  const std::vector<Difference> input = experiment_differences(open({}, "a.h5"), open(mesh, "b.h5"));
+  ASSERT_EQ(input.size(), 1U);
+  EXPECT_EQ(input[0].dataset, "/provenance/inputs/sha256:mesh:moving");
+  EXPECT_THAT(experiment_differences(open({}, "a.h5"), open(more, "b.h5")), IsEmpty());
+}
+
+}  // namespace
+}  // namespace lmdbench

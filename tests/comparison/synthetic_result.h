@@ -1,0 +1,35 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+/// Small result files of the real format whose every value a test can choose.
+namespace lmdbench::testing {
+
+/// Two methods, "original" (searches every 5 frames) and "certified" (whole search in every frame), ten frames, three
+/// repetitions of which the first one warms up.
+struct SyntheticResult {
+  std::vector<std::string> methods{"original", "certified"};  ///< In the order of the experiment
+  double cutoff = 0.01;
+  std::string moving_hash = "aa";
+  std::map<std::string, double> slowdown;  ///< "original/search": factor on its times
+  double process_factor = 1.0;             ///< On all times
+  double jitter = 0.0;                     ///< Added to the times of frame 0, to make files differ [s]
+  int spike_frame = -1;                    ///< A neighbour takes 1 ms here, in one measured repetition only
+  int frame_with_other_force = -1;         ///< Last bit of original's force z
+  int frame_with_lost_lmd = -1;            ///< certified
+  int search_with_more_work = -1;          ///< original: node_pairs of that search
+  bool lists = false;                      ///< LMD lists
+  std::string processor = "processor A";
+  std::string extra_counter;  ///< Another counter of certified, "" for none
+  double summary = 0.5;       ///< A number of the summary that is no time
+  int repetitions = 3;
+
+  std::filesystem::path write(const std::filesystem::path& file) const;
+};
+
+}  // namespace lmdbench::testing
