@@ -3,6 +3,7 @@
 #include <lmdbench/base/error.h>
 #include <lmdbench/experiment/direction_memory.h>
 #include <lmdbench/experiment/lockstep.h>
+#include <lmdbench/experiment/planted_slowdown.h>
 #include <lmdbench/experiment/two_rate.h>
 #include <lmdbench/force/aggregate.h>
 #include <lmdbench/lmd/method_description.h>
@@ -21,9 +22,10 @@ namespace {
 
 /// Seconds that `work` takes.
 template <typename Work>
-double timed(Work&& work) {
+double timed(Work&& work, double planted_share) {
   const auto begin = std::chrono::steady_clock::now();
   work();
+  if (planted_share > 0.0) work_longer(begin, planted_share);
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
 }
 
@@ -53,7 +55,7 @@ void add_feature(Hash& hash, const FeatureId& feature) {
 class MethodRun {
  public:
   MethodRun(const LockstepMethod& method, const LockstepInput& input, const DriverChoice& driver)
-      : input_(input), profile_(method.profile), memory_(method.profile.cutoff) {
+      : input_(input), profile_(method.profile), memory_(method.profile.cutoff), planted_(method.label) {
     std::unique_ptr<Method> first = method.make();
     if (first->description().tracks_locally)
       two_rate_.emplace(std::move(first), method.make(), driver);
@@ -93,14 +95,14 @@ class MethodRun {
   template <typename Work>
   void run(Stage stage, Work&& work) {
     if (stage == Stage::LOCAL_UPDATE) {
-      times().local_update.push_back(timed([&] { work(*frame_counters_); }));
+      times().local_update.push_back(timed([&] { work(*frame_counters_); }, planted_.share(stage)));
       return;
     }
     // A search arrives before the next one starts, so all other stages belong to the last one.
     std::vector<double>& column = stage == Stage::GLOBAL_SEARCH     ? times().global_search
                                   : stage == Stage::FIRST_REDUCTION ? times().first_reduction
                                                                     : times().second_tracking;
-    column.back() = timed([&] { work(record_.searches.back().counters); });
+    column.back() = timed([&] { work(record_.searches.back().counters); }, planted_.share(stage));
   }
   void search_ends(const TwoRate::Search& search) {
     record_.searches.back().candidates = search.candidates;
@@ -152,6 +154,7 @@ class MethodRun {
   std::optional<TwoRate> two_rate_;      ///< Unset for a method without local tracking, ...
   std::unique_ptr<Method> every_frame_;  ///< ... which searches in every frame instead.
   DirectionMemory memory_;
+  [[no_unique_address]] const PlantedSlowdown planted_;
   LmdSet found_;                            ///< Of `every_frame_`.
   WorkCounters* frame_counters_ = nullptr;  ///< Of the frame under way.
   MethodRecord record_;
