@@ -167,7 +167,7 @@ class RealResultTest(unittest.TestCase):
         same("force_error_p99_n", np.quantile(errors, 0.99))
         jumps = np.linalg.norm(np.diff(method.read("force"), axis=0), axis=1) > 0.25 * result.maximum_force()
         same("jumps_per_second", jumps.sum() / (contact.sum() / result.scene("frame_rate_hz")))
-        if not method.searches_every_frame():
+        if method.reduces:
             same("reduction_ratio", method.read("candidates").sum() / method.read("kept_after_reduction").sum())
         local = np.median(method.times("local_update_time"), axis=0)[contact]
         same("local_update_median_s", np.median(local))
