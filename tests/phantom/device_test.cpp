@@ -24,7 +24,7 @@ void expect_sound(const DeviceFigure& figure, std::string_view unit) {
   EXPECT_EQ(figure.unit, unit);
   EXPECT_EQ(std::isnan(figure.value), figure.trust == Trust::UNKNOWN);
   EXPECT_EQ(figure.source.empty(), figure.trust == Trust::UNKNOWN);
-  if (figure.trust != Trust::UNKNOWN) {
+  if (figure.trust == Trust::STATED || figure.trust == Trust::FROM_MEMORY) {
     EXPECT_GT(figure.value, 0.0);
   }
 }
@@ -41,9 +41,11 @@ TEST(Device, EveryFigureHasUnitSourceAndTrust) {
     expect_sound(device.stable_stiffness, "N/m");
     expect_sound(device.stable_damping, "N s/m");
     expect_sound(device.apparent_mass, "kg");
+    expect_sound(device.damping, "N s/m");
     expect_sound(device.friction, "N");
     expect_sound(device.torque, "N m");
     for (const DeviceFigure& side : device.workspace) expect_sound(side, "m");
+    if (device.maximum_force.trust == Trust::DEFINED) continue;
     // Rendering depends on these two: they must be known, in this order.
     EXPECT_LT(device.continuous_force.value, device.maximum_force.value);
     EXPECT_EQ(device.maximum_force.trust, Trust::STATED);
@@ -52,7 +54,16 @@ TEST(Device, EveryFigureHasUnitSourceAndTrust) {
     EXPECT_LT(device.workspace[0].value, 1.0);
     EXPECT_LT(device.apparent_mass.value, 0.2);
   }
-  EXPECT_EQ(names.size(), 5u);
+  EXPECT_EQ(names.size(), 6u);
+}
+
+TEST(Device, IdealDeviceLimitsNothing) {
+  const Device& ideal = device_named("ideal");
+  EXPECT_EQ(ideal.friction.value, 0.0);
+  EXPECT_EQ(ideal.position_resolution.value, 0.0);
+  EXPECT_TRUE(std::isinf(ideal.maximum_force.value));
+  EXPECT_EQ(ideal.apparent_mass.value, 0.04);
+  EXPECT_EQ(ideal.damping.value, 0.8);
 }
 
 TEST(Device, UnknownNameListsTheKnownOnes) {

@@ -123,7 +123,9 @@ Json schema_at(const std::vector<std::string>& place, const Json& root, const Js
 /// What a value must be, in words, from its part of the schema.
 std::string expectation(const Json& schema) {
   std::string text;
-  if (schema.contains("type")) text = schema["type"].get<std::string>();
+  if (schema.contains("type"))
+    text = schema["type"].is_array() ? fmt::format("one of the types {}", schema["type"].dump())
+                                     : schema["type"].get<std::string>();
   if (schema.contains("enum")) text = fmt::format("one of {}", schema["enum"].dump());
   const auto add = [&](const char* keyword, const char* sign) {
     if (schema.contains(keyword)) text += fmt::format(" {} {}", sign, schema[keyword].dump());

@@ -19,5 +19,7 @@ void add_query_command(CLI::App& app);
 /// @param exit_status receives the exit code of the verdict
 void add_compare_command(CLI::App& app, int& exit_status);
 void add_doctor_command(CLI::App& app);
+void add_stability_command(CLI::App& app);
+void add_record_command(CLI::App& app);
 
 }  // namespace lmdbench

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <lmdbench/experiment/loop_choice.h>
 #include <lmdbench/force/force_law.h>
 #include <lmdbench/geometry/pose.h>
 #include <lmdbench/motion/interpolate.h>
@@ -72,6 +73,7 @@ struct Experiment {
   std::vector<MethodChoice> methods;
   DriverChoice driver;
   std::string device;
+  LoopChoice loop;
   std::int64_t truth_stride_frames = 0;  ///< 0: no truth probe.
   std::int64_t fcl_stride_frames = 0;    ///< 0: no cross-check.
   double fcl_tolerance_relative = 0.0;

@@ -8,6 +8,7 @@
 #include <lmdbench/experiment/schema.h>
 #include <lmdbench/methods/registry.h>
 #include <lmdbench/motion/tum_file.h>
+#include <lmdbench/phantom/device.h>
 
 #include <fmt/format.h>
 
@@ -134,10 +135,16 @@ Experiment from_json(Json document, const std::filesystem::path& path) {
                     experiment.driver.search_latency_frames, experiment.driver.search_every_frames),
         "one thread searches: let the latency be at most search_every_frames");
   experiment.device = document["device"].get<std::string>();
+  experiment.loop = loop_choice(document["loop"], device_named(experiment.device, file, "/device"), file);
   const Json& probes = document["probes"];
   experiment.truth_stride_frames = probes["truth"]["stride_frames"].get<std::int64_t>();
   experiment.fcl_stride_frames = probes["fcl"]["stride_frames"].get<std::int64_t>();
   experiment.fcl_tolerance_relative = probes["fcl"]["tolerance_relative"].get<double>();
+  if (experiment.loop.closed && experiment.fcl_stride_frames > 0)
+    throw UsageError(
+        file, "/probes/fcl/stride_frames",
+        "FCL is compared at the poses of a path, and in a closed loop every method makes its own",
+        "set it to 0, or record the path and run it in an open loop");
   experiment.record_lmds = document["record"]["lmds"].get<bool>();
   experiment.resolved_json = document.dump(2);
   return experiment;

@@ -55,7 +55,11 @@ void add_feature(Hash& hash, const FeatureId& feature) {
 class MethodRun {
  public:
   MethodRun(const LockstepMethod& method, const LockstepInput& input, const DriverChoice& driver)
-      : input_(input), profile_(method.profile), memory_(method.profile.cutoff), planted_(method.label) {
+      : input_(input),
+        profile_(method.profile),
+        poses_(input.make_poses ? input.make_poses() : std::make_unique<PathPoses>(input.poses)),
+        memory_(method.profile.cutoff),
+        planted_(method.label) {
     std::unique_ptr<Method> first = method.make();
     if (first->description().tracks_locally)
       two_rate_.emplace(std::move(first), method.make(), driver);
@@ -70,13 +74,13 @@ class MethodRun {
     FrameRecord result;
     frame_counters_ = &result.counters;
     if (every_frame_) {
-      const Pose& X_WM = pose(frame);
+      const Pose& X_WM = pose();
       found_.clear();
       run(Stage::LOCAL_UPDATE, [&](WorkCounters& counters) { every_frame_->search(X_WM, found_, counters); });
       result.lmd_count_before_reduction = static_cast<double>(found_.size());
       result.lmd_age = 0.0;
     } else {
-      two_rate_->step(frame, pose(frame), *this);
+      two_rate_->step(frame, pose(), *this);
       if (const auto& origin = two_rate_->origin()) {
         result.lmd_count_before_reduction = static_cast<double>(origin->candidates);
         result.lmd_age = static_cast<double>(frame - origin->frame) / input_.frame_rate_hz;
@@ -117,7 +121,7 @@ class MethodRun {
   }
 
  private:
-  const Pose& pose(std::int64_t frame) const { return input_.poses[static_cast<std::size_t>(frame)]; }
+  const Pose& pose() const { return poses_->pose(); }
   RepetitionTimes& times() { return record_.repetitions.front(); }
 
   /// From the working set to force, record and hash; not timed.
@@ -126,7 +130,7 @@ class MethodRun {
     std::stable_sort(lmds.begin(), lmds.end(),
                      lmd_less);  // summation in an order that the scene alone decides
     result.contact_without_direction = memory_.complete(lmds);
-    const Vec3 reference_W = RigidTransform(pose(frame)).point(input_.reference_M);
+    const Vec3 reference_W = RigidTransform(pose()).point(input_.reference_M);
     const Wrench wrench = sum_forces(lmds, profile_, reference_W);
     const RenderedForce rendered = input_.device.render(wrench);
     result.force = rendered.force;
@@ -147,10 +151,16 @@ class MethodRun {
     work_hash_.add(result.counters.values);
     record_.frames.push_back(result);
     if (input_.keep_lmds && input_.keep_lmds(frame)) record_.lmds.emplace(frame, std::move(lmds));
+    const Pose X_WM = poses_->pose();
+    if (const std::optional<LoopFrame> moved = poses_->render(result.force)) {
+      record_.poses.push_back(X_WM);
+      record_.loop.push_back(*moved);
+    }
   }
 
   const LockstepInput& input_;
   const ForceProfile profile_;
+  std::unique_ptr<PoseSource> poses_;
   std::optional<TwoRate> two_rate_;      ///< Unset for a method without local tracking, ...
   std::unique_ptr<Method> every_frame_;  ///< ... which searches in every frame instead.
   DirectionMemory memory_;
@@ -175,7 +185,7 @@ void merge_repetition(MethodRecord& first, MethodRecord&& again, std::int64_t re
 
 std::vector<MethodRecord> run_lockstep(const std::vector<LockstepMethod>& methods, const LockstepInput& input,
                                        const DriverChoice& driver, const Progress& progress) {
-  const auto frame_count = static_cast<std::int64_t>(input.poses.size());
+  const std::int64_t frame_count = input.frames.value_or(static_cast<std::int64_t>(input.poses.size()));
   const auto method_count = static_cast<std::int64_t>(methods.size());
   const std::int64_t total = frame_count * method_count * driver.repetitions;
   std::vector<MethodRecord> records;

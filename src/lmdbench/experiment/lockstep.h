@@ -3,6 +3,7 @@
 #pragma once
 
 #include <lmdbench/experiment/experiment.h>
+#include <lmdbench/experiment/pose_source.h>
 #include <lmdbench/experiment/records.h>
 #include <lmdbench/force/force_law.h>
 #include <lmdbench/geometry/pose.h>
@@ -12,6 +13,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -24,6 +26,7 @@
 ///     tracking (reduction) at the same pose. With a latency of 0 it arrives at once.
 ///  3. The local part tracks the working set to this frame's pose.
 ///  4. LMDs within the cutoff are summed into a force, which the device clips.
+///  5. In a closed loop the device moves until the next frame, whose pose is the device's.
 /// Methods without local tracking search in every frame instead.
 namespace lmdbench {
 
@@ -36,9 +39,13 @@ struct LockstepMethod {
 
 /// All that the driver needs to know of the scene.
 struct LockstepInput {
-  std::vector<Pose> poses;  ///< One a frame, X_WM.
+  std::vector<Pose>
+      poses;  ///< The path, one a frame, X_WM; in a closed loop the one that the hand means to take.
   double frame_rate_hz = 1000.0;
-  Vec3 reference_M = Vec3::Zero();  ///< Point of the moving mesh about which torque is taken.
+  /// Makes the source of a method's poses; unset: the path itself.
+  std::function<std::unique_ptr<PoseSource>()> make_poses;
+  std::optional<std::int64_t> frames;  ///< Unset: as many as the path has poses.
+  Vec3 reference_M = Vec3::Zero();     ///< Point of the moving mesh about which torque is taken.
   VirtualPhantom device;
   std::function<bool(std::int64_t frame)> keep_lmds;  ///< Frames whose LMD sets are to be kept.
 };
@@ -50,7 +57,7 @@ using Progress = std::function<bool(std::int64_t done, std::int64_t total)>;
 /// Thrown when `Progress` asked to stop.
 class Interrupted {};
 
-/// Runs every method along all poses, `repetitions` times. Methods take turns block by block, in alternating
+/// Runs every method along all poses (in a closed loop: each on a device of its own), `repetitions` times. Methods take turns block by block, in alternating
 /// order, so that drifts of the machine's speed hit all alike; every repetition starts from fresh instances.
 /// @throws Error with ExitCode::INTERNAL when a repetition's forces, LMDs or counters differ from the
 ///         first one's

@@ -50,6 +50,14 @@ nlohmann::ordered_json method_json(const MethodChoice& choice) {
   return json;
 }
 
+/// The closed loop in words.
+std::string loop_text(const LoopChoice& loop) {
+  return fmt::format("{:g} kg, {:g} N s/m, friction {:g} N, resolution {:g} m, {}, force {} frames late",
+                     loop.dynamics.mass_kg, loop.dynamics.damping_n_s_per_m, loop.dynamics.friction_n,
+                     loop.resolution_m, loop.dynamics.hand ? "hand " + loop.dynamics.hand->name : "no hand",
+                     loop.delay_frames);
+}
+
 }  // namespace
 
 bool Plan::needs(Part part) const {
@@ -75,7 +83,11 @@ Plan make_plan(const Experiment& experiment) {
   add(Part::SEARCH_PER_FRAME, "a search in every frame", !searching.empty(), join_labels(searching),
       "every method tracks locally");
   add(Part::DEVICE, "virtual device", true,
-      fmt::format("{} clips the summed force; the loop is open", experiment.device), "");
+      fmt::format("{} clips the summed force; the loop is {}", experiment.device,
+                  experiment.loop.closed ? "closed" : "open"),
+      "");
+  add(Part::SIMULATED_DEVICE, "simulated device", experiment.loop.closed, loop_text(experiment.loop),
+      "loop/kind is open: poses come from the path");
   add(Part::TRUTH_PROBE, "truth probe", experiment.truth_stride_frames > 0,
       fmt::format("exhaustive LMD sets every {} frames, outside the timed frames",
                   experiment.truth_stride_frames),

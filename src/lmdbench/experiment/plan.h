@@ -15,6 +15,7 @@ enum class Part {
   LOCAL_TRACKING,    ///< Global searches on a clock of their own, with local tracking between them.
   SEARCH_PER_FRAME,  ///< Methods that find their set from scratch in every frame.
   DEVICE,            ///< The virtual device.
+  SIMULATED_DEVICE,  ///< Its motion, in a closed loop.
   TRUTH_PROBE,       ///< Exhaustive LMD sets on a stride.
   FCL,               ///< FCL's hierarchies and queries on a stride.
   LMD_LISTS,         ///< Every frame's LMD list in the result.

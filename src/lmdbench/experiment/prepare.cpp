@@ -96,6 +96,8 @@ PreparedRun prepare(const Experiment& experiment) {
   PreparedRun prepared{.scene = std::move(scene),
                        .input = {.poses = {},
                                  .frame_rate_hz = experiment.frame_rate_hz,
+                                 .make_poses = {},
+                                 .frames = std::nullopt,
                                  .reference_M = Vec3::Zero(),
                                  .device = VirtualPhantom(device),
                                  .keep_lmds = {}},
@@ -119,6 +121,11 @@ PreparedRun prepare(const Experiment& experiment) {
     for (const std::string& finding : findings(note.report))
       prepared.warnings.push_back(fmt::format("{} mesh {}: {}", note.role, note.name, finding));
   }
+  if (experiment.loop.closed)
+    prepared.input.make_poses = [loop = experiment.loop, path = prepared.input.poses,
+                                 period = 1.0 / experiment.frame_rate_hz] {
+      return std::make_unique<DevicePoses>(loop, path, period);
+    };
   prepared.starts_touching = touches(prepared.scene, prepared.input.poses.front());
   if (prepared.starts_touching)
     prepared.warnings.push_back(

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <lmdbench/experiment/pose_source.h>
 #include <lmdbench/geometry/types.h>
 #include <lmdbench/lmd/lmd.h>
 #include <lmdbench/lmd/work_counters.h>
@@ -56,6 +57,9 @@ struct MethodRecord {
   std::vector<SearchRecord> searches;
   std::vector<RepetitionTimes> repetitions;  ///< The first one is the warm-up.
   std::map<std::int64_t, LmdSet> lmds;       ///< LMDs within the cutoff, of the frames that were to be kept.
+  std::vector<Pose>
+      poses;  ///< Closed loop: X_WM of each frame, as the encoders told it. Empty in an open one.
+  std::vector<LoopFrame> loop;    ///< Closed loop: what the device did in each frame. Empty in an open one.
   std::uint64_t result_hash = 0;  ///< Over every frame's force bits and LMD features, in frame order.
   std::uint64_t work_hash = 0;    ///< Over all counters.
 };

@@ -54,7 +54,7 @@ RunResult run_experiment(const Experiment& experiment, const RunProgress& progre
     if (!progress) return {};
     return [&progress, name](std::int64_t done, std::int64_t total) { return progress(name, done, total); };
   };
-  RunResult result{make_plan(experiment), prepare(experiment), {}, {}, {}, {}, std::nullopt, {}};
+  RunResult result{make_plan(experiment), prepare(experiment), {}, {}, {}, {}, {}, {}, std::nullopt, {}};
   PreparedRun& prepared = result.prepared;
   result.in_contact = frames_in_contact(prepared.scene, prepared.input.poses);
   result.warnings = prepared.warnings;
@@ -70,13 +70,26 @@ RunResult run_experiment(const Experiment& experiment, const RunProgress& progre
     prepared.input.keep_lmds = [kept](std::int64_t frame) { return kept.count(frame) > 0; };
   }
   result.records = run_lockstep(methods, prepared.input, experiment.driver, phase("run"));
+  if (experiment.loop.closed)
+    for (const MethodRecord& record : result.records)
+      result.in_contact_of_device.push_back(frames_in_contact(prepared.scene, record.poses));
 
   if (result.plan.needs(Part::TRUTH_PROBE)) {
-    result.truth =
-        probe_truth(prepared.scene, prepared.input, prepared.profile, truth_frames, phase("truth"));
+    if (experiment.loop.closed) {
+      for (const MethodRecord& record : result.records) {
+        LockstepInput replay = prepared.input;
+        replay.poses = record.poses;
+        replay.make_poses = nullptr;
+        result.truth_of_device.push_back(
+            probe_truth(prepared.scene, replay, prepared.profile, truth_frames, phase("truth")));
+      }
+    } else {
+      result.truth =
+          probe_truth(prepared.scene, prepared.input, prepared.profile, truth_frames, phase("truth"));
+    }
     for (std::size_t i = 0; i < methods.size(); ++i)
       result.comparisons.push_back(
-          compare_with_truth(result.truth, result.records[i], methods[i].profile.law, prepared.scene));
+          compare_with_truth(result.truth_of(i), result.records[i], methods[i].profile.law, prepared.scene));
   }
   if (result.plan.needs(Part::FCL))
     result.fcl = probe_fcl(prepared.scene, prepared.input, methods,

@@ -22,12 +22,24 @@ namespace lmdbench {
 struct RunResult {
   Plan plan;
   PreparedRun prepared;
-  std::vector<bool> in_contact;       ///< One a frame (contact.h).
+  std::vector<bool> in_contact;       ///< One a frame of the path (contact.h).
   std::vector<MethodRecord> records;  ///< In the order of the experiment's methods, like the next but one.
-  std::vector<TruthFrame> truth;      ///< Empty where the plan leaves the probe out.
+  std::vector<TruthFrame> truth;      ///< Empty where the plan leaves the probe out, and in a closed loop.
+  /// Closed loop: truth at the poses that each method's device took, one list a method.
+  std::vector<std::vector<TruthFrame>> truth_of_device;
+  std::vector<std::vector<bool>> in_contact_of_device;  ///< Closed loop: one list a method, one entry a frame.
   std::vector<std::vector<TruthComparison>> comparisons;  ///< One list a method, one entry a TruthFrame.
   std::optional<FclCheck> fcl;
   std::vector<std::string> warnings;  ///< What a reader of the result must know, in plain words.
+
+  /// Truth that a method was compared with; empty where the plan leaves the probe out.
+  const std::vector<TruthFrame>& truth_of(std::size_t method) const {
+    return truth_of_device.empty() ? truth : truth_of_device[method];
+  }
+  /// Frames in which the meshes are in contact at the method's poses.
+  const std::vector<bool>& in_contact_of(std::size_t method) const {
+    return in_contact_of_device.empty() ? in_contact : in_contact_of_device[method];
+  }
 };
 
 /// What a run reports while it goes on: the phase ("run", "truth", "fcl"), what is done and what there is to

@@ -80,9 +80,9 @@ nlohmann::ordered_json method_json(const MethodSummary& m) {
 
 void summarise_truth(RunSummary& summary, const RunResult& result) {
   std::vector<double> counts, in_contact;
-  for (const TruthFrame& frame : result.truth) {
+  for (const TruthFrame& frame : result.truth_of(0)) {
     counts.push_back(static_cast<double>(frame.lmds.size()));
-    if (result.in_contact[static_cast<std::size_t>(frame.frame)]) in_contact.push_back(counts.back());
+    if (result.in_contact_of(0)[static_cast<std::size_t>(frame.frame)]) in_contact.push_back(counts.back());
   }
   summary.true_lmd_count_median = median(in_contact);
   summary.true_lmd_count_maximum = maximum(counts);
@@ -94,23 +94,24 @@ RunSummary summarise(const Experiment& experiment, const RunResult& result) {
   RunSummary summary;
   summary.name = experiment.name;
   summary.frames = static_cast<std::int64_t>(result.prepared.times.size());
-  summary.frames_in_contact = std::count(result.in_contact.begin(), result.in_contact.end(), true);
-  summary.frames_probed = static_cast<std::int64_t>(result.truth.size());
+  const std::vector<bool>& in_contact = result.in_contact_of(0);
+  summary.frames_in_contact = std::count(in_contact.begin(), in_contact.end(), true);
+  summary.frames_probed = static_cast<std::int64_t>(result.truth_of(0).size());
   summarise_truth(summary, result);
   summary.measured_repetitions = std::max<std::int64_t>(experiment.driver.repetitions - 1, 1);
   summary.cutoff_m = result.prepared.scene.cutoff;
   summary.warnings = result.warnings;
-  const RunFrames frames{result.in_contact, experiment.frame_rate_hz, result.prepared.profile.maximum_force};
   for (std::size_t i = 0; i < result.records.size(); ++i) {
     const MethodRecord& record = result.records[i];
     MethodSummary method;
     method.label = record.label;
     method.result_hash = fmt::format("{:016x}", record.result_hash);
+    const RunFrames frames{result.in_contact_of(i), experiment.frame_rate_hz, result.prepared.profile.maximum_force};
     summarise_counts(method, record, frames);
     summarise_jumps(method, record, frames);
-    if (!result.truth.empty())
-      summarise_errors(method, experiment.methods[i].force_law, result.truth, result.comparisons[i], frames);
-    summarise_times(method, record, result.in_contact);
+    if (const std::vector<TruthFrame>& truth = result.truth_of(i); !truth.empty())
+      summarise_errors(method, experiment.methods[i].force_law, truth, result.comparisons[i], frames);
+    summarise_times(method, record, result.in_contact_of(i));
     summary.methods.push_back(std::move(method));
   }
   if (result.fcl) {

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/experiment/summary.h>
+#include <lmdbench/experiment/write_loop.h>
 #include <lmdbench/experiment/write_result.h>
 #include <lmdbench/methods/registry.h>
 
@@ -179,41 +180,10 @@ void write_lmd_lists(ResultWriter& writer, const std::string& group, const Metho
          [](const Lmd& l) { return std::int64_t{l.fixed_body}; });
 }
 
-void write_method(ResultWriter& writer, const Experiment& experiment, const RunResult& result,
-                  std::size_t index) {
-  const MethodChoice& choice = experiment.methods[index];
-  const MethodRecord& record = result.records[index];
-  const std::string group = "/methods/" + choice.label;
-  const MethodDescription& method = method_description(choice.name);
-  writer.attribute(group, "method", choice.name);
-  writer.attribute(group, "method_order", static_cast<std::int64_t>(method_order(choice.name)));
-  writer.attribute(group, "about", method.summary);
-  writer.attribute(group, "promise", std::string(to_string(method.promise)));
-  writer.attribute(group, "tracks_locally", std::int64_t{method.tracks_locally});
-  writer.attribute(group, "trackings_after_search", std::int64_t{method.trackings_after_search});
-  writer.attribute(group, "force_law",
-                   std::string(choice.force_law == ForceLaw::LINEAR ? "linear" : "exponential"));
-  writer.attribute(group, "options", choice.options_json);
-  writer.attribute(group, "result_hash", fmt::format("{:016x}", record.result_hash));
-  write_frames(writer, group, method, record);
-  if (method.tracks_locally) write_searches(writer, group, method, record);
-  if (!result.truth.empty()) write_truth(writer, group + "/truth", result.truth, result.comparisons[index]);
-  if (experiment.record_lmds) write_lmd_lists(writer, group + "/lmds", record);
-  if (result.fcl) {
-    write_column(writer, {group + "/fcl/frame", "1", "frame that was compared with FCL"}, result.fcl->frames,
-                 [](const FclFrame& f) { return f.frame; });
-    write_column(
-        writer,
-        {group + "/fcl/minimum_distance_difference_relative", "1",
-         "a fresh search's minimum distance minus FCL's, divided by FCL's; infinite where it found no pair"},
-        result.fcl->frames, [&](const FclFrame& f) { return f.method_difference[index]; });
-  }
-}
-
-void write_reference(ResultWriter& writer, const std::vector<TruthFrame>& truth) {
+void write_reference(ResultWriter& writer, const std::string& group, const std::vector<TruthFrame>& truth) {
   const auto column = [&](const std::string& name, const std::string& units, const std::string& long_name,
                           auto project) {
-    write_column(writer, {"/reference/" + name, units, long_name}, truth, project);
+    write_column(writer, {group + "/" + name, units, long_name}, truth, project);
   };
   constexpr auto LINEAR = static_cast<std::size_t>(ForceLaw::LINEAR);
   constexpr auto EXPONENTIAL = static_cast<std::size_t>(ForceLaw::EXPONENTIAL);
@@ -242,6 +212,44 @@ void write_poses(ResultWriter& writer, const std::string& group, const std::vect
   }
   writer.write({group + "/orientation", "1", "unit quaternion x, y, z, w of the moving mesh"},
                std::span<const double>(orientations), {poses.size(), 4});
+}
+
+void write_method(ResultWriter& writer, const Experiment& experiment, const RunResult& result,
+                  std::size_t index) {
+  const MethodChoice& choice = experiment.methods[index];
+  const MethodRecord& record = result.records[index];
+  const std::string group = "/methods/" + choice.label;
+  const MethodDescription& method = method_description(choice.name);
+  writer.attribute(group, "method", choice.name);
+  writer.attribute(group, "method_order", static_cast<std::int64_t>(method_order(choice.name)));
+  writer.attribute(group, "about", method.summary);
+  writer.attribute(group, "promise", std::string(to_string(method.promise)));
+  writer.attribute(group, "tracks_locally", std::int64_t{method.tracks_locally});
+  writer.attribute(group, "trackings_after_search", std::int64_t{method.trackings_after_search});
+  writer.attribute(group, "force_law",
+                   std::string(choice.force_law == ForceLaw::LINEAR ? "linear" : "exponential"));
+  writer.attribute(group, "options", choice.options_json);
+  writer.attribute(group, "result_hash", fmt::format("{:016x}", record.result_hash));
+  write_frames(writer, group, method, record);
+  if (method.tracks_locally) write_searches(writer, group, method, record);
+  if (const std::vector<TruthFrame>& truth = result.truth_of(index); !truth.empty())
+    write_truth(writer, group + "/truth", truth, result.comparisons[index]);
+  if (experiment.loop.closed) {
+    write_poses(writer, group + "/path", record.poses);
+    write_loop(writer, group + "/loop", record.loop, result.in_contact_of(index));
+    if (!result.truth_of(index).empty())
+      write_reference(writer, group + "/reference", result.truth_of(index));
+  }
+  if (experiment.record_lmds) write_lmd_lists(writer, group + "/lmds", record);
+  if (result.fcl) {
+    write_column(writer, {group + "/fcl/frame", "1", "frame that was compared with FCL"}, result.fcl->frames,
+                 [](const FclFrame& f) { return f.frame; });
+    write_column(
+        writer,
+        {group + "/fcl/minimum_distance_difference_relative", "1",
+         "a fresh search's minimum distance minus FCL's, divided by FCL's; infinite where it found no pair"},
+        result.fcl->frames, [&](const FclFrame& f) { return f.method_difference[index]; });
+  }
 }
 
 void write_fcl(ResultWriter& writer, const FclCheck& check, double tolerance) {
@@ -302,7 +310,7 @@ void write_result(ResultWriter& writer, const Experiment& experiment, const RunR
   writer.attribute("/methods", "search_every_frames", experiment.driver.search_every_frames);
   writer.attribute("/methods", "search_latency_frames", experiment.driver.search_latency_frames);
   for (std::size_t i = 0; i < experiment.methods.size(); ++i) write_method(writer, experiment, result, i);
-  if (!result.truth.empty()) write_reference(writer, result.truth);
+  if (!result.truth.empty()) write_reference(writer, "/reference", result.truth);
   if (result.fcl) write_fcl(writer, *result.fcl, experiment.fcl_tolerance_relative);
   write_summary(writer, summarise(experiment, result));
 }

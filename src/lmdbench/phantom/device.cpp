@@ -14,6 +14,12 @@ namespace {
 
 constexpr std::string_view SURVEY = "survey of the makers' data sheets (secondary)";
 constexpr std::string_view CHAI3D = "CHAI3D, src/devices/CPhantomDevices.cpp";
+constexpr double NO_LIMIT = std::numeric_limits<double>::infinity();
+
+/// The only damping of a PHANTOM at hand; the other devices' mechanisms are taken to be as free.
+constexpr DeviceFigure MECHANISM_DAMPING = {
+    0.005, "N s/m", "Diolaiti et al., T-RO 22(2), 2006, of a PHANToM 1.0, not re-read", Trust::FROM_MEMORY};
+
 constexpr std::string_view RECALLED = "maker's data sheet, not re-read";
 
 constexpr DeviceFigure survey(double value, std::string_view unit) {
@@ -25,13 +31,32 @@ constexpr DeviceFigure chai3d(double value, std::string_view unit) {
 constexpr DeviceFigure recalled(double value, std::string_view unit) {
   return {value, unit, RECALLED, Trust::FROM_MEMORY};
 }
+constexpr DeviceFigure defined(double value, std::string_view unit) {
+  return {value, unit, "by definition", Trust::DEFINED};
+}
 constexpr DeviceFigure unknown(std::string_view unit) {
   return {std::numeric_limits<double>::quiet_NaN(), unit, "", Trust::UNKNOWN};
 }
 
 // The Desktop's figures are its successor Touch X's where the survey gives only that name, the Omni's the
 // Touch's. Sources and their trust are a field of each figure; the masses given as upper bounds are marked.
-constexpr std::array<Device, 5> DEVICES = {{
+constexpr std::array<Device, 6> DEVICES = {{
+    {
+        // Neither friction nor encoder counts nor a force limit: what theory speaks of. Mass and damping are those of the
+        // published stability boundary that the closed loop is held against.
+        .name = "ideal",
+        .title = "ideal device",
+        .maximum_force = defined(NO_LIMIT, "N"),
+        .continuous_force = defined(NO_LIMIT, "N"),
+        .position_resolution = defined(0.0, "m"),
+        .stable_stiffness = unknown("N/m"),
+        .stable_damping = unknown("N s/m"),
+        .apparent_mass = defined(0.04, "kg"),
+        .damping = defined(0.8, "N s/m"),
+        .friction = defined(0.0, "N"),
+        .torque = unknown("N m"),
+        .workspace = {defined(NO_LIMIT, "m"), defined(NO_LIMIT, "m"), defined(NO_LIMIT, "m")},
+    },
     {
         .name = "phantom-desktop",
         .title = "PHANTOM Desktop",
@@ -41,6 +66,7 @@ constexpr std::array<Device, 5> DEVICES = {{
         .stable_stiffness = chai3d(1000.0, "N/m"),
         .stable_damping = chai3d(5.0, "N s/m"),
         .apparent_mass = recalled(0.045, "kg"),
+        .damping = MECHANISM_DAMPING,
         .friction = recalled(0.06, "N"),
         .torque = unknown("N m"),
         .workspace = {survey(0.160, "m"), survey(0.120, "m"), survey(0.120, "m")},
@@ -54,6 +80,7 @@ constexpr std::array<Device, 5> DEVICES = {{
         .stable_stiffness = unknown("N/m"),
         .stable_damping = unknown("N s/m"),
         .apparent_mass = recalled(0.075, "kg"),  // an upper bound
+        .damping = MECHANISM_DAMPING,
         .friction = recalled(0.04, "N"),
         .torque = unknown("N m"),
         .workspace = {survey(0.381, "m"), survey(0.267, "m"), survey(0.191, "m")},
@@ -67,6 +94,7 @@ constexpr std::array<Device, 5> DEVICES = {{
         .stable_stiffness = chai3d(800.0, "N/m"),
         .stable_damping = chai3d(5.0, "N s/m"),
         .apparent_mass = recalled(0.136, "kg"),  // an upper bound, the larger of two that are remembered
+        .damping = MECHANISM_DAMPING,
         .friction = recalled(0.04, "N"),
         .torque = recalled(0.188, "N m"),
         .workspace = {survey(0.381, "m"), survey(0.267, "m"), survey(0.191, "m")},
@@ -80,6 +108,7 @@ constexpr std::array<Device, 5> DEVICES = {{
         .stable_stiffness = chai3d(700.0, "N/m"),
         .stable_damping = chai3d(5.0, "N s/m"),
         .apparent_mass = recalled(0.045, "kg"),
+        .damping = MECHANISM_DAMPING,
         .friction = recalled(0.26, "N"),
         .torque = unknown("N m"),
         .workspace = {survey(0.160, "m"), survey(0.120, "m"), survey(0.070, "m")},
@@ -93,6 +122,7 @@ constexpr std::array<Device, 5> DEVICES = {{
         .stable_stiffness = chai3d(1000.0, "N/m"),
         .stable_damping = chai3d(5.0, "N s/m"),
         .apparent_mass = recalled(0.159, "kg"),  // an upper bound
+        .damping = MECHANISM_DAMPING,
         .friction = recalled(0.2, "N"),
         .torque = chai3d(0.188, "N m"),
         .workspace = {recalled(0.838, "m"), recalled(0.584, "m"), recalled(0.406, "m")},
@@ -107,6 +137,8 @@ std::string_view to_string(Trust trust) {
       return "stated";
     case Trust::FROM_MEMORY:
       return "from memory";
+    case Trust::DEFINED:
+      return "defined";
     case Trust::UNKNOWN:
       return "unknown";
   }

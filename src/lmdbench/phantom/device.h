@@ -14,10 +14,11 @@ namespace lmdbench {
 enum class Trust : std::uint8_t {
   STATED,  ///< Read in the source that is named, for this device or for its successor under the newer name.
   FROM_MEMORY,  ///< Recalled, not re-read; good enough to start from, not to quote.
+  DEFINED,      ///< True by definition: the ideal device's.
   UNKNOWN       ///< No figure was found: the value is NaN.
 };
 
-/// "stated", "from memory" or "unknown".
+/// "stated", "from memory", "defined" or "unknown".
 std::string_view to_string(Trust trust);
 
 /// One figure of a device with where it comes from.
@@ -40,6 +41,7 @@ struct Device {
   DeviceFigure stable_stiffness;          ///< Largest stiffness that CHAI3D sets for it [N/m].
   DeviceFigure stable_damping;            ///< Largest damping that CHAI3D sets for it [N s/m].
   DeviceFigure apparent_mass;             ///< At the stylus [kg].
+  DeviceFigure damping;                   ///< Viscous damping of the mechanism [N s/m].
   DeviceFigure friction;                  ///< Back-drive friction [N].
   DeviceFigure torque;                    ///< Continuous torque [N m] of the models that have it.
   std::array<DeviceFigure, 3> workspace;  ///< Width, height, depth [m].

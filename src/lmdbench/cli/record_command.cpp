@@ -1,0 +1,56 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/base/error.h>
+#include <lmdbench/cli/commands.h>
+#include <lmdbench/cli/progress_bar.h>
+#include <lmdbench/cli/talk.h>
+#include <lmdbench/experiment/record_path.h>
+#include <lmdbench/motion/tum_file.h>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace lmdbench {
+namespace {
+
+struct RecordOptions {
+  std::string experiment;
+  std::string out;
+  std::vector<std::string> overrides;
+};
+
+void record(const RecordOptions& options) {
+  const Experiment experiment = load_experiment(options.experiment, options.overrides);
+  ProgressBar bar(progress_welcome());
+  const Path path =
+      record_path(experiment, [&bar](const std::string& phase, std::int64_t done, std::int64_t total) {
+        bar.update(phase, done, total);
+        return true;
+      });
+  bar.wipe();
+  write_tum(options.out, path,
+            fmt::format("true path of the simulated device of experiment '{}', method '{}'", experiment.name,
+                        experiment.methods.front().label));
+  spdlog::info("wrote {} poses to {}", path.size(), options.out);
+}
+
+}  // namespace
+
+void add_record_command(CLI::App& app) {
+  auto* command =
+      app.add_subcommand("record", "Record the path that the simulated device takes in a closed loop");
+  const auto options = std::make_shared<RecordOptions>();
+  command->add_option("experiment", options->experiment, "experiment file (JSON) whose loop is closed")
+      ->required();
+  command->add_option("--out,-o", options->out, "path to write (TUM trajectory)")->required();
+  command->add_option("--set", options->overrides, "override a value: /json/pointer=value; repeatable")
+      ->allow_extra_args(false);
+  command->callback([options] { record(*options); });
+}
+
+}  // namespace lmdbench

@@ -1,0 +1,34 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <lmdbench/geometry/types.h>
+#include <lmdbench/phantom/axis_integrator.h>
+#include <lmdbench/phantom/axis_model.h>
+#include <lmdbench/phantom/device.h>
+
+#include <nlohmann/json_fwd.hpp>
+
+#include <cstdint>
+#include <string>
+
+namespace lmdbench {
+
+/// Where poses come from: `/loop` of an experiment. In an open loop from the path; in a closed one from the simulated
+/// device, which the rendered force moves, while a hand, where there is one, draws it along the path.
+struct LoopChoice {
+  bool closed = false;
+  DeviceDynamics dynamics;
+  double resolution_m = 0.0;      ///< Of the encoders; 0: exact.
+  std::int64_t delay_frames = 0;  ///< The force of frame n is rendered from frame n + delay_frames on.
+  Vec3 push_n = Vec3::Zero();     ///< A constant force on the device, world frame.
+  Integration integration = Integration::EXACT;
+};
+
+/// Reads `/loop`. What it does not give of the device's mass, damping, friction and resolution is taken from the
+/// device and written into `entry`, so that the resolved experiment holds every figure in use.
+/// @param entry the checked object, with the schema's defaults
+/// @throws UsageError naming the JSON pointer: unknown hand, figures that make no device
+LoopChoice loop_choice(nlohmann::json& entry, const Device& device, const std::string& file);
+
+}  // namespace lmdbench

@@ -1,0 +1,166 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/base/error.h>
+#include <lmdbench/experiment/stability_search.h>
+#include <lmdbench/phantom/stability_boundary.h>
+
+#include <boost/math/tools/toms748_solve.hpp>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <cmath>
+#include <cstdint>
+#include <optional>
+#include <utility>
+
+namespace lmdbench {
+namespace {
+
+/// A search on one method.
+class Search {
+ public:
+  Search(const Experiment& experiment, const PreparedRun& prepared, LockstepMethod method, Progress progress)
+      : experiment_(experiment),
+        prepared_(prepared),
+        method_(std::move(method)),
+        unit_force_(method_.profile.maximum_force),
+        progress_(std::move(progress)) {}
+
+  void run(double first_stiffness, StabilityRow& row) {
+    const StabilityTrial given = try_scale(1.0);
+    if (!given.in_contact) {
+      row.clean_until = "no_contact";
+      return;
+    }
+    stiffness_of_unit_ = given.stiffness_n_per_m;
+    const double start = first_stiffness > 0.0 ? first_stiffness : stiffness_of_unit_;
+    double low = start;
+    double growth_low = growth(low);
+    double high = low;
+    double growth_high = growth_low;
+    for (int i = 0; i < MOST_BRACKETINGS && growth_low > 0.0; ++i) {
+      high = std::exchange(low, low / BRACKET_FACTOR);
+      growth_high = std::exchange(growth_low, growth(low));
+    }
+    for (int i = 0; i < MOST_BRACKETINGS && growth_high <= 0.0 && !clipped_; ++i) {
+      low = std::exchange(high, high * BRACKET_FACTOR);
+      growth_low = std::exchange(growth_high, growth(high));
+    }
+    if (best_ > 0.0) row.critical_stiffness_n_per_m = best_;
+    row.clean_until = best_ == 0.0         ? "never"
+                      : clipped_           ? "device_force"
+                      : growth_high <= 0.0 ? "nothing"
+                                           : "";
+    if (!row.clean_until.empty()) return;
+    if (growth_low < 0.0) refine(low, high, growth_low, growth_high);
+    row.critical_stiffness_n_per_m = best_;
+    row.clean_until = broken_by_;
+  }
+
+ private:
+  StabilityTrial try_scale(double scale) {
+    LockstepMethod scaled = method_;
+    scaled.profile.maximum_force = unit_force_ * scale;
+    return try_stiffness(experiment_, prepared_.input, scaled, progress_);
+  }
+
+  /// Positive where the contact of that stiffness is not clean.
+  double growth(double stiffness) {
+    const StabilityTrial trial = try_scale(stiffness / stiffness_of_unit_);
+    clipped_ = trial.clipped;
+    if (trial.clipped) return 0.0;
+    if (trial.outcome.clean()) {
+      best_ = std::max(best_, stiffness);
+    } else if (worst_ == 0.0 || stiffness < worst_) {
+      worst_ = stiffness;
+      broken_by_ = to_string(trial.outcome.fastest);
+    }
+    return trial.outcome.growth;
+  }
+
+  void refine(double low, double high, double growth_low, double growth_high) {
+    std::uintmax_t iterations = MOST_REFINEMENTS;
+    boost::math::tools::toms748_solve(
+        [this](double k) { return growth(k); }, low, high, growth_low, growth_high,
+        [](double a, double b) { return std::abs(b - a) <= STIFFNESS_TOLERANCE * std::abs(a); }, iterations);
+  }
+
+  const Experiment& experiment_;
+  const PreparedRun& prepared_;
+  LockstepMethod method_;
+  double unit_force_;
+  Progress progress_;
+  double stiffness_of_unit_ = 0.0;
+  double best_ = 0.0;   ///< Largest clean stiffness.
+  double worst_ = 0.0;  ///< Smallest one that is not; 0: none yet.
+  bool clipped_ = false;
+  std::string broken_by_;
+};
+
+}  // namespace
+
+std::vector<StabilityRow> find_critical_stiffness(const Experiment& experiment, const RunProgress& progress) {
+  if (!experiment.loop.closed)
+    throw UsageError(experiment.file.string(), "/loop/kind", "the loop is open, so nothing can shake",
+                     "set it to closed");
+  const PreparedRun prepared = prepare(experiment);
+  const SampledLoop sampled{experiment.loop.dynamics, 1.0 / experiment.frame_rate_hz,
+                            experiment.loop.delay_frames};
+  StabilityRow common;
+  common.delay_frames = experiment.loop.delay_frames;
+  common.servo_rate_hz = experiment.frame_rate_hz;
+  common.mass_kg = experiment.loop.dynamics.mass_kg;
+  common.damping_n_s_per_m = experiment.loop.dynamics.damping_n_s_per_m;
+  common.exact_n_per_m = critical_stiffness(sampled);
+  common.bound_n_per_m = sufficient_stiffness(sampled);
+
+  std::vector<StabilityRow> rows;
+  for (LockstepMethod& method : lockstep_methods(experiment, prepared)) {
+    StabilityRow row = common;
+    row.method = method.label;
+    row.profile = method.profile.law == ForceLaw::LINEAR ? "linear" : "exponential";
+    std::int64_t trials = 0;
+    Progress counted;
+    if (progress)
+      counted = [&](std::int64_t done, std::int64_t total) {
+        // How many trials a search takes is not known beforehand: the bar shows the trial under way.
+        if (done <= 256) ++trials;
+        return progress(fmt::format("{} trial {}", method.label, trials), done, total);
+      };
+    Search(experiment, prepared, std::move(method), counted).run(row.bound_n_per_m, row);
+    rows.push_back(std::move(row));
+  }
+  return rows;
+}
+
+std::string stability_json(const std::vector<StabilityRow>& rows) {
+  nlohmann::ordered_json json = nlohmann::ordered_json::array();
+  for (const StabilityRow& row : rows)
+    json.push_back({{"method", row.method},
+                    {"profile", row.profile},
+                    {"delay_frames", row.delay_frames},
+                    {"servo_rate_hz", row.servo_rate_hz},
+                    {"mass_kg", row.mass_kg},
+                    {"damping_n_s_per_m", row.damping_n_s_per_m},
+                    {"critical_stiffness_n_per_m", row.critical_stiffness_n_per_m},
+                    {"exact_n_per_m", row.exact_n_per_m},
+                    {"bound_n_per_m", row.bound_n_per_m},
+                    {"clean_until", row.clean_until}});
+  return json.dump(2);
+}
+
+std::string stability_text(const std::vector<StabilityRow>& rows) {
+  std::string text =
+      fmt::format("{:<16} {:<12} {:>6} {:>9} {:>8} {:>10} {:>14} {:>14} {:>12}  {}\n", "method", "profile",
+                  "delay", "rate", "mass", "damping", "critical", "exact", "bound", "clean until");
+  text += fmt::format("{:<16} {:<12} {:>6} {:>9} {:>8} {:>10} {:>14} {:>14} {:>12}\n", "", "", "frames", "Hz",
+                      "kg", "N s/m", "N/m", "N/m", "N/m");
+  for (const StabilityRow& row : rows)
+    text += fmt::format("{:<16} {:<12} {:>6} {:>9g} {:>8g} {:>10g} {:>14.4f} {:>14.4f} {:>12.4f}  {}\n",
+                        row.method, row.profile, row.delay_frames, row.servo_rate_hz, row.mass_kg,
+                        row.damping_n_s_per_m, row.critical_stiffness_n_per_m, row.exact_n_per_m,
+                        row.bound_n_per_m, row.clean_until);
+  return text;
+}
+
+}  // namespace lmdbench

@@ -1,0 +1,54 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <lmdbench/experiment/experiment.h>
+#include <lmdbench/experiment/prepare.h>
+#include <lmdbench/experiment/run.h>
+#include <lmdbench/experiment/stability_trial.h>
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+/// The largest clean stiffness of a closed loop, method by method: `lmdbench stability`. The stiffness of the contact at
+/// the path's first pose is varied through F_max of the force law; each is tried as `stability_trial.h` says and judged
+/// as `cleanliness.h` says. Growth changes its sign at the critical stiffness, which is bracketed by factors of
+/// BRACKET_FACTOR and found to STIFFNESS_TOLERANCE by TOMS 748.
+namespace lmdbench {
+
+inline constexpr double BRACKET_FACTOR = 1.5;
+inline constexpr double STIFFNESS_TOLERANCE = 1e-5;  ///< Relative width of the last bracket.
+inline constexpr int MOST_BRACKETINGS = 60;
+inline constexpr int MOST_REFINEMENTS = 40;
+
+/// Result of one search.
+struct StabilityRow {
+  std::string method;   ///< Label.
+  std::string profile;  ///< Its force law.
+  std::int64_t delay_frames = 0;
+  double servo_rate_hz = UNSET;
+  double mass_kg = UNSET;
+  double damping_n_s_per_m = UNSET;
+  /// Largest stiffness that was tried and clean; NaN where none was, or where the device clips before anything grows.
+  double critical_stiffness_n_per_m = UNSET;
+  double exact_n_per_m = UNSET;  ///< Boundary of the linear loop (`phantom/stability_boundary.h`).
+  double bound_n_per_m = UNSET;  ///< The sufficient bound b / (T/2 + t_d).
+  /// What ends the clean range: "amplitude", "energy" or "force_above_30_hz", whichever grows fastest just above it;
+  /// "device_force" where the device clips the resting force first; "nothing" where the search found no end,
+  /// "never" where no stiffness was clean, "no_contact" where the first pose has no force and stiffness.
+  std::string clean_until;
+};
+
+/// Searches for every method of the experiment.
+/// @throws UsageError for an experiment whose loop is open; Interrupted when `progress` returned false
+std::vector<StabilityRow> find_critical_stiffness(const Experiment& experiment,
+                                                  const RunProgress& progress = {});
+
+/// JSON array of the rows, null for NaN.
+std::string stability_json(const std::vector<StabilityRow>& rows);
+
+/// For people: one line a row.
+std::string stability_text(const std::vector<StabilityRow>& rows);
+
+}  // namespace lmdbench

@@ -1,0 +1,154 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/experiment/stability_trial.h>
+
+#include <algorithm>
+#include <cmath>
+#include <deque>
+#include <memory>
+#include <numbers>
+#include <optional>
+#include <utility>
+
+namespace lmdbench {
+namespace {
+
+constexpr std::int64_t BLOCK_FRAMES = 256;  ///< Between two looks whether the trial is over.
+constexpr int CYCLES = SKIPPED_CYCLES + 2 * WINDOW_CYCLES;
+
+/// Growth that stands for a swing that died down or escaped: ten times the amplitude a window.
+constexpr double DECIDED_GROWTH = std::numbers::ln10;
+
+/// The contact at rest, and the tap that fits it.
+struct Rest {
+  Pose pose;
+  Vec3 force_W = Vec3::Zero();
+  double natural_frequency = 0.0;  ///< [rad/s] of device and rigid hand on the contact's stiffness.
+  double tap_m = 0.0;              ///< How far the tap swings them on that stiffness alone.
+  double range_m = 0.0;            ///< From rest to where the contact ends or saturates.
+};
+
+/// What a trial's pose source and its owner share.
+struct TrialState {
+  Swing swing;
+  std::optional<double> decided;  ///< Growth, where no measurement is needed.
+  bool over = false;
+};
+
+/// Holds the device, lets it go with a tap and watches it.
+class TrialPoses final : public PoseSource {
+ public:
+  TrialPoses(const LoopChoice& loop, const Rest& rest, double period, std::int64_t hold_frames,
+             std::shared_ptr<TrialState> state)
+      : rest_(rest),
+        direction_W_(rest.force_W.normalized()),
+        natural_period_frames_(2.0 * std::numbers::pi / (rest.natural_frequency * period)),
+        hold_frames_(hold_frames),
+        state_(std::move(state)),
+        pose_(rest.pose),
+        device_(loop.dynamics, loop.integration, period, rest.pose.translation, -rest.force_W,
+                loop.resolution_m),
+        under_way_(static_cast<std::size_t>(loop.delay_frames), rest.force_W) {
+    state_->swing.period_s = period;
+    state_->swing.resolution_m = loop.resolution_m;
+    device_.strike(rest.tap_m * rest.natural_frequency * direction_W_);
+  }
+
+  const Pose& pose() const override { return pose_; }
+
+  std::optional<LoopFrame> render(const Vec3& force_W) override {
+    if (hold_frames_-- > 0) return std::nullopt;
+    under_way_.push_back(force_W);
+    watch();
+    device_.advance(under_way_.front(), rest_.pose.translation);
+    under_way_.pop_front();
+    pose_.translation = device_.sensed_position();
+    return std::nullopt;
+  }
+
+ private:
+  void watch() {
+    Swing& swing = state_->swing;
+    swing.position_W.push_back(device_.position() - rest_.pose.translation);
+    swing.velocity_W.push_back(device_.velocity());
+    swing.force_W.push_back(under_way_.front() - rest_.force_W);
+    const double way = swing.position_W.back().norm();
+    const double speed = swing.velocity_W.back().dot(direction_W_);
+    if (speed * last_speed_ < 0.0) ++sign_changes_;
+    if (speed != 0.0) last_speed_ = speed;
+    const auto frames = static_cast<double>(swing.position_W.size());
+    if (way > DEAD_SHARE * rest_.tap_m ||
+        std::abs(speed) > DEAD_SHARE * rest_.tap_m * rest_.natural_frequency)
+      last_lively_ = frames;
+    if (way > ESCAPED_SHARE * rest_.range_m) state_->decided = DECIDED_GROWTH;
+    if (frames - last_lively_ > natural_period_frames_) state_->decided = -DECIDED_GROWTH;
+    state_->over = state_->decided || sign_changes_ >= 2 * CYCLES;
+  }
+
+  Rest rest_;
+  Vec3 direction_W_;
+  double natural_period_frames_;
+  std::int64_t hold_frames_;
+  std::shared_ptr<TrialState> state_;
+  Pose pose_;
+  SimulatedDevice device_;
+  std::deque<Vec3> under_way_;
+  double last_speed_ = 0.0;
+  std::int64_t sign_changes_ = 0;
+  double last_lively_ = 0.0;
+};
+
+double moving_mass(const DeviceDynamics& dynamics) {
+  const bool rigid_hand = dynamics.hand && !dynamics.hand->has_grip();
+  return dynamics.mass_kg + (rigid_hand ? dynamics.hand->mass_kg : 0.0);
+}
+
+}  // namespace
+
+StabilityTrial try_stiffness(const Experiment& experiment, const LockstepInput& input,
+                             const LockstepMethod& method, const Progress& progress) {
+  const LoopChoice& loop = experiment.loop;
+  DriverChoice driver = experiment.driver;
+  driver.repetitions = 1;
+  driver.block_frames = BLOCK_FRAMES;
+  const std::int64_t hold_frames = driver.search_every_frames + driver.search_latency_frames + 1;
+  LockstepInput held = input;
+  held.keep_lmds = nullptr;
+  held.poses.resize(1);
+  held.make_poses = nullptr;
+  held.frames = hold_frames;
+  const FrameRecord at_rest = run_lockstep({method}, held, driver, {}).front().frames.back();
+
+  StabilityTrial trial;
+  trial.stiffness_n_per_m = at_rest.effective_stiffness;
+  trial.clipped = at_rest.force_clipped;
+  Rest rest{held.poses.front(), at_rest.force, 0.0, 0.0, 0.0};
+  rest.range_m = std::min(method.profile.cutoff - at_rest.minimum_distance,
+                          at_rest.minimum_distance - method.profile.saturation_distance);
+  trial.in_contact = at_rest.effective_stiffness > 0.0 && rest.force_W.norm() > 0.0 && rest.range_m > 0.0;
+  if (!trial.in_contact) return trial;
+  rest.natural_frequency = std::sqrt(trial.stiffness_n_per_m / moving_mass(loop.dynamics));
+  rest.tap_m = TAP_SHARE * rest.range_m;
+
+  auto state = std::make_shared<TrialState>();
+  LockstepInput tapped = held;
+  tapped.frames = hold_frames + MOST_SWING_FRAMES;
+  tapped.make_poses = [&, state] {
+    return std::make_unique<TrialPoses>(loop, rest, 1.0 / input.frame_rate_hz, hold_frames, state);
+  };
+  bool asked_to_stop = false;
+  try {
+    run_lockstep({method}, tapped, driver, [&](std::int64_t done, std::int64_t total) {
+      asked_to_stop = progress && !progress(done, total);
+      return !asked_to_stop && !state->over;
+    });
+  } catch (const Interrupted&) {
+    if (asked_to_stop) throw;
+  }
+  trial.frames = static_cast<std::int64_t>(state->swing.position_W.size());
+  trial.outcome = judge(state->swing);
+  if (state->decided) trial.outcome.growth = *state->decided;
+  return trial;
+}
+
+}  // namespace lmdbench

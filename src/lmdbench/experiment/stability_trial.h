@@ -1,0 +1,39 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <lmdbench/experiment/cleanliness.h>
+#include <lmdbench/experiment/experiment.h>
+#include <lmdbench/experiment/lockstep.h>
+
+/// One trial of a stiffness: the device rests in contact and is tapped.
+///  1. It is held at the first pose of the path until the method has an LMD set there and its force has gone through
+///     the delay.
+///  2. It is let go, pushed by just the force that balances the contact, so that it rests at that pose whatever the
+///     stiffness (the experiment's own push is not used), and tapped along the contact force: its speed changes so that
+///     it would swing by TAP_SHARE of the way that the contact leaves it on either side.
+///  3. The trial ends after SKIPPED_CYCLES + 2 WINDOW_CYCLES oscillations, when the swing has died down, when it has left the
+///     contact's range, or after MOST_SWING_FRAMES.
+/// Method, force law, device clipping and search clock are those of a run.
+namespace lmdbench {
+
+inline constexpr double TAP_SHARE = 0.01;
+inline constexpr double DEAD_SHARE =
+    1e-6;  ///< Of the tap's swing: less than this over a cycle has died down.
+inline constexpr double ESCAPED_SHARE = 0.5;  ///< Of the contact's range: more than this has escaped.
+inline constexpr std::int64_t MOST_SWING_FRAMES = 1'000'000;
+
+struct StabilityTrial {
+  double stiffness_n_per_m = UNSET;  ///< K_eff of the resting contact.
+  bool in_contact = false;  ///< There is a force and a stiffness at rest; without them nothing below is set.
+  bool clipped = false;     ///< The device clips the force at rest: it cannot render this stiffness here.
+  Cleanliness outcome;
+  std::int64_t frames = 0;  ///< From the tap on.
+};
+
+/// @param method one method with the force profile to try
+/// @throws Interrupted when `progress`, called now and then with frames since the tap, returned false
+StabilityTrial try_stiffness(const Experiment& experiment, const LockstepInput& input,
+                             const LockstepMethod& method, const Progress& progress);
+
+}  // namespace lmdbench
