@@ -69,5 +69,12 @@ TEST(VirtualPhantom, ClippingDependsOnTheDevice) {
   EXPECT_TRUE(VirtualPhantom(device_named("phantom-omni")).render(command(force)).clipped);
 }
 
+TEST(VirtualPhantom, LowerLimitThanTheDevicesCanBeSet) {
+  const VirtualPhantom gentle(device_named("phantom-desktop"), 3.0);
+  EXPECT_NEAR(gentle.render(command(Vec3(0.0, 4.0, 3.0))).force.norm(), 3.0, 1e-15);
+  EXPECT_TRUE(gentle.render(command(Vec3(0.0, 4.0, 3.0))).clipped);
+  EXPECT_EQ(VirtualPhantom(device_named("phantom-desktop"), 100.0).limit(), 7.9) << "the device's own stays";
+}
+
 }  // namespace
 }  // namespace lmdbench

@@ -111,6 +111,14 @@ class RealResultTest(unittest.TestCase):
             raise AssertionError(f"lmdbench run left with {done.returncode}:\n{done.stderr}")
         return result
 
+    def closed(self):
+        """A closed loop: it has datasets of its own."""
+        result = self.path("closed.h5")
+        wall = os.path.join(os.path.dirname(check_format.README), "..", "experiments", "wall.json")
+        subprocess.run([PROGRAM, "run", wall, "--out", result, "--set", "/frames=20", "--set",
+                        "/probes/truth/stride_frames=5"], check=True, capture_output=True, stdin=subprocess.DEVNULL)
+        return result
+
     def printed(self, main, *arguments):
         stream = io.StringIO()
         with contextlib.redirect_stdout(stream):
@@ -118,14 +126,15 @@ class RealResultTest(unittest.TestCase):
         return stream.getvalue()
 
     def test_results_have_the_described_format(self):
-        text = self.printed(check_format.main, self.hard, self.soft)
+        text = self.printed(check_format.main, self.hard, self.soft, self.closed())
         self.assertIn(" 0 differences", text)
 
     def test_everything_described_is_there(self):
         with open(check_format.README, encoding="utf-8") as stream:
             described = set(check_format.described(stream.read()))
         found = set()
-        Result(self.hard).h5.visit(lambda name: found.add(check_format.documented_path("/" + name)))
+        for file in (self.hard, self.closed()):
+            Result(file).h5.visit(lambda name: found.add(check_format.documented_path("/" + name)))
         self.assertEqual(described - found, set())
 
     def test_the_exact_method_agrees_with_truth_that_another_code_found(self):

@@ -34,6 +34,8 @@ struct ForceChoice {
   std::optional<double> saturation_cutoff;  ///< Share of the cutoff.
   double maximum_force_n = 0.0;
   double sharpness = 0.0;
+  bool clip_at_maximum =
+      false;  ///< The sum is clipped to F_max of one LMD, where that is below the device's limit.
 
   /// Cutoff [m] for a moving mesh of the given bounding-box diagonal [m].
   double cutoff(double moving_diagonal) const;
@@ -56,6 +58,7 @@ struct DriverChoice {
   std::int64_t search_latency_frames = 0;
   std::int64_t repetitions = 0;
   std::int64_t block_frames = 0;
+  bool predict = false;  ///< Search where the mesh will be when the result arrives, see `two_rate.h`.
 };
 
 struct Experiment {

@@ -54,6 +54,7 @@ ForceChoice force_choice(const Json& entry, const std::string& file) {
   force.saturation_cutoff = optional_value<double>(entry, "saturation_cutoff");
   force.maximum_force_n = entry["maximum_force_n"].get<double>();
   force.sharpness = entry["sharpness"].get<double>();
+  force.clip_at_maximum = entry["clip"] == "maximum";
   if (force.cutoff_m.has_value() == force.cutoff_diagonal.has_value())
     throw UsageError(file, "/force", force.cutoff_m ? "two cutoffs" : "no cutoff",
                      "give exactly one of cutoff_m and cutoff_diagonal");
@@ -127,7 +128,8 @@ Experiment from_json(Json document, const std::filesystem::path& path) {
   const Json& driver = document["driver"];
   experiment.driver = {driver["search_every_frames"].get<std::int64_t>(),
                        driver["search_latency_frames"].get<std::int64_t>(),
-                       driver["repetitions"].get<std::int64_t>(), driver["block_frames"].get<std::int64_t>()};
+                       driver["repetitions"].get<std::int64_t>(), driver["block_frames"].get<std::int64_t>(),
+                       driver["prediction"] == "linear"};
   if (experiment.driver.search_latency_frames > experiment.driver.search_every_frames)
     throw UsageError(
         file, "/driver/search_latency_frames",

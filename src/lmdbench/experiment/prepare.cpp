@@ -93,20 +93,22 @@ PreparedRun prepare(const Experiment& experiment) {
   const ForceProfile profile = profile_for(experiment, notes.front().report.diagonal);
   scene.cutoff = profile.cutoff;
 
-  PreparedRun prepared{.scene = std::move(scene),
-                       .input = {.poses = {},
-                                 .frame_rate_hz = experiment.frame_rate_hz,
-                                 .make_poses = {},
-                                 .frames = std::nullopt,
-                                 .reference_M = Vec3::Zero(),
-                                 .device = VirtualPhantom(device),
-                                 .keep_lmds = {}},
-                       .times = {},
-                       .profile = profile,
-                       .meshes = std::move(notes),
-                       .files = std::move(files),
-                       .starts_touching = false,
-                       .warnings = {}};
+  PreparedRun prepared{
+      .scene = std::move(scene),
+      .input = {.poses = {},
+                .frame_rate_hz = experiment.frame_rate_hz,
+                .make_poses = {},
+                .frames = std::nullopt,
+                .reference_M = Vec3::Zero(),
+                .device = experiment.force.clip_at_maximum ? VirtualPhantom(device, profile.maximum_force)
+                                                           : VirtualPhantom(device),
+                .keep_lmds = {}},
+      .times = {},
+      .profile = profile,
+      .meshes = std::move(notes),
+      .files = std::move(files),
+      .starts_touching = false,
+      .warnings = {}};
   prepared.input.reference_M = bounding_box_centre(prepared.scene.moving->surface().mesh);
   for (const TimedPose& frame : frames) {
     prepared.input.poses.push_back(frame.pose);

@@ -6,6 +6,7 @@
 #include <lmdbench/geometry/pose.h>
 #include <lmdbench/lmd/method.h>
 #include <lmdbench/lmd/method_description.h>
+#include <lmdbench/motion/extrapolate.h>
 
 #include <cstdint>
 #include <memory>
@@ -23,6 +24,8 @@ enum class Stage : std::uint8_t { GLOBAL_SEARCH, FIRST_REDUCTION, SECOND_TRACKIN
 /// - `observer.search_starts(frame)` before a search;
 /// - `observer.run(stage, work)` must call `work(counters)` once, with the WorkCounters that are to count it;
 /// - `observer.search_ends(search)` after the first reduction.
+/// With prediction (the paper's future work) a search and its first reduction take place not at the present pose
+/// but where the mesh will be when the result arrives, if it goes on as in the last frame.
 class TwoRate {
  public:
   /// Where a working set comes from.
@@ -35,6 +38,7 @@ class TwoRate {
   TwoRate(std::unique_ptr<Method> global, std::unique_ptr<Method> local, const DriverChoice& driver)
       : every_(driver.search_every_frames),
         latency_(driver.search_latency_frames),
+        predicts_(driver.predict),
         global_(std::move(global)),
         local_(std::move(local)) {}
 
@@ -43,17 +47,20 @@ class TwoRate {
   void step(std::int64_t frame, const Pose& X_WM, Observer& observer) {
     if (pending_ && frame == pending_->search.frame + latency_) receive(X_WM, observer);
     if (frame % every_ == 0) {
-      search(frame, X_WM, observer);
+      const bool ahead = predicts_ && last_pose_;
+      search(frame, ahead ? extrapolated(*last_pose_, X_WM, static_cast<double>(latency_)) : X_WM, observer);
       if (latency_ == 0) receive(X_WM, observer);
     }
     observer.run(Stage::LOCAL_UPDATE,
                  [&](WorkCounters& counters) { local_->track(X_WM, working_, counters); });
+    last_pose_ = X_WM;
   }
 
   /// As before the first frame.
   void restart() {
     pending_.reset();
     origin_.reset();
+    last_pose_.reset();
     working_.clear();
   }
 
@@ -100,10 +107,12 @@ class TwoRate {
 
   std::int64_t every_;
   std::int64_t latency_;
+  bool predicts_;
   std::unique_ptr<Method> global_;
   std::unique_ptr<Method> local_;
   LmdSet working_;
   std::optional<Pending> pending_;
+  std::optional<Pose> last_pose_;  ///< Of the frame before.
   std::optional<Search> origin_;
 };
 

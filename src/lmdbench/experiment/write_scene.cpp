@@ -18,6 +18,7 @@ void write_scene(ResultWriter& writer, const RunResult& result) {
   const Device& device = prepared.input.device.device();
   writer.attribute("/scene", "device", std::string(device.name));
   writer.attribute("/scene", "device_maximum_force_n", device.maximum_force.value);
+  writer.attribute("/scene", "force_limit_n", prepared.input.device.limit());
   writer.attribute("/scene", "device_continuous_force_n", device.continuous_force.value);
   for (const MeshNote& mesh : prepared.meshes) {
     const std::string group = "/scene/" + mesh.role;

@@ -7,7 +7,7 @@ namespace lmdbench {
 RenderedForce VirtualPhantom::render(const Wrench& command) const {
   RenderedForce rendered;
   const double commanded_length = command.force.stableNorm();
-  const double largest = device_.maximum_force.value;
+  const double largest = limit_;
   rendered.clipped = commanded_length > largest;
   rendered.force = rendered.clipped ? Vec3((command.force / commanded_length) * largest) : command.force;
   rendered.exceeds_continuous_force =

@@ -1,0 +1,150 @@
+#!/usr/bin/env python3
+# SPDX-FileCopyrightText: The lmdbench authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Why the summed force jumps: every birth and death of an LMD in every method's sets, attributed to an event.
+
+Needs result files of an open loop with LMD lists (--set /record/lmds=true) whose methods include the reference, 'certified',
+whose set is complete in every frame. Between two frames no point of the moving mesh travels farther than `travel`, so no distance
+changes by more:
+- cutoff: the reference, too, gains or loses the pair here, within `travel` of the cutoff: no force worth a jump;
+- hand-over: in the same frame one pair dies and one is born whose distances differ by no more than `travel`, a few
+  travels apart: the minimum slid on to a neighbouring feature, and the force should not notice;
+- fold: the reference gains or loses the pair in the middle of its range: a minimum met a saddle. No method can avoid it
+  while forces are summed;
+- age: the pair comes or goes in this method while the reference had it already or lost it before: the set is late;
+- loss: the method drops a pair that the reference keeps;
+- false: the pair is not in the reference's set on either side."""
+
+import argparse
+import collections
+
+import numpy as np
+
+from lmdbench_results import Result, ResultError, run_script
+
+REFERENCE = "certified"
+JUMP_SHARE = 0.05  # of F_max: a change of force that counts as a jump (a user notices 7 to 10 %)
+HAND_OVER_TRAVELS = 50  # how far, in travels of the mesh, a minimum may slide within a frame
+KINDS = ("cutoff", "hand-over", "fold", "age", "loss", "false")
+
+Pair = collections.namedtuple("Pair", "distance force point")
+
+
+def law(distance, cutoff, saturation, maximum, sharpness, name):
+    """Length of one LMD's force [N], as src/lmdbench/force/force_law.h."""
+    if distance >= cutoff:
+        return 0.0
+    if distance <= saturation:
+        return maximum
+    s = (cutoff - distance) / (cutoff - saturation)
+    return maximum * (s if name == "linear" or sharpness == 0 else np.expm1(sharpness * s) / np.expm1(sharpness))
+
+
+def travel(position, orientation, radius):
+    """Farthest way of a point of the mesh from each frame to the next [m]: translation plus the turn's arc."""
+    cosine = np.clip(np.abs(np.sum(orientation[1:] * orientation[:-1], axis=1)), 0, 1)
+    return np.linalg.norm(np.diff(position, axis=0), axis=1) + 2 * np.arccos(cosine) * radius
+
+
+def hand_overs(births, deaths, step):
+    """[(dead key, born key)] of pairs that are one minimum which slid on; each key at most once, nearest first."""
+    near = []
+    for dead, old in deaths.items():
+        for born, new in births.items():
+            way = np.linalg.norm(new.point - old.point)
+            if abs(new.distance - old.distance) <= step and way <= HAND_OVER_TRAVELS * step:
+                near.append((way, dead, born))
+    matched = []
+    for _, dead, born in sorted(near):
+        if all(dead != d and born != b for d, b in matched):
+            matched.append((dead, born))
+    return matched
+
+
+def events(before, after, true_before, true_after, step, cutoff):
+    """[(kind, jump)] between two frames of a method; the sets are {key: Pair}, jump is the change of force [N]."""
+    births = {key: pair for key, pair in after.items() if key not in before}
+    deaths = {key: pair for key, pair in before.items() if key not in after}
+    found = []
+    for dead, born in hand_overs(births, deaths, step):
+        found.append(("hand-over", float(np.linalg.norm(births.pop(born).force - deaths.pop(dead).force))))
+    for key, pair in births.items():
+        if key not in true_after:
+            kind = "false"
+        elif key in true_before:
+            kind = "age"
+        else:
+            kind = "cutoff" if cutoff - pair.distance <= step else "fold"
+        found.append((kind, float(np.linalg.norm(pair.force))))
+    for key, pair in deaths.items():
+        if key in true_after:
+            kind = "loss"
+        elif key not in true_before:
+            kind = "age"  # the reference lost it in an earlier frame, or never had it
+        else:
+            kind = "cutoff" if cutoff - pair.distance <= step else "fold"
+        found.append((kind, float(np.linalg.norm(pair.force))))
+    return found
+
+
+def sets_of(method, frames, scene):
+    """[{key: Pair}] of a method, one a frame."""
+    if "lmds" not in method:
+        raise ResultError(f"{method.name}: holds no LMD lists (remedy: run with --set /record/lmds=true)")
+    lmds = {name: dataset[:] for name, dataset in method["lmds"].items()}
+    name = method.attrs["force_law"]
+    name = name.decode() if isinstance(name, bytes) else str(name)
+    keys = zip(lmds["fixed_body"], lmds["feature_moving_kind"], lmds["feature_moving_index"],
+               lmds["feature_fixed_kind"], lmds["feature_fixed_index"])
+    pairs = [(key, Pair(d, -law(d, *scene, name) * n, p)) for key, d, n, p in
+             zip(keys, lmds["distance"], lmds["direction"], lmds["point_fixed"])]
+    offset = lmds["frame_offset"]
+    return [dict(pairs[offset[f]:offset[f + 1]]) for f in range(frames)]
+
+
+def attribute(file):
+    """({label: {kind: jumps [N]}}, F_max, seconds) of one result file."""
+    h5 = Result(file).h5
+    attributes = h5["/scene"].attrs
+    scene = tuple(float(attributes[name]) for name in ("cutoff_m", "saturation_m", "maximum_force_n", "sharpness"))
+    if REFERENCE not in h5["/methods"]:
+        raise ResultError(f"{file}: /methods/{REFERENCE} is missing (remedy: add the method to the experiment)")
+    time = h5["/path/time"][:]
+    steps = travel(h5["/path/position"][:], h5["/path/orientation"][:],
+                   0.5 * float(h5["/scene/moving"].attrs["diagonal_m"]))
+    sets = {label: sets_of(group, time.size, scene) for label, group in h5["/methods"].items()}
+    true = sets[REFERENCE]
+    result = {}
+    for label, own in sets.items():
+        jumps = collections.defaultdict(list)
+        for f in range(time.size - 1):
+            for kind, jump in events(own[f], own[f + 1], true[f], true[f + 1], steps[f], scene[0]):
+                jumps[kind].append(jump)
+        result[label] = jumps
+    return result, scene[2], time[-1] - time[0]
+
+
+def table(result, maximum, seconds):
+    lines = ["| method | " + " | ".join(KINDS) + " |", "|---|" + "---|" * len(KINDS)]
+    for label, jumps in result.items():
+        cells = []
+        for kind in KINDS:
+            values = np.array(jumps[kind]) / maximum
+            large = values[values > JUMP_SHARE]
+            cells.append(f"{values.size}, {large.size / seconds:.2f}/s, {values.max():.2f}" if values.size else "none")
+        lines.append(f"| {label} | " + " | ".join(cells) + " |")
+    return "\n".join(lines)
+
+
+def main(argv):
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("results", nargs="+", metavar="RESULT.h5")
+    for file in parser.parse_args(argv).results:
+        result, maximum, seconds = attribute(file)
+        print(f"{file}: events, of these jumps above {JUMP_SHARE:.0%} of F_max a second, largest jump in F_max\n")
+        print(table(result, maximum, seconds) + "\n")
+    return 0
+
+
+if __name__ == "__main__":
+    raise SystemExit(run_script(main))

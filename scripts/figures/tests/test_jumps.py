@@ -1,0 +1,79 @@
+#!/usr/bin/env python3
+# SPDX-FileCopyrightText: The lmdbench authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Attribution of force jumps on sets made by hand."""
+
+import os
+import sys
+import unittest
+
+import numpy as np
+
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), ".."))
+import jumps  # noqa: E402
+
+STEP = 1e-5
+CUTOFF = 1e-3
+
+
+def pair(distance, force=1.0, x=0.0):
+    return jumps.Pair(distance, np.array([0.0, 0.0, force]), np.array([x, 0.0, 0.0]))
+
+
+def kinds(before, after, true_before, true_after):
+    return [kind for kind, _ in jumps.events(before, after, true_before, true_after, STEP, CUTOFF)]
+
+
+class Attribution(unittest.TestCase):
+    def test_nothing_happens_to_pairs_that_live_on(self):
+        self.assertEqual(kinds({"a": pair(5e-4)}, {"a": pair(4e-4)}, {"a": 0}, {"a": 0}), [])
+
+    def test_true_births_and_deaths_are_folds_or_cross_the_cutoff(self):
+        middle, edge = {"a": pair(5e-4)}, {"a": pair(CUTOFF - 0.5 * STEP)}
+        self.assertEqual(kinds({}, middle, {}, middle), ["fold"])
+        self.assertEqual(kinds(middle, {}, middle, {}), ["fold"])
+        self.assertEqual(kinds({}, edge, {}, edge), ["cutoff"])
+        self.assertEqual(kinds(edge, {}, edge, {}), ["cutoff"])
+
+    def test_hand_over_counts_only_the_change_of_force(self):
+        before, after = {"a": pair(5e-4, 1.0)}, {"b": pair(5e-4 + 0.9 * STEP, 1.01, 40 * STEP)}
+        self.assertEqual(jumps.events(before, after, before, after, STEP, CUTOFF)[0][0], "hand-over")
+        self.assertAlmostEqual(jumps.events(before, after, before, after, STEP, CUTOFF)[0][1], 0.01)
+
+    def test_far_pair_or_other_distance_is_no_hand_over(self):
+        before = {"a": pair(5e-4)}
+        for after in ({"b": pair(5e-4, x=60 * STEP)}, {"b": pair(5e-4 + 2 * STEP)}):
+            self.assertEqual(kinds(before, after, before, after), ["fold", "fold"])
+
+    def test_nearest_partner_takes_the_hand_over(self):
+        before = {"a": pair(5e-4)}
+        after = {"far": pair(5e-4, x=30 * STEP), "near": pair(5e-4, x=STEP)}
+        self.assertEqual(kinds(before, after, before, after), ["hand-over", "fold"])
+
+    def test_what_only_the_method_does_is_its_fault(self):
+        one = {"a": pair(5e-4)}
+        self.assertEqual(kinds({}, one, one, one), ["age"], "it came late")
+        self.assertEqual(kinds(one, {}, {}, {}), ["age"], "it stayed too long")
+        self.assertEqual(kinds(one, {}, one, one), ["loss"])
+        self.assertEqual(kinds({}, one, {}, {}), ["false"])
+
+
+class Law(unittest.TestCase):
+    def test_ends_and_middle(self):
+        for name in ("linear", "exponential"):
+            self.assertEqual(jumps.law(0.0, 1.0, 0.1, 3.0, 4.0, name), 3.0)
+            self.assertEqual(jumps.law(1.0, 1.0, 0.1, 3.0, 4.0, name), 0.0)
+        self.assertAlmostEqual(jumps.law(0.55, 1.0, 0.1, 3.0, 4.0, "linear"), 1.5)
+        self.assertAlmostEqual(jumps.law(0.55, 1.0, 0.1, 3.0, 4.0, "exponential"), 3.0 * np.expm1(2.0) / np.expm1(4.0))
+
+
+class Travel(unittest.TestCase):
+    def test_shift_and_turn_add_up(self):
+        half = 0.005
+        turned = [np.sin(half), 0.0, 0.0, np.cos(half)]
+        way = jumps.travel(np.array([[0.0, 0, 0], [0.003, 0.004, 0]]), np.array([[0.0, 0, 0, 1], turned]), 2.0)
+        self.assertAlmostEqual(way[0], 0.005 + 0.01 * 2.0)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,129 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/base/error.h>
+#include <lmdbench/experiment/pose_source.h>
+#include <lmdbench/experiment/record_path.h>
+#include <lmdbench/experiment/run.h>
+#include <lmdbench/motion/tum_file.h>
+
+#include <gtest/gtest.h>
+#include <record/result_reading.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace lmdbench {
+namespace {
+
+using testing::OpenResult;
+using testing::ScratchDirectory;
+
+const std::string WALL = LMDBENCH_SOURCE_DIR "/experiments/wall.json";
+
+Experiment wall(std::vector<Override> overrides = {}) {
+  overrides.insert(overrides.begin(), "/frames=600");
+  return load_experiment(WALL, overrides);
+}
+
+LoopChoice loop_of(double mass, std::int64_t delay) {
+  LoopChoice loop;
+  loop.closed = true;
+  loop.dynamics = {mass, 0.0, 0.0, std::nullopt};
+  loop.delay_frames = delay;
+  return loop;
+}
+
+TEST(DevicePoses, ForceActsAfterItsDelay) {
+  for (const std::int64_t delay : {0, 1, 4}) {
+    DevicePoses poses(loop_of(0.1, delay), std::vector<Pose>(10), 1e-3);
+    poses.render(Vec3(1.0, 0.0, 0.0));
+    for (std::int64_t frame = 0; frame < delay; ++frame) {
+      EXPECT_EQ(poses.pose().translation.x(), 0.0) << "delay " << delay << ", frame " << frame;
+      const LoopFrame waiting = poses.render(Vec3::Zero()).value();
+      EXPECT_EQ(waiting.held_force.x(), frame + 1 == delay ? 1.0 : 0.0);
+    }
+    EXPECT_NEAR(poses.pose().translation.x(), 0.5 * 10.0 * 1e-6, 1e-18) << "delay " << delay;
+  }
+}
+
+TEST(DevicePoses, OrientationIsThePathsAndThePositionInWholeCounts) {
+  std::vector<Pose> path(3);
+  path[1].rotation = Eigen::Quaterniond(0.0, 1.0, 0.0, 0.0);
+  LoopChoice loop = loop_of(0.1, 0);
+  loop.resolution_m = 1e-6;
+  DevicePoses poses(loop, path, 1e-3);
+  const LoopFrame start = poses.render(Vec3(0.5, 0.0, 0.0)).value();
+  EXPECT_EQ(start.position.x(), 0.0);
+  EXPECT_EQ(poses.pose().rotation.x(), 1.0);
+  EXPECT_NEAR(poses.pose().translation.x(), 2e-6, 1e-18) << "2.5 micrometres, to the nearest even count";
+}
+
+TEST(ClosedLoop, EnergyBalanceOfARunCloses) {
+  for (const char* const change :
+       {"/loop/delay_frames=0", "/loop/delay_frames=2", "/loop/friction_n=0.05", "/loop/hand=hogan-1989",
+        "/loop/hand=speich-2005", "/loop/resolution_m=3e-5"}) {
+    const RunResult result = run_experiment(wall({change}));
+    const std::vector<LoopFrame>& loop = result.records[0].loop;
+    ASSERT_EQ(loop.size(), 600u);
+    double moved = 0.0;
+    for (std::size_t i = 1; i < loop.size(); ++i)
+      moved += std::abs(loop[i].energy.rendered - loop[i - 1].energy.rendered) +
+               std::abs(loop[i].energy.push - loop[i - 1].energy.push);
+    EXPECT_GT(moved, 1e-4) << change << ": it did move";
+    EXPECT_LT(std::abs(loop.back().energy.residual()), 1e-12 * moved) << change;
+  }
+}
+
+TEST(ClosedLoop, DeviceComesToRestWherePushAndContactBalance) {
+  // 10 N at the wall, none at 20 mm: 500 N/m; a push of 6 N rests 12 mm deep, 8 mm above the wall.
+  const RunResult result = run_experiment(wall({"/frames=2000"}));
+  EXPECT_NEAR(result.records[0].frames.back().force.z(), 6.0, 0.01);
+  EXPECT_NEAR(result.records[0].frames.back().minimum_distance, 0.008, 2e-5);
+  EXPECT_NEAR(result.records[0].loop.back().velocity.z(), 0.0, 1e-3);
+}
+
+TEST(ClosedLoop, IsTheSameEveryTimeAndForEveryMethodAlone) {
+  const std::string second = R"(/methods/-={"name": "exhaustive", "force_law": "exponential"})";
+  const RunResult alone = run_experiment(wall());
+  const RunResult beside = run_experiment(wall({second, "/driver/repetitions=2"}));
+  EXPECT_EQ(alone.records[0].result_hash, beside.records[0].result_hash);
+  EXPECT_NE(beside.records[0].loop.back().position.z(), beside.records[1].loop.back().position.z())
+      << "each method moves a device of its own";
+}
+
+TEST(ClosedLoop, TruthIsTakenAtTheDevicesPoses) {
+  const RunResult result = run_experiment(wall({"/probes/truth/stride_frames=50"}));
+  ASSERT_FALSE(result.comparisons[0].empty());
+  for (const TruthComparison& comparison : result.comparisons[0]) EXPECT_LT(comparison.force_error, 1e-9);
+}
+
+TEST(ClosedLoop, RecordedPathReplaysTheForces) {
+  const ScratchDirectory scratch;
+  const Experiment closed = wall();
+  const std::filesystem::path file = scratch / "recorded.tum";
+  write_tum(file, record_path(closed));
+  const RunResult original = run_experiment(closed);
+  const RunResult replayed = run_experiment(wall({"/loop/kind=open", "/path/file=" + file.string()}));
+  ASSERT_EQ(replayed.records[0].frames.size(), original.records[0].frames.size());
+  for (std::size_t i = 0; i < replayed.records[0].frames.size(); ++i)
+    EXPECT_LT((replayed.records[0].frames[i].force - original.records[0].frames[i].force).norm(), 1e-9) << i;
+  EXPECT_THROW(record_path(wall({"/loop/kind=open"})), UsageError);
+}
+
+TEST(ClosedLoop, ResultHoldsTheDevicesMotion) {
+  const ScratchDirectory scratch;
+  const std::filesystem::path file = scratch / "wall.h5";
+  run_experiment_to_file(wall(), file, {"lmdbench", "run"});
+  const OpenResult result(file);
+  for (const char* const name :
+       {"position", "velocity", "held_force", "energy_kinetic", "energy_spring", "energy_rendered",
+        "energy_push", "energy_hand", "energy_damped", "energy_friction"})
+    EXPECT_TRUE(result.has(std::string("/methods/certified/loop/") + name)) << name;
+  EXPECT_TRUE(result.has("/methods/certified/path/position"));
+}
+
+}  // namespace
+}  // namespace lmdbench

@@ -1,0 +1,92 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/base/error.h>
+#include <lmdbench/experiment/experiment.h>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <string>
+#include <vector>
+
+namespace lmdbench {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+
+Experiment parse(const std::vector<Override>& overrides) {
+  return parse_experiment(R"({"name": "small", "moving": {"mesh": "a"}, "fixed": [{"mesh": "b"}],
+    "path": {"file": "p.tum"}, "force": {"cutoff_m": 0.01, "maximum_force_n": 2},
+    "methods": [{"name": "certified", "force_law": "linear"}]})",
+                          "/data/e.json", overrides);
+}
+
+std::string message(const std::vector<Override>& overrides) {
+  try {
+    parse(overrides);
+  } catch (const UsageError& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+TEST(LoopChoice, IsOpenUnlessAskedFor) {
+  EXPECT_FALSE(parse({}).loop.closed);
+  EXPECT_TRUE(parse({"/loop/kind=closed"}).loop.closed);
+}
+
+TEST(LoopChoice, DeviceFillsWhatTheFileLeavesOut) {
+  const Experiment experiment =
+      parse({"/device=phantom-omni", "/loop/kind=closed", "/loop/mass_kg=0.1", "/loop/delay_frames=3"});
+  EXPECT_EQ(experiment.loop.dynamics.mass_kg, 0.1);
+  EXPECT_EQ(experiment.loop.dynamics.damping_n_s_per_m, 0.005);
+  EXPECT_EQ(experiment.loop.dynamics.friction_n, 0.26);
+  EXPECT_EQ(experiment.loop.resolution_m, 0.055e-3);
+  EXPECT_EQ(experiment.loop.delay_frames, 3);
+  EXPECT_FALSE(experiment.loop.dynamics.hand.has_value());
+  const auto resolved = nlohmann::json::parse(experiment.resolved_json);
+  EXPECT_EQ(resolved["loop"]["friction_n"], 0.26) << "the record holds what was used";
+  EXPECT_EQ(resolved["loop"]["push_n"], nlohmann::json({0, 0, 0}));
+}
+
+TEST(LoopChoice, HandIsNamedOrGivenByItsFigures) {
+  const Experiment named = parse({"/loop/hand=speich-2005"});
+  EXPECT_EQ(named.loop.dynamics.hand.value().grip_stiffness_n_per_m, 375.0);
+  const Experiment custom = parse({R"(/loop/hand={"mass_kg": 0.5, "stiffness_n_per_m": 100})"});
+  EXPECT_EQ(custom.loop.dynamics.hand.value().mass_kg, 0.5);
+  EXPECT_EQ(custom.loop.dynamics.hand.value().stiffness_n_per_m, 100.0);
+  EXPECT_EQ(custom.loop.dynamics.hand.value().damping_n_s_per_m, 0.0);
+  EXPECT_FALSE(custom.loop.dynamics.hand.value().has_grip());
+}
+
+TEST(LoopChoice, EveryIntegratorHasItsName) {
+  EXPECT_EQ(parse({}).loop.integration, Integration::EXACT);
+  EXPECT_EQ(parse({"/loop/integrator=runge-kutta-4"}).loop.integration, Integration::RUNGE_KUTTA_4);
+  EXPECT_EQ(parse({"/loop/integrator=dormand-prince"}).loop.integration, Integration::DORMAND_PRINCE);
+  EXPECT_EQ(parse({"/loop/integrator=rosenbrock"}).loop.integration, Integration::ROSENBROCK);
+}
+
+TEST(LoopChoice, MistakesNamePlaceAndRemedy) {
+  EXPECT_THAT(message({"/loop/hand=hogarth"}), AllOf(HasSubstr("/loop/hand"), HasSubstr("hogan-1989")));
+  EXPECT_THAT(message({"/loop/hand={\"mass\": 1}"}),
+              AllOf(HasSubstr("/loop/hand/mass"), HasSubstr("mass_kg")));
+  EXPECT_THAT(message({"/loop/hand={\"grip_stiffness_n_per_m\": 1}"}), HasSubstr("/loop/hand/mass_kg"));
+  EXPECT_THAT(message({"/loop/hand=3"}), HasSubstr("/loop/hand"));
+  EXPECT_THAT(message({"/loop/mass_kg=0"}), HasSubstr("/loop/mass_kg"));
+  EXPECT_THAT(message({"/loop/damping_n_s_per_m=-1"}), HasSubstr("/loop/damping_n_s_per_m"));
+  EXPECT_THAT(message({"/loop/delay_frames=1.5"}), HasSubstr("/loop/delay_frames"));
+  EXPECT_THAT(message({"/loop/push_n=[1, 2]"}), HasSubstr("/loop/push_n"));
+  EXPECT_THAT(message({"/loop/kind=closed", "/probes/fcl/stride_frames=1"}),
+              HasSubstr("/probes/fcl/stride_frames"));
+}
+
+TEST(ForceClip, IsTheDevicesUnlessAskedFor) {
+  EXPECT_FALSE(parse({}).force.clip_at_maximum);
+  EXPECT_TRUE(parse({"/force/clip=maximum"}).force.clip_at_maximum);
+  EXPECT_THAT(message({"/force/clip=none"}), HasSubstr("/force/clip"));
+}
+
+}  // namespace
+}  // namespace lmdbench

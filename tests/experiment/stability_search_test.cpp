@@ -1,0 +1,96 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/base/error.h>
+#include <lmdbench/experiment/stability_search.h>
+#include <lmdbench/phantom/stability_boundary.h>
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+#include <rapidcheck/gtest.h>
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+namespace lmdbench {
+namespace {
+
+const std::string WALL = LMDBENCH_SOURCE_DIR "/experiments/wall.json";
+
+StabilityRow search(const std::vector<Override>& overrides) {
+  return find_critical_stiffness(load_experiment(WALL, overrides)).at(0);
+}
+
+double logarithmic(double least, double most) {
+  return least * std::pow(most / least, *rc::gen::inRange(0, 1001) / 1e3);
+}
+
+/// Characterization: the simulation, through meshes and method, finds the table of the exact boundary.
+TEST(StabilitySearch, WallReproducesTheExactTable) {
+  const std::pair<int, double> table[] = {
+      {0, 1605.3511}, {1, 536.2786}, {2, 322.7439}, {5, 148.0801}, {10, 78.7445}};
+  for (const auto& [delay, exact] : table) {
+    const StabilityRow row = search({fmt::format("/loop/delay_frames={}", delay)});
+    EXPECT_NEAR(row.critical_stiffness_n_per_m, exact, 1e-3 * exact) << delay;
+    EXPECT_NEAR(row.exact_n_per_m, exact, 1e-4) << delay;
+  }
+}
+
+/// Any device, rate and delay: the searched stiffness is the exact one to 0.1 %.
+RC_GTEST_PROP(StabilitySearch, WallIsExactForEveryDevice, ()) {
+  const double mass = logarithmic(0.02, 1.0);
+  const double damping = logarithmic(0.2, 10.0);
+  const double rate = logarithmic(250.0, 10000.0);
+  const int delay = *rc::gen::inRange(0, 51);
+  const StabilityRow row =
+      search({fmt::format("/loop/mass_kg={}", mass), fmt::format("/loop/damping_n_s_per_m={}", damping),
+              fmt::format("/frame_rate_hz={}", rate), fmt::format("/loop/delay_frames={}", delay)});
+  RC_LOG() << mass << " kg, " << damping << " N s/m, " << rate << " Hz, " << delay
+           << " frames: " << row.critical_stiffness_n_per_m << " against " << row.exact_n_per_m << "\n";
+  RC_ASSERT(std::abs(row.critical_stiffness_n_per_m / row.exact_n_per_m - 1.0) < 1e-3);
+}
+
+TEST(StabilitySearch, HandMovesTheBoundaryAsItsExactOne) {
+  const StabilityRow row =
+      search({"/loop/hand=hogan-1989", "/loop/mass_kg=0.072", "/loop/damping_n_s_per_m=0.005"});
+  EXPECT_NEAR(row.exact_n_per_m, 11022.0, 0.5);
+  EXPECT_NEAR(row.critical_stiffness_n_per_m, row.exact_n_per_m, 1e-3 * row.exact_n_per_m);
+}
+
+TEST(StabilitySearch, DeviceThatClipsFirstSaysSo) {
+  // The Desktop renders 7.9 N at most; 11 mm deep that is 718 N/m, below the boundary.
+  const StabilityRow row = search({"/device=phantom-desktop"});
+  EXPECT_EQ(row.clean_until, "device_force");
+}
+
+TEST(StabilitySearch, PathOutOfContactIsNoContact) {
+  EXPECT_EQ(search({"/force/cutoff_m=0.001"}).clean_until, "no_contact");
+}
+
+TEST(StabilitySearch, OpenLoopIsRefused) {
+  EXPECT_THROW(search({"/loop/kind=open"}), UsageError);
+}
+
+TEST(StabilitySearch, JsonHasExactlyTheContractsNames) {
+  StabilityRow row;
+  row.method = "certified";
+  const auto json = nlohmann::json::parse(stability_json({row}));
+  const std::vector<std::string> names{"method",
+                                       "profile",
+                                       "delay_frames",
+                                       "servo_rate_hz",
+                                       "mass_kg",
+                                       "damping_n_s_per_m",
+                                       "critical_stiffness_n_per_m",
+                                       "exact_n_per_m",
+                                       "bound_n_per_m",
+                                       "clean_until"};
+  ASSERT_EQ(json.size(), 1u);
+  EXPECT_EQ(json[0].size(), names.size());
+  for (const std::string& name : names) EXPECT_TRUE(json[0].contains(name)) << name;
+  EXPECT_TRUE(json[0]["critical_stiffness_n_per_m"].is_null()) << "what was not found is null";
+}
+
+}  // namespace
+}  // namespace lmdbench
