@@ -42,7 +42,7 @@ TEST(Cleanliness, TellsAmplitudeAndFrequency) {
 TEST(Cleanliness, BuzzingForceAloneIsUnclean) {
   Swing buzzing = swing(-0.01);
   for (std::size_t n = 0; n < buzzing.force_W.size(); ++n)
-    buzzing.force_W[n].z() = 1e-3 * std::exp(0.001 * static_cast<double>(n)) * (n % 4 < 2 ? 1.0 : -1.0);
+    buzzing.force_W[n].z() = 5.0 * std::exp(0.001 * static_cast<double>(n)) * (n % 4 < 2 ? 1.0 : -1.0);
   const Cleanliness judged = judge(buzzing);
   EXPECT_FALSE(judged.clean());
   EXPECT_EQ(judged.fastest, CleanMeasure::FORCE_ABOVE_30_HZ);

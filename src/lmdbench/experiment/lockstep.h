@@ -43,9 +43,9 @@ struct LockstepInput {
       poses;  ///< The path, one a frame, X_WM; in a closed loop the one that the hand means to take.
   double frame_rate_hz = 1000.0;
   /// Makes the source of a method's poses; unset: the path itself.
-  std::function<std::unique_ptr<PoseSource>()> make_poses;
-  std::optional<std::int64_t> frames;  ///< Unset: as many as the path has poses.
-  Vec3 reference_M = Vec3::Zero();     ///< Point of the moving mesh about which torque is taken.
+  std::function<std::unique_ptr<PoseSource>()> make_poses = nullptr;
+  std::optional<std::int64_t> frames = std::nullopt;  ///< Unset: as many as the path has poses.
+  Vec3 reference_M = Vec3::Zero();  ///< Point of the moving mesh about which torque is taken.
   VirtualPhantom device;
   std::function<bool(std::int64_t frame)> keep_lmds;  ///< Frames whose LMD sets are to be kept.
 };

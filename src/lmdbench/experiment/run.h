@@ -27,7 +27,8 @@ struct RunResult {
   std::vector<TruthFrame> truth;      ///< Empty where the plan leaves the probe out, and in a closed loop.
   /// Closed loop: truth at the poses that each method's device took, one list a method.
   std::vector<std::vector<TruthFrame>> truth_of_device;
-  std::vector<std::vector<bool>> in_contact_of_device;  ///< Closed loop: one list a method, one entry a frame.
+  std::vector<std::vector<bool>>
+      in_contact_of_device;  ///< Closed loop: one list a method, one entry a frame.
   std::vector<std::vector<TruthComparison>> comparisons;  ///< One list a method, one entry a TruthFrame.
   std::optional<FclCheck> fcl;
   std::vector<std::string> warnings;  ///< What a reader of the result must know, in plain words.

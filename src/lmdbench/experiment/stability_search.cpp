@@ -16,6 +16,9 @@
 namespace lmdbench {
 namespace {
 
+/// Growth that stands for a stiffness that the device cannot render: any positive number.
+constexpr double CLIPPED_GROWTH = 1.0;
+
 /// A search on one method.
 class Search {
  public:
@@ -42,15 +45,12 @@ class Search {
       high = std::exchange(low, low / BRACKET_FACTOR);
       growth_high = std::exchange(growth_low, growth(low));
     }
-    for (int i = 0; i < MOST_BRACKETINGS && growth_high <= 0.0 && !clipped_; ++i) {
+    for (int i = 0; i < MOST_BRACKETINGS && growth_high <= 0.0; ++i) {
       low = std::exchange(high, high * BRACKET_FACTOR);
       growth_low = std::exchange(growth_high, growth(high));
     }
     if (best_ > 0.0) row.critical_stiffness_n_per_m = best_;
-    row.clean_until = best_ == 0.0         ? "never"
-                      : clipped_           ? "device_force"
-                      : growth_high <= 0.0 ? "nothing"
-                                           : "";
+    row.clean_until = best_ == 0.0 ? "never" : growth_high <= 0.0 ? "nothing" : "";
     if (!row.clean_until.empty()) return;
     if (growth_low < 0.0) refine(low, high, growth_low, growth_high);
     row.critical_stiffness_n_per_m = best_;
@@ -67,15 +67,14 @@ class Search {
   /// Positive where the contact of that stiffness is not clean.
   double growth(double stiffness) {
     const StabilityTrial trial = try_scale(stiffness / stiffness_of_unit_);
-    clipped_ = trial.clipped;
-    if (trial.clipped) return 0.0;
-    if (trial.outcome.clean()) {
+    const bool clean = !trial.clipped && trial.outcome.clean();
+    if (clean) {
       best_ = std::max(best_, stiffness);
     } else if (worst_ == 0.0 || stiffness < worst_) {
       worst_ = stiffness;
-      broken_by_ = to_string(trial.outcome.fastest);
+      broken_by_ = trial.clipped ? "device_force" : to_string(trial.outcome.fastest);
     }
-    return trial.outcome.growth;
+    return trial.clipped ? CLIPPED_GROWTH : trial.outcome.growth;
   }
 
   void refine(double low, double high, double growth_low, double growth_high) {
@@ -93,7 +92,6 @@ class Search {
   double stiffness_of_unit_ = 0.0;
   double best_ = 0.0;   ///< Largest clean stiffness.
   double worst_ = 0.0;  ///< Smallest one that is not; 0: none yet.
-  bool clipped_ = false;
   std::string broken_by_;
 };
 

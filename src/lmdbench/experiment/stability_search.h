@@ -30,7 +30,7 @@ struct StabilityRow {
   double servo_rate_hz = UNSET;
   double mass_kg = UNSET;
   double damping_n_s_per_m = UNSET;
-  /// Largest stiffness that was tried and clean; NaN where none was, or where the device clips before anything grows.
+  /// Largest stiffness that was tried and clean; NaN where none was.
   double critical_stiffness_n_per_m = UNSET;
   double exact_n_per_m = UNSET;  ///< Boundary of the linear loop (`phantom/stability_boundary.h`).
   double bound_n_per_m = UNSET;  ///< The sufficient bound b / (T/2 + t_d).

@@ -106,7 +106,8 @@ RunSummary summarise(const Experiment& experiment, const RunResult& result) {
     MethodSummary method;
     method.label = record.label;
     method.result_hash = fmt::format("{:016x}", record.result_hash);
-    const RunFrames frames{result.in_contact_of(i), experiment.frame_rate_hz, result.prepared.profile.maximum_force};
+    const RunFrames frames{result.in_contact_of(i), experiment.frame_rate_hz,
+                           result.prepared.profile.maximum_force};
     summarise_counts(method, record, frames);
     summarise_jumps(method, record, frames);
     if (const std::vector<TruthFrame>& truth = result.truth_of(i); !truth.empty())

@@ -21,9 +21,11 @@ void write_vectors(ResultWriter& writer, const DatasetInfo& info, const std::vec
 
 }  // namespace
 
-void write_loop(ResultWriter& writer, const std::string& group, const std::vector<LoopFrame>& frames, const std::vector<bool>& in_contact) {
+void write_loop(ResultWriter& writer, const std::string& group, const std::vector<LoopFrame>& frames,
+                const std::vector<bool>& in_contact) {
   const std::vector<std::uint8_t> flags(in_contact.begin(), in_contact.end());
-  writer.write({group + "/in_contact", "1", "1 where the meshes are within the cutoff at the device's pose"}, std::span<const std::uint8_t>(flags), {flags.size()});
+  writer.write({group + "/in_contact", "1", "1 where the meshes are within the cutoff at the device's pose"},
+               std::span<const std::uint8_t>(flags), {flags.size()});
   write_vectors(writer, {group + "/position", "m", "true position of the device, world frame"}, frames,
                 &LoopFrame::position);
   write_vectors(writer, {group + "/velocity", "m/s", "velocity of the device, world frame"}, frames,

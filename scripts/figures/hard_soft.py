@@ -1,0 +1,174 @@
+#!/usr/bin/env python3
+# SPDX-FileCopyrightText: The lmdbench authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Hard against soft on one contact, open and closed loop: runs experiments/bunny-closed.json with both cutoffs and both
+kinds of loop, and with LMD sets of several ages in the closed one; leaves hard-soft.md (tables) and a figure (hard-soft.svg,
+hard-soft.png) of force, spectrum, stiffness and clearance."""
+
+import argparse
+import json
+import os
+import subprocess
+
+import numpy as np
+
+import figure_style as style
+from lmdbench_results import Result, ResultError, run_script
+
+import matplotlib.pyplot as plt
+
+CUTOFFS = {"hard": 0.005, "soft": 0.05}  # share of the moving mesh's diagonal
+KINDS = ("open", "closed")
+AGES_FRAMES = (1, 5, 20, 50, 100)
+BUZZ_HZ = 30.0  # a hand feels what is above as buzzing
+WINDOW_S = (2.2, 2.8)  # of the path: the second contact
+
+
+def run(program, experiment, out, settings):
+    """The result of a run, made unless it is there."""
+    if not os.path.exists(out):
+        command = [program, "run", experiment, "--out", out]
+        for pointer, value in settings.items():
+            command += ["--set", f"{pointer}={json.dumps(value)}"]
+        done = subprocess.run(command, capture_output=True, text=True, check=False, stdin=subprocess.DEVNULL)
+        if done.returncode != 0:
+            raise ResultError(f"{' '.join(command)}: exit code {done.returncode}\n{done.stderr}")
+    return Result(out).h5
+
+
+def buzz(force, rate):
+    """Root mean square of the force above BUZZ_HZ [N], by its Fourier transform under a Hann window."""
+    window = np.hanning(force.shape[0])[:, None]
+    spectrum = np.fft.rfft((force - force.mean(axis=0)) * window, axis=0)
+    high = np.fft.rfftfreq(force.shape[0], 1.0 / rate) > BUZZ_HZ
+    power = 2.0 * np.sum(np.abs(spectrum[high]) ** 2) / (force.shape[0] * np.sum(window**2))
+    return float(np.sqrt(power))
+
+
+def figures_of(group, scene, rate, contact):
+    """What the tables tell of one method."""
+    force = group["force"][:]
+    length = np.linalg.norm(force, axis=1)
+    maximum = float(scene.attrs["maximum_force_n"])
+    jumps = np.linalg.norm(np.diff(force, axis=0), axis=1) > 0.25 * maximum
+    fallen = (length[1:] == 0) & (length[:-1] > 0) & contact[1:]
+    seconds = max(contact.sum() / rate, 1.0 / rate)
+    stiffness = group["effective_stiffness"][:][contact]
+    created = group["loop/energy_rendered"][:].max() if "loop" in group else np.nan
+    return {
+        "force, median of contact, N": np.median(length[contact]) if contact.any() else np.nan,
+        "force above 30 Hz, N": buzz(force, rate),
+        "jumps, 1/s": jumps.sum() / seconds,
+        "dropouts, 1/s": fallen.sum() / seconds,
+        "clipped, %": 100 * group["force_clipped"][:][contact].mean() if contact.any() else np.nan,
+        "K_eff, 99 %, N/m": np.percentile(stiffness, 99) if stiffness.size else np.nan,
+        "smallest distance, mm": 1e3 * np.nanmin(group["minimum_distance"][:]),
+        "energy created, mJ": 1e3 * max(created, 0.0) if np.isfinite(created) else np.nan,
+    }
+
+
+def contact_of(h5, group):
+    return (group["loop/in_contact"] if "loop" in group else h5["/scene/in_contact"])[:].astype(bool)
+
+
+def lines_of(name, h5):
+    """One line a method of a run."""
+    rate = float(h5["/scene"].attrs["frame_rate_hz"])
+    lines, columns = [], []
+    for label, group in h5["/methods"].items():
+        values = figures_of(group, h5["/scene"], rate, contact_of(h5, group))
+        columns = list(values)
+        lines.append(f"| {name} | {label} | " + " | ".join("-" if np.isnan(v) else f"{v:.3g}" for v in values.values())
+                     + " |")
+    return columns, lines
+
+
+def table(runs, first):
+    lines = []
+    for name, h5 in runs.items():
+        columns, more = lines_of(name, h5)
+        lines += more
+    return "\n".join([f"| {first} | method | " + " | ".join(columns) + " |", "|---|---|" + "---|" * len(columns)] + lines)
+
+
+def draw(runs, directory):
+    style.use_style()
+    figure, axes = plt.subplots(4, 4, figsize=(style.TWO_COLUMNS_IN, 6.4), layout="constrained", sharex="row")
+    for column, (name, h5) in enumerate(runs.items()):
+        rate = float(h5["/scene"].attrs["frame_rate_hz"])
+        time = h5["/path/time"][:]
+        shown = (time >= WINDOW_S[0]) & (time <= WINDOW_S[1])
+        colours = style.colours_of(list(h5["/methods"]))
+        axes[0, column].set_title(name)
+        for label, group in h5["/methods"].items():
+            force = group["force"][:]
+            options = {"color": colours[label], "label": label, "linewidth": 0.6}
+            axes[0, column].plot(time[shown], np.linalg.norm(force, axis=1)[shown], **options)
+            spectrum = np.abs(np.fft.rfft(force * np.hanning(force.shape[0])[:, None], axis=0)) * 2 / force.shape[0]
+            axes[1, column].loglog(np.fft.rfftfreq(force.shape[0], 1 / rate)[1:],
+                                   np.linalg.norm(spectrum, axis=1)[1:], **options)
+            stiffness = group["effective_stiffness"][:]
+            axes[2, column].semilogy(time[shown], np.where(stiffness > 0, stiffness, np.nan)[shown], **options)
+            axes[3, column].plot(time[shown], 1e3 * group["minimum_distance"][:][shown], **options)
+        axes[3, column].set_xlabel("time, s")
+        axes[1, column].set_xlabel("frequency, Hz")
+    for row, text in enumerate(("force, N", "force spectrum, N", "stiffness K_eff, N/m", "smallest distance, mm")):
+        axes[row, 0].set_ylabel(text)
+    axes[0, 0].legend()
+    return style.save(figure, directory, "hard-soft")
+
+
+TEXT = """# Hard against soft
+
+Made by `scripts/figures/hard_soft.py` from `experiments/bunny-closed.json`: the same meant path, force law and F_max for both; only the
+cutoff differs (0.5 % and 5 % of the diagonal), and with it the stiffness. In the closed loop an arm (0.554 kg, 6.45 N s/m, 135 N/m)
+draws a simulated PHANTOM Desktop with friction and encoder counts along the path. Jumps are changes of force above a quarter of F_max from a
+frame to the next; dropouts are frames in contact in which the force falls to zero; energy created is the largest net work of the
+rendered force, which would be at most zero for a passive contact that begins and ends apart.
+
+![force, spectrum, stiffness and clearance, hard and soft, open and closed loop](hard-soft.png)
+
+{kinds}
+
+## Age of the LMD set
+
+The closed loops again with searches that start every so many frames and arrive as many later; `predicted`: they take place
+where the mesh will be when they arrive. `certified` searches in every frame and has no age.
+
+{ages}
+"""
+
+
+def main(argv):
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--program", default="build/release/lmdbench", help="the program; %(default)s without it")
+    parser.add_argument("--experiment", default="experiments/bunny-closed.json")
+    parser.add_argument("--runs", default="results/hard-soft", help="folder of the result files; existing ones are used")
+    parser.add_argument("--out", default="results/figures", help="folder of the tables and the figure")
+    options = parser.parse_args(argv)
+    os.makedirs(options.runs, exist_ok=True)
+    os.makedirs(options.out, exist_ok=True)
+
+    def result(name, settings):
+        return run(options.program, options.experiment, os.path.join(options.runs, f"{name}.h5"), settings)
+
+    kinds = {f"{profile}, {kind}": result(f"{profile}-{kind}", {"/force/cutoff_diagonal": cutoff, "/loop/kind": kind})
+             for profile, cutoff in CUTOFFS.items() for kind in KINDS}
+    ages = {}
+    for profile, cutoff in CUTOFFS.items():
+        for age in AGES_FRAMES:
+            for prediction in ("none", "linear"):
+                ages[f"{profile}, {age} frames{', predicted' if prediction == 'linear' else ''}"] = result(
+                    f"{profile}-{age}-{prediction}",
+                    {"/force/cutoff_diagonal": cutoff, "/driver/search_every_frames": age,
+                     "/driver/search_latency_frames": age, "/driver/prediction": prediction,
+                     "/methods": [{"name": "original", "force_law": "linear"},
+                                  {"name": "improved", "force_law": "exponential"}]})
+    with open(os.path.join(options.out, "hard-soft.md"), "w", encoding="ascii") as file:
+        file.write(TEXT.format(kinds=table(kinds, "profile, loop"), ages=table(ages, "profile, age")))
+    draw(kinds, options.out)
+    return 0
+
+
+if __name__ == "__main__":
+    raise SystemExit(run_script(main))
