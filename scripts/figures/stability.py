@@ -25,35 +25,60 @@ RATES_HZ = [250, 1000, 4000, 10000]
 DELAYS_FRAMES = [0, 1, 2, 5, 10, 20, 50]
 
 SCENES = ["box", "wedge", "peg", "bunny"]
-SCENE_DELAYS_FRAMES = [0, 1, 5, 20]
+SCENE_DELAYS_FRAMES = [0, 5]
 SOFT_FACTOR = 5  # the soft profile's cutoff over the hard one's
 
 
-def search(program, experiment, settings):
-    """Rows of one search; 'settings' maps JSON pointers to values."""
-    command = [program, "stability", experiment, "--json"]
-    for pointer, value in settings.items():
-        command += ["--set", f"{pointer}={json.dumps(value)}"]
-    done = subprocess.run(command, capture_output=True, text=True, check=False, stdin=subprocess.DEVNULL)
-    if done.returncode != 0:
-        raise ResultError(f"{' '.join(command)}: exit code {done.returncode}\n{done.stderr}")
-    return json.loads(done.stdout)
+class Searches:
+    """Searches by the program, kept in a file of one JSON object a line, so that an interrupted table goes on."""
+
+    def __init__(self, program, file):
+        self.program = program
+        self.file = file
+        self.known = {}
+        if os.path.exists(file):
+            with open(file, encoding="utf-8") as stream:
+                for line in stream:
+                    entry = json.loads(line)
+                    self.known[self.key(entry["experiment"], entry["settings"])] = entry["rows"]
+
+    @staticmethod
+    def key(experiment, settings):
+        return json.dumps([os.path.basename(experiment), settings], sort_keys=True)
+
+    def rows(self, experiment, settings):
+        """Rows of one search; 'settings' maps JSON pointers to values."""
+        key = self.key(experiment, settings)
+        if key not in self.known:
+            self.known[key] = self.run(experiment, settings)
+            with open(self.file, "a", encoding="utf-8") as stream:
+                stream.write(json.dumps({"experiment": experiment, "settings": settings, "rows": self.known[key]}) + "\n")
+        return self.known[key]
+
+    def run(self, experiment, settings):
+        command = [self.program, "stability", experiment, "--json"]
+        for pointer, value in settings.items():
+            command += ["--set", f"{pointer}={json.dumps(value)}"]
+        done = subprocess.run(command, capture_output=True, text=True, check=False, stdin=subprocess.DEVNULL)
+        if done.returncode != 0:
+            raise ResultError(f"{' '.join(command)}: exit code {done.returncode}\n{done.stderr}")
+        return json.loads(done.stdout)
 
 
 def deviation(row):
     return row["critical_stiffness_n_per_m"] / row["exact_n_per_m"] - 1
 
 
-def wall_rows(program, folder):
+def wall_rows(searches, folder):
     for mass, damping in DEVICES:
         for rate in RATES_HZ:
             for delay in DELAYS_FRAMES:
-                yield from search(program, os.path.join(folder, "wall.json"), {
+                yield from searches.rows(os.path.join(folder, "wall.json"), {
                     "/loop/mass_kg": mass, "/loop/damping_n_s_per_m": damping,
                     "/loop/delay_frames": delay, "/frame_rate_hz": rate})
 
 
-def scene_rows(program, folder):
+def scene_rows(searches, folder):
     """(scene, profile, row); the soft profile has a cutoff SOFT_FACTOR times as far."""
     for scene in SCENES:
         file = os.path.join(folder, "stability", f"{scene}.json")
@@ -62,7 +87,7 @@ def scene_rows(program, folder):
         for profile, factor in (("hard", 1), ("soft", SOFT_FACTOR)):
             for delay in SCENE_DELAYS_FRAMES:
                 settings = {"/loop/delay_frames": delay, "/force/cutoff_m": factor * cutoff}
-                for row in search(program, file, settings):
+                for row in searches.rows(file, settings):
                     yield scene, profile, row
 
 
@@ -130,15 +155,17 @@ def main(argv):
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--program", default="build/release/lmdbench", help="the program; %(default)s without it")
     parser.add_argument("--experiments", default="experiments", help="folder of the experiment files")
+    parser.add_argument("--rows", default="results/stability.jsonl", help="searches already made; new ones are added")
     parser.add_argument("--out", default="results/figures", help="folder of the tables and the figure")
     options = parser.parse_args(argv)
 
+    searches = Searches(options.program, options.rows)
     walls = []
-    for row in wall_rows(options.program, options.experiments):
+    for row in wall_rows(searches, options.experiments):
         walls.append(row)
         note(f"wall {len(walls)} of {len(DEVICES) * len(RATES_HZ) * len(DELAYS_FRAMES)}: {deviation(row):+.1e}")
     scenes = []
-    for scene, profile, row in scene_rows(options.program, options.experiments):
+    for scene, profile, row in scene_rows(searches, options.experiments):
         scenes.append((scene, profile, row))
         note(f"{scene}, {profile}, delay {row['delay_frames']}, {row['method']}: "
              f"{number(row['critical_stiffness_n_per_m'])} N/m, {row['clean_until']}")

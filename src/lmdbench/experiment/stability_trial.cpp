@@ -126,7 +126,7 @@ StabilityTrial try_stiffness(const Experiment& experiment, const LockstepInput& 
   rest.range_m = std::min(method.profile.cutoff - at_rest.minimum_distance,
                           at_rest.minimum_distance - method.profile.saturation_distance);
   trial.in_contact = at_rest.effective_stiffness > 0.0 && rest.force_W.norm() > 0.0 && rest.range_m > 0.0;
-  if (!trial.in_contact) return trial;
+  if (!trial.in_contact || trial.clipped) return trial;
   rest.natural_frequency = std::sqrt(trial.stiffness_n_per_m / moving_mass(loop.dynamics));
   rest.tap_m = TAP_SHARE * rest.range_m;
 
