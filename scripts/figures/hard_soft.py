@@ -98,11 +98,11 @@ def draw(runs, directory):
         rate = float(h5["/scene"].attrs["frame_rate_hz"])
         time = h5["/path/time"][:]
         shown = (time >= WINDOW_S[0]) & (time <= WINDOW_S[1])
-        colours = style.colours_of(list(h5["/methods"]))
         axes[0, column].set_title(name)
         for label, group in h5["/methods"].items():
             force = group["force"][:]
-            options = {"color": colours[label], "label": label, "linewidth": 0.6}
+            colour = style.METHOD_COLOURS[int(group.attrs["method_order"]) % len(style.METHOD_COLOURS)]
+            options = {"color": colour, "label": label, "linewidth": 0.6}
             axes[0, column].plot(time[shown], np.linalg.norm(force, axis=1)[shown], **options)
             spectrum = np.abs(np.fft.rfft(force * np.hanning(force.shape[0])[:, None], axis=0)) * 2 / force.shape[0]
             axes[1, column].loglog(np.fft.rfftfreq(force.shape[0], 1 / rate)[1:],
