@@ -4,6 +4,7 @@
 #include <lmdbench/motion/tum_file.h>
 
 #include <CLI/CLI.hpp>
+#include <completeness/far_scenes.h>
 #include <completeness/study.h>
 #include <fmt/core.h>
 #include <micro/context.h>
@@ -11,6 +12,7 @@
 #include <micro/program.h>
 #include <nlohmann/json.hpp>
 
+#include <cmath>
 #include <cstdio>
 #include <limits>
 
@@ -52,6 +54,7 @@ struct Choice : micro::StudyChoice {
   std::vector<std::string> experiments;
   std::string poses_file;
   std::size_t truth_stride = 50;
+  std::size_t far_poses = 20000;
 };
 
 constexpr std::size_t MAXIMUM_COMPLAINTS = 20;
@@ -152,6 +155,23 @@ nlohmann::json run_path(const std::string& experiment, const Choice& choice, Com
   return entry;
 }
 
+nlohmann::json run_far_scenes(const Choice& choice, Complaints& complaints) {
+  fmt::print(stderr, "{} poses far from the origin\n", choice.far_poses);
+  nlohmann::json rows = nlohmann::json::array();
+  for (const FarResult& result :
+       judge_far_scenes(choice.seed, choice.far_poses, complaints.about("far from the origin"))) {
+    nlohmann::json row = {{"smallest_size_offsets", std::pow(10.0, result.decade)}};
+    Judgement all;
+    for (std::size_t v = 0; v < variants().size(); ++v) {
+      row["variants"][variants()[v].label] = to_json(result.judgements[v]);
+      all += result.judgements[v];
+    }
+    rows.push_back(row);
+    fmt::print("| 1e{} to 1e{} | {} | {} |\n", result.decade, result.decade + 1, all.poses, numbers(all));
+  }
+  return rows;
+}
+
 int run(const Choice& choice) {
   Complaints complaints;
   nlohmann::json report = {
@@ -177,6 +197,14 @@ int run(const Choice& choice) {
   }
   for (const std::string& pair : choice.pairs) {
     report["pairs"].push_back(run_pair(pair, choice, complaints));
+    save();
+  }
+  if (choice.far_poses > 0) {
+    fmt::print(
+        "\n## Far from the origin\n\nGenerated shapes; sizes as shares of their distance from the origin, "
+        "on whose scale points are compared.\n\n");
+    fmt::print("| size | searches | {} |\n|---|---|---|---|---|---|---|---|---|\n", NUMBER_HEADS);
+    report["far"] = run_far_scenes(choice, complaints);
     save();
   }
   if (!choice.experiments.empty()) {
@@ -207,6 +235,9 @@ int main(int argc, char** argv) {
   app.add_flag("--no-pairs", no_pairs, "Only the experiments");
   app.add_option("--experiment", choice.experiments,
                  "Experiment file whose path is followed, may be repeated");
+  app.add_option("--far-poses", choice.far_poses,
+                 "Poses of generated scenes far from the origin, 1e-10 to 1e-5 of it large; 0: none")
+      ->capture_default_str();
   micro::add_study_options(app, choice);
   app.add_option("--poses-file", choice.poses_file, "Poses of this TUM file instead of random ones");
   app.add_option("--truth-stride", choice.truth_stride,

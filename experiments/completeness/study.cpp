@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/experiment/experiment.h>
 #include <lmdbench/experiment/prepare.h>
+#include <lmdbench/lmd/near_frame.h>
 #include <lmdbench/methods/certified/certified.h>
 #include <lmdbench/motion/tum_file.h>
 
@@ -15,7 +16,9 @@ namespace {
 
 template <bool Coherent, WideKernel Kernel>
 std::unique_ptr<Method> make_certified(const Scene& scene) {
-  return std::make_unique<Certified>(scene, CertifiedOptions{.frame_coherence = Coherent}, Kernel);
+  return make_in_near_frame(scene, [](const Scene& near) {
+    return std::make_unique<Certified>(near, CertifiedOptions{.frame_coherence = Coherent}, Kernel);
+  });
 }
 
 /// A line of a TUM file.

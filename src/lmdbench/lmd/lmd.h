@@ -12,8 +12,9 @@
 namespace lmdbench {
 
 /// One local minimum distance pair, in world coordinates. Invariant: distance ==
-/// |point_fixed - point_moving|; `direction` is the unit vector from point_moving to
-/// point_fixed (design, section 2: d = q - p).
+/// |point_fixed - point_moving|, and `direction` is the unit vector from point_moving to
+/// point_fixed (DEFINITION.md: d = q - p), but for the rounding of points that are far from the
+/// origin (near_frame.h).
 struct Lmd {
   double distance = std::numeric_limits<double>::quiet_NaN();                    ///< metres
   Vec3 point_moving = Vec3::Constant(std::numeric_limits<double>::quiet_NaN());  ///< p_W on the moving mesh

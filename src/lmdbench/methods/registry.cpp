@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/base/error.h>
 #include <lmdbench/base/json_schema.h>
+#include <lmdbench/lmd/near_frame.h>
 #include <lmdbench/methods/registry.h>
 
 #include <fmt/format.h>
@@ -53,7 +54,8 @@ Json complete_options(const MethodDescription& description, Json options, const 
 
 std::unique_ptr<Method> make_method(std::string_view name, const Scene& scene, const Json& options) {
   const MethodDescription& description = method_description(name);
-  return description.make(scene, complete_options(description, options, "options of " + description.name));
+  const Json complete = complete_options(description, options, "options of " + description.name);
+  return make_in_near_frame(scene, [&](const Scene& near) { return description.make(near, complete); });
 }
 
 std::string methods_help() {

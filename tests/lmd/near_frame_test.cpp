@@ -1,0 +1,147 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/lmd/method_description.h>
+#include <lmdbench/lmd/near_frame.h>
+
+#include <gtest/gtest.h>
+#include <support/scenes.h>
+
+#include <vector>
+
+namespace lmdbench {
+namespace {
+
+using testing::make_scene;
+
+/// Coordinates are multiples of 1/8 and offsets are large powers of two: sums are exact.
+const Vec3 FAR{0x1p30, -0x1p29, 0x1p30};
+constexpr double BOX = 0.5;
+
+Scene boxes(const Vec3& offset_M, const Vec3& offset_W) {
+  const TriangleMesh box = make_box({BOX, BOX, BOX});
+  return make_scene(translated(box, offset_M), translated(box, offset_W), 0.25);
+}
+
+enum class Asked : std::uint8_t { FOR_A_SEARCH };
+
+const MethodDescription& recorder_method() {
+  static const MethodDescription description = [] {
+    MethodDescription result;
+    result.name = "recorder";
+    return result;
+  }();
+  return description;
+}
+
+/// Remembers what it was asked and answers with one LMD.
+class Recorder : public Method {
+ public:
+  explicit Recorder(Scene scene) : scene_(std::move(scene)) {}
+  const MethodDescription& description() const override { return recorder_method(); }
+  void search(const Pose& X_WM, LmdSet& lmds, WorkCounters& counters) override {
+    pose = X_WM;
+    ++counters[Asked::FOR_A_SEARCH];
+    Lmd lmd;
+    lmd.point_moving = Vec3(0.25, 0.0, 0.0);
+    lmd.point_fixed = Vec3(0.5, 0.0, 0.0);
+    lmd.distance = 0.25;
+    lmds = {lmd};
+  }
+  void track(const Pose& X_WM, LmdSet& lmds, WorkCounters&) override {
+    pose = X_WM;
+    tracked = lmds;
+  }
+  const Scene& scene() const { return scene_; }
+
+  Pose pose;
+  LmdSet tracked;
+
+ private:
+  Scene scene_;
+};
+
+TEST(NearFrame, LeavesScenesNearTheOriginAlone) {
+  const Scene scene = boxes(Vec3::Zero(), Vec3(2.0, 0.0, 0.0));
+  const NearFrame frame(scene);
+  EXPECT_FALSE(frame.differs());
+  EXPECT_EQ(frame.scene().moving, scene.moving);
+  EXPECT_EQ(frame.scene().fixed, scene.fixed);
+  Recorder* made = nullptr;
+  const auto method = make_in_near_frame(scene, [&](const Scene& near) {
+    auto recorder = std::make_unique<Recorder>(near);
+    made = recorder.get();
+    return recorder;
+  });
+  EXPECT_EQ(method.get(), made);
+}
+
+TEST(NearFrame, CountsFromSixteenHalfDiagonals) {
+  const double half_diagonal = 0.5 * BOX * std::sqrt(3.0);
+  const auto differs = [&](double halves_M, double halves_W) {
+    return NearFrame(boxes({halves_M * half_diagonal, 0.0, 0.0}, {halves_W * half_diagonal, 0.0, 0.0}))
+        .differs();
+  };
+  EXPECT_FALSE(differs(15.9, 0.0));
+  EXPECT_TRUE(differs(16.1, 0.0));
+  // In the world both meshes' sizes count.
+  EXPECT_FALSE(differs(0.0, 31.9));
+  EXPECT_TRUE(differs(0.0, 32.1));
+}
+
+TEST(NearFrame, MovesMeshesPosesAndPointsThereAndBack) {
+  const Scene near = boxes(Vec3::Zero(), Vec3::Zero());
+  for (const bool far_M : {false, true}) {
+    for (const bool far_W : {false, true}) {
+      if (!far_M && !far_W) continue;
+      const Vec3 offset_M = far_M ? FAR : Vec3::Zero(), offset_W = far_W ? Vec3(-FAR) : Vec3::Zero();
+      const NearFrame frame(boxes(offset_M, offset_W));
+      ASSERT_TRUE(frame.differs());
+      EXPECT_EQ(frame.scene().moving->surface().mesh.vertices, near.moving->surface().mesh.vertices);
+      EXPECT_EQ(frame.scene().fixed[0]->surface().mesh.vertices, near.fixed[0]->surface().mesh.vertices);
+      EXPECT_EQ(frame.scene().cutoff, 0.25);
+
+      // A quarter turn about z and 1 along x, for meshes at the origin.
+      Pose X_NN;
+      X_NN.rotation = Eigen::Quaterniond(std::sqrt(0.5), 0.0, 0.0, std::sqrt(0.5));
+      X_NN.translation = Vec3(1.0, 0.0, 0.0);
+      Pose X_WM = X_NN;
+      X_WM.translation += offset_W - X_NN.rotation * offset_M;
+      EXPECT_LE((frame.to_near(X_WM).translation - X_NN.translation).norm(), 1e-6) << "rounding at 1e9";
+      EXPECT_EQ(frame.to_near(X_WM).rotation.coeffs(), X_NN.rotation.coeffs());
+    }
+  }
+}
+
+TEST(NearFrame, WrapsAMethod) {
+  Recorder* made = nullptr;
+  const auto method = make_in_near_frame(boxes(Vec3::Zero(), FAR), [&](const Scene& near) {
+    auto recorder = std::make_unique<Recorder>(near);
+    made = recorder.get();
+    return recorder;
+  });
+  ASSERT_NE(made, nullptr);
+  EXPECT_NE(method.get(), made);
+  EXPECT_EQ(&method->description(), &recorder_method());
+
+  Pose X_WM;
+  X_WM.translation = FAR + Vec3(0.0, 0.75, 0.0);
+  LmdSet lmds;
+  WorkCounters counters;
+  method->search(X_WM, lmds, counters);
+  EXPECT_EQ(made->pose.translation, Vec3(0.0, 0.75, 0.0));
+  EXPECT_EQ(counters[Asked::FOR_A_SEARCH], 1u);
+  ASSERT_EQ(lmds.size(), 1u);
+  EXPECT_EQ(lmds[0].point_moving, FAR + Vec3(0.25, 0.0, 0.0));
+  EXPECT_EQ(lmds[0].point_fixed, FAR + Vec3(0.5, 0.0, 0.0));
+  EXPECT_EQ(lmds[0].distance, 0.25);
+
+  X_WM.translation += Vec3(1.0, 0.0, 0.0);
+  method->track(X_WM, lmds, counters);
+  EXPECT_EQ(made->pose.translation, Vec3(1.0, 0.75, 0.0));
+  ASSERT_EQ(made->tracked.size(), 1u);
+  EXPECT_EQ(made->tracked[0].point_moving, Vec3(0.25, 0.0, 0.0));
+  EXPECT_EQ(lmds[0].point_fixed, FAR + Vec3(0.5, 0.0, 0.0));
+}
+
+}  // namespace
+}  // namespace lmdbench
