@@ -26,7 +26,7 @@ struct QueryAnswer {
 /// reduction) do so at the same pose.
 QueryAnswer query(Method& method, const TimedPose& pose, double cutoff);
 
-/// One line of JSON without a line end (the contract of `lmdbench query --json`, design section 6). A
+/// One line of JSON without a line end (the contract of `lmdbench query --json`). A
 /// distance of 0 is a number like any other; an empty set has the minimum distance null.
 std::string query_json(const QueryAnswer& answer);
 

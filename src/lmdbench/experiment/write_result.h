@@ -7,7 +7,7 @@
 
 namespace lmdbench {
 
-/// Writes /path, /scene, /methods, /reference and /crosscheck of the result contract (design, section 6);
+/// Writes /path, /scene, /methods, /reference and /crosscheck of the result contract;
 /// provenance is not part of it. Does not commit.
 void write_result(ResultWriter& writer, const Experiment& experiment, const RunResult& result);
 

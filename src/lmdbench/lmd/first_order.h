@@ -16,7 +16,7 @@ inline constexpr double FIRST_ORDER_TOLERANCE = 1e-10;
 /// together although others are tilted by a little more. A plateau needs a piece that passes the narrow test.
 inline constexpr double PLATEAU_PIECE_TOLERANCE = 10.0 * FIRST_ORDER_TOLERANCE;
 
-/// The first-order LMD condition of design section 2 for one side: no point of the triangles incident to
+/// The first-order LMD condition (DEFINITION.md) for one side: no point of the triangles incident to
 /// `feature` is nearer to the other point to first order, and the direction leaves on the outer side,
 ///   n . (x - p) <= 0 for every corner x of those triangles, n . pseudo_normal > 0.
 /// Triangles are convex, so their corners decide. The outer side of boundary features is not asked for: the

@@ -31,7 +31,7 @@ void keep_one_a_feature_pair(std::vector<LocalMinimum>& minima);
 /// Makes the LMD set out of local minima: one entry a feature pair, and one entry a plateau. Parallel edges
 /// or faces have a whole segment or polygon of minimisers that spreads over many feature pairs; neighbouring
 /// pairs of equal distance and direction are joined, and the plateau is represented by the centroid of its
-/// pieces of the highest dimension, on the features of the piece nearest to it (design section 2). Plateaus
+/// pieces of the highest dimension, on the features of the piece nearest to it (DEFINITION.md). Plateaus
 /// without a strict piece are dropped. The result depends on the set alone, never on the order of `minima`;
 /// it is sorted by `lmd_less`.
 void merge_plateaus(const Scene& scene, std::vector<LocalMinimum>& minima, LmdSet& lmds);

@@ -7,7 +7,7 @@
 
 #include <vector>
 
-/// Outward polar cones: which directions a nearest-point pair may take at a feature (design, section 2),
+/// Outward polar cones: which directions a nearest-point pair may take at a feature (lmd/DEFINITION.md),
 ///   N(p) = { n : n . (x - p) <= 0 for every x on the triangles incident to p, n on the outer side }.
 /// Only features whose cone is not empty can carry an LMD.
 ///

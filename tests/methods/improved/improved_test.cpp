@@ -57,7 +57,7 @@ TEST_F(ImprovedTest, CandidatesHoldEveryTrueLmdWhereNothingIsCulledByVisibility)
   EXPECT_GT(count, 40u);
 }
 
-/// The measured finding behind design section 7: no visibility policy is conservative, and culls cost recall.
+/// A finding that was measured (decision E6): no visibility policy is conservative, and culls cost recall.
 TEST_F(ImprovedTest, VisibilityCullsLeafPairsAndNeverAddsCandidates) {
   on_poses(3, [&](const Scene& scene, const Pose& pose, const LmdSet&) {
     LmdSet all, culled;

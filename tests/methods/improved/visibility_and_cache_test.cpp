@@ -59,7 +59,7 @@ TEST(Visibility, IsSymmetric) {
 }
 
 /// Two cubes corner to corner: all 36 triangle pairs round the two corners hold the LMD and an orthogonal
-/// projection culls every one of them (design section 7): the pre-test is not conservative on coarse meshes.
+/// projection culls every one of them (decision E6): the pre-test is not conservative on coarse meshes.
 TEST(Visibility, AnOrthogonalProjectionCullsTwoCornersFaceToFace) {
   const Surface surface = build_surface(make_box({1.0, 1.0, 1.0}));
   const Vec3 offset(1.1, 1.1, 1.1);

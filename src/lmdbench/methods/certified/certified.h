@@ -19,7 +19,7 @@ namespace lmdbench {
 
 const MethodDescription& certified_method();
 
-/// The third algorithm (design section 4): the exact and complete LMD set in every
+/// The third algorithm: the exact and complete LMD set in every
 /// frame, without a second rate.
 ///
 /// 1. Both meshes have a wide hierarchy over their features with non-empty outward polar cone

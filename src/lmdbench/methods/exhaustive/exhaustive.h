@@ -14,7 +14,7 @@ namespace lmdbench {
 
 const MethodDescription& exhaustive_method();
 
-/// Ground truth (design section 2): every triangle pair within the cutoff, exact triangle distance, the
+/// Ground truth (lmd/DEFINITION.md): every triangle pair within the cutoff, exact triangle distance, the
 /// first-order test, one entry per feature pair and per plateau. Slow and simple on purpose; it shares no
 /// search code with what it judges: no hierarchy and no cone, only a uniform grid that lists the fixed
 /// triangles near a box.

@@ -8,7 +8,7 @@
 
 namespace lmdbench {
 
-/// Circular cone around a feature's outward polar cone (design section 2): every direction in which an LMD
+/// Circular cone around a feature's outward polar cone (lmd/DEFINITION.md): every direction in which an LMD
 /// may leave the feature lies inside. Half angle phi below 90 degrees, kept as cosine and sine; where no such
 /// cone exists the axis is zero, which means all directions.
 struct PolarCap {

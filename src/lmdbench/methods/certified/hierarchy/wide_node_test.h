@@ -22,7 +22,7 @@
 ///   |d across u| >= |D across u| - (r + r')
 ///
 /// and an LMD's d has |d| <= cutoff, u . d >= cos(phi) |d| >= 0 and |d across u| <= tan(phi) u . d, <=
-/// sin(phi) |d|. Together, for the probe's u and again for the lane's u (design section 3, G1 to G3; decision
+/// sin(phi) |d|. Together, for the probe's u and again for the lane's u (the paper's G1 to G3; decision
 /// E2's sense):
 ///
 ///   G1  |D| <= cutoff + r + r'   and   z <= cutoff + slab
