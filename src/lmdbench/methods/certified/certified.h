@@ -25,26 +25,13 @@ const MethodDescription& certified_method();
 /// 1. Both meshes have a wide hierarchy over their features with non-empty outward polar cone
 ///    (wide_hierarchy.h). Descending both finds every feature pair that bounds cannot reject
 ///    (wide_traversal.h).
-/// 2. A closed-form test in double precision rejects nearly all of those (certified_filter.h).
+/// 2. A closed-form test in double precision rejects nearly all of those (filter.h).
 /// 3. What is left is decided by the predicates that define the ground truth: exact triangle distance,
 ///    first-order test, plateau merging (first_order.h, plateau.h).
 ///
-/// Why the set equals `exhaustive`'s. *Precision*: an LMD is reported only if it passes the truth's own
-/// first-order test (step 3), at the points of a triangle pair's exact distance or of a strict minimum.
-/// *Recall*: take a triangle pair that the truth accepts, with features f and g, points p and q and
-/// distance d.
-/// - d > touch (1e-9 of the coordinates). Then q - p is an accurate direction, and it lies in f's and g's
-///   polar cones up to 2e-6 (the truth's tolerance and the rounding of p and q). So both have a cap
-///   (polar_cap.h, empty only with that slack) and are leaves; the pair passes every bound above it
-///   (wide_node_test.h), and the filter, whose margin is larger than the slack. If the filter finds every condition to hold by more than
-///   the margin, (p, q) is the strict minimum of *every* incident triangle pair, |x - y|^2 being convex on
-///   each, and its points depend on the two features alone; else all incident triangle pairs are evaluated,
-///   the accepted one among them.
-/// - d <= touch, or the triangles intersect. Directions mean nothing there, but the two faces touch within
-///   the touch distance: every triangle is a leaf, even one without area, and the touch test looks at
-///   no cone.
-///
-/// The merging of plateaus is the truth's, and it sees the same minima.
+/// Why the set equals `exhaustive`'s: PROOF.md, bound by bound. In short, what is reported has passed the
+/// truth's own test; and no bound on the way to it rejects a pair that the truth accepts, because pairs nearer
+/// than the touch distance are held back by no cone, and farther ones have accurate directions.
 ///
 /// Frame coherence: where the pose moves by little, step 1 is not made anew. Every test of the last
 /// frames is kept with the number of frames that it stands if the motion goes on as forecast

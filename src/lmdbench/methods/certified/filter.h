@@ -41,7 +41,7 @@ struct PairFilter {
   /// parallel to an edge or a face within 1e-4, and faces that are parallel, have no single candidate and are
   /// borderline where they can be near.
   ///
-  /// What the rejection stands (wide_lifetime.h) follows from what rejected the pair:
+  /// How long the rejection stands follows from what rejected the pair (PROOF.md, lemmas 15 and 16):
   /// - too far, or on the inner side of a face: distances of points, lines and planes are convex in a
   ///   displacement, and their gradient is the unit vector between the nearest points;
   /// - a foot beyond an end or side by h: the distance from the plane through the end or side, square to the

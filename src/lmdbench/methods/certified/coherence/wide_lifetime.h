@@ -12,7 +12,7 @@
 
 /// The node test with lifetimes: for how many frames of the forecast motion the rejections of a test stand.
 ///
-/// A test rejects a lane by some inequality. The bounds behind it (wide_node_test.h) speak of every p below
+/// A test rejects a lane by some inequality (proof: PROOF.md, lemmas 9 to 12). The bounds behind it (wide_node_test.h) speak of every p below
 /// the one child and every q below the other, with d = q - p:
 ///   |d| > cutoff,   u . d > cutoff,   u . d < 0,   d outside the cone round u;   angle(u, -u') > phi + phi'.
 /// Let c be the centre of the child that moves, and Delta its displacement. Suppose that after the motion p
@@ -60,7 +60,7 @@ inline constexpr float DEVIATION_SHARE = 0.125F;
 inline constexpr float CHOICE_FRAMES = 16.0F;
 /// Larger than any slack, and than what is lost: takes criteria that do not reject now out of the choice.
 inline constexpr float NO_CHOICE = 1e30F;
-/// (lateral - side) bounds how far d is outside the cone only up to this factor.
+/// (lateral - side) bounds how far d is outside the cone only up to this factor (PROOF.md, lemma 11).
 inline constexpr float HALF_DIAGONAL = 0.7F;
 /// Losses and lengths are at least this, so that nothing is divided by zero.
 inline constexpr float LEAST_LENGTH = 1e-30F;
