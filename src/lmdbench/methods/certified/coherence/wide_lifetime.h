@@ -12,7 +12,8 @@
 
 /// The node test with lifetimes: for how many frames of the forecast motion the rejections of a test stand.
 ///
-/// A test rejects a lane by some inequality (proof: PROOF.md, lemmas 9 to 12). The bounds behind it (wide_node_test.h) speak of every p below
+/// A test rejects a lane by some inequality (proof: PROOF.md, lemmas 9 to 12).
+/// The bounds behind it (wide_node_test.h) speak of every p below
 /// the one child and every q below the other, with d = q - p:
 ///   |d| > cutoff,   u . d > cutoff,   u . d < 0,   d outside the cone round u;   angle(u, -u') > phi + phi'.
 /// Let c be the centre of the child that moves, and Delta its displacement. Suppose that after the motion p
