@@ -71,6 +71,7 @@ TEST_F(AgreementTest, ADuplicateIsNotTrue) {
   EXPECT_DOUBLE_EQ(same(truth, twice).recall(), 1.0);
   EXPECT_DOUBLE_EQ(same(truth, twice).precision(), 0.5);
   EXPECT_FALSE(same(truth, twice).exact());
+  EXPECT_EQ(same(twice, truth).found, 1U) << "one to one";
 }
 
 TEST_F(AgreementTest, DistinctPairsHoldEachPairOnce) {
