@@ -104,6 +104,12 @@ TEST_F(ExactDifferences, LossIsADifferenceAndAdditionIsNot) {
   EXPECT_THAT(additions(open(one, "a.h5"), open({}, "b.h5")), ElementsAre("method certified"));
 }
 
+TEST_F(ExactDifferences, ACounterThatWasAlwaysZeroIsNoLoss) {
+  SyntheticResult base;
+  base.idle_counter = "cache_hits";
+  EXPECT_THAT(differences(base, {}), IsEmpty());
+}
+
 TEST_F(ExactDifferences, NumbersOfTheSummaryHaveNoFrame) {
   SyntheticResult candidate;
   candidate.summary = 0.75;

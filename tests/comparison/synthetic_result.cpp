@@ -88,6 +88,8 @@ void write_method(ResultWriter& writer, const SyntheticResult& result, const std
   write_integers(writer, group + "/counters/leaf_pairs", node_pairs);
   if (!result.extra_counter.empty() && !searches)
     write_integers(writer, group + "/counters/" + result.extra_counter, node_pairs);
+  if (!result.idle_counter.empty() && !searches)
+    write_integers(writer, group + "/counters/" + result.idle_counter, std::vector<std::int64_t>(FRAMES, 0));
   write_times(writer, result, group + "/local_update_time", 2 * MICROSECOND, FRAMES,
               method + "/local update");
   if (searches) {

@@ -26,6 +26,7 @@ struct SyntheticResult {
   bool lists = false;                      ///< LMD lists
   std::string processor = "processor A";
   std::string extra_counter;  ///< Another counter of certified, "" for none
+  std::string idle_counter;   ///< Another counter of certified that stays 0, "" for none
   double summary = 0.5;       ///< A number of the summary that is no time
   int repetitions = 3;
 

@@ -18,7 +18,7 @@ struct ExactOptions {
 
 /// Every deterministic dataset of every method, matched by label, so that another order of methods is no difference: LMD
 /// sets, forces, counters, errors against truth; times are left out. A method or dataset that only the candidate has is
-/// no difference, one that it has lost is.
+/// no difference, one that it has lost is, unless it is a counter that was 0 throughout.
 /// @return at most one entry a dataset, in the order of `reported_before`
 std::vector<Difference> exact_differences(const ResultReader& base, const ResultReader& candidate,
                                           const ExactOptions& options);
