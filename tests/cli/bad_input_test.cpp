@@ -148,6 +148,8 @@ TEST_F(BadInput, CommandLine) {
   EXPECT_EQ(lmdbench("query --moving sphere --fixed sphere --cutoff -1").code, USAGE);
   EXPECT_EQ(lmdbench("query --moving sphere --fixed sphere --cutoff nan").code, USAGE);
   EXPECT_EQ(lmdbench("query --moving sphere --fixed sphere --cutoff 0.1 --method magic").code, USAGE);
+  EXPECT_EQ(lmdbench("query --moving sphere --fixed sphere --cutoff 0.1 --planar-tolerance wide").code,
+            USAGE);
   EXPECT_EQ(lmdbench("query --moving sphere --fixed no-such-mesh --cutoff 0.1").code, INPUT_DATA);
 }
 

@@ -225,6 +225,21 @@ TEST(LoadExperiment, FixedPoseIsAUnitQuaternion) {
   EXPECT_EQ(experiment.fixed[0].pose.translation, Vec3(1, 2, 3));
 }
 
+TEST(LoadExperiment, PlanarTolerancesAreOfEachMesh) {
+  using Kind = PlanarTolerance::Kind;
+  const Experiment untouched = parse(MINIMAL);
+  EXPECT_EQ(untouched.moving.planar_tolerance.kind, Kind::AUTO);
+  const Experiment experiment =
+      parse(MINIMAL, {"/moving/planar_tolerance=1e-6", "/fixed/0/planar_tolerance=off"});
+  EXPECT_EQ(experiment.moving.planar_tolerance, (PlanarTolerance{Kind::LENGTH, 1e-6}));
+  EXPECT_EQ(experiment.fixed[0].planar_tolerance, (PlanarTolerance{Kind::LENGTH, 0.0}));
+  EXPECT_EQ(parse(MINIMAL, {"/moving/planar_tolerance=0.01%"}).moving.planar_tolerance.kind, Kind::DIAGONAL);
+  EXPECT_THAT(message({"/fixed/0/planar_tolerance=wide"}),
+              HasSubstr("/fixed/0/planar_tolerance: 'wide' is no planar tolerance"));
+  EXPECT_THAT(message({"/moving/planar_tolerance=-1"}), HasSubstr("/moving/planar_tolerance"));
+  EXPECT_THAT(message({"/moving/planar_tolerance=[1]"}), HasSubstr("/moving/planar_tolerance"));
+}
+
 TEST(LoadExperiment, MissingFileIsAUsageError) {
   try {
     load_experiment("/nowhere/at/all.json");

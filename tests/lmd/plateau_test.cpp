@@ -43,7 +43,7 @@ class PlateauTest : public ::testing::Test {
   }
   LmdSet merged(std::vector<LocalMinimum> minima) const {
     LmdSet lmds;
-    merge_plateaus(scene_, minima, lmds);
+    merge_plateaus(scene_, RigidTransform(), minima, lmds);
     return lmds;
   }
 
@@ -56,7 +56,7 @@ TEST_F(PlateauTest, NeighboursOfEqualDistanceAreOneLmdAtTheirCentroid) {
   EXPECT_TRUE(lmds[0].point_fixed.isApprox(Vec3(0.35, 0.55, 0), 1e-12)) << "weighted by area";
   EXPECT_TRUE(lmds[0].point_moving.isApprox(Vec3(0.35, 0.55, HEIGHT), 1e-12));
   EXPECT_DOUBLE_EQ(lmds[0].distance, HEIGHT);
-  EXPECT_EQ(lmds[0].feature_moving.index, 0) << "of the piece nearest to the centroid";
+  EXPECT_EQ(lmds[0].feature_moving.index, 0) << "the first face at the centroid";
 }
 
 TEST_F(PlateauTest, PiecesAreJoinedThroughOthers) {

@@ -6,6 +6,7 @@
 #include <lmdbench/catalogue/build_mesh.h>
 #include <lmdbench/catalogue/manifest.h>
 #include <lmdbench/cli/mesh_command.h>
+#include <lmdbench/mesh/flatten.h>
 #include <lmdbench/mesh/surface.h>
 #include <lmdbench/mesh/validity.h>
 
@@ -26,12 +27,16 @@ namespace {
 struct MeshArguments {
   std::vector<std::string> names;
   std::string folder = DEFAULT_MESH_FOLDER;
+  std::string planar_tolerance = "auto";
   bool json = false;
 };
 
 void print_info(const MeshArguments& arguments) {
+  const PlanarTolerance tolerance =
+      parse_planar_tolerance(arguments.planar_tolerance, "", "--planar-tolerance");
   for (const std::string& name : arguments.names) {
     ResolvedMesh resolved = resolve_mesh(name, arguments.folder);
+    const FlatteningReport flattening = flatten(resolved.mesh, tolerance);
     const ValidityReport report = check_mesh(build_surface(std::move(resolved.mesh)));
     if (arguments.json) {
       nlohmann::ordered_json line{
@@ -39,9 +44,14 @@ void print_info(const MeshArguments& arguments) {
           {"file", resolved.file ? nlohmann::ordered_json(resolved.file->string()) : nullptr},
           {"sha256", resolved.sha256}};
       line.update(to_json(report));
+      line["planes"] = {{"tolerance", flattening.tolerance},
+                        {"planes", flattening.planes},
+                        {"moved_vertices", flattening.moved_vertices},
+                        {"largest_move", flattening.largest_move}};
       fmt::print("{}\n", json_line(line));
     } else {
-      fmt::print("mesh          {}\n{}", printable(name), to_text(report));
+      fmt::print("mesh          {}\n{}planes        {}\n", printable(name), to_text(report),
+                 to_text(flattening));
     }
     std::fflush(stdout);
   }
@@ -129,6 +139,9 @@ void add_mesh_command(CLI::App& app) {
   CLI::App* info =
       mesh->add_subcommand("info", "report what a mesh is like: closed, manifold, degenerate triangles");
   info->add_option("MESH", arguments->names, "names of the manifest or mesh files")->required();
+  info->add_option("--planar-tolerance", arguments->planar_tolerance,
+                   "as in query: auto, off, metres, or percent of the diagonal")
+      ->capture_default_str();
   add_common(info);
   info->callback([arguments] { print_info(*arguments); });
 

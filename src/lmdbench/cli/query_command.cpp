@@ -6,6 +6,7 @@
 #include <lmdbench/cli/commands.h>
 #include <lmdbench/experiment/query.h>
 #include <lmdbench/geometry/tolerance.h>
+#include <lmdbench/mesh/flatten.h>
 #include <lmdbench/mesh/surface.h>
 #include <lmdbench/mesh/validity.h>
 #include <lmdbench/methods/registry.h>
@@ -32,13 +33,18 @@ struct QueryOptions {
   std::string method = "certified";
   std::vector<std::string> options;
   std::string poses;
+  std::string planar_tolerance = "auto";
   std::string folder = DEFAULT_MESH_FOLDER;
   bool json = false;
 };
 
-/// Coordinates are metres, taken as they are.
-std::shared_ptr<const Body> load(const std::string& name, const std::string& folder) {
-  auto body = std::make_shared<const Body>(name, build_surface(resolve_mesh(name, folder).mesh));
+/// Coordinates are metres, taken as they are but for rounded planes.
+std::shared_ptr<const Body> load(const std::string& name, const std::string& folder,
+                                 const PlanarTolerance& tolerance) {
+  TriangleMesh mesh = resolve_mesh(name, folder).mesh;
+  const FlatteningReport flattening = flatten(mesh, tolerance);
+  if (flattening.moved_vertices > 0) spdlog::info("{}: {}", name, to_text(flattening));
+  auto body = std::make_shared<const Body>(name, build_surface(std::move(mesh)));
   for (const std::string& finding : findings(check_mesh(body->surface())))
     spdlog::warn("{}: {}", name, finding);
   return body;
@@ -70,8 +76,11 @@ void run(const QueryOptions& options) {
   // First, because a misspelt name or option should not wait for the meshes.
   const nlohmann::json method_options = chosen_options(options);
   const Path poses = poses_of(options);
-  const Scene scene{
-      load(options.moving, options.folder), {load(options.fixed, options.folder)}, options.cutoff};
+  const PlanarTolerance tolerance =
+      parse_planar_tolerance(options.planar_tolerance, "", "--planar-tolerance");
+  const Scene scene{load(options.moving, options.folder, tolerance),
+                    {load(options.fixed, options.folder, tolerance)},
+                    options.cutoff};
   const std::unique_ptr<Method> method = make_method(options.method, scene, method_options);
   for (const TimedPose& pose : poses) {
     const QueryAnswer answer = query(*method, pose, options.cutoff);
@@ -96,6 +105,12 @@ void add_query_command(CLI::App& app) {
   command->add_option(
       "--poses", options->poses,
       "TUM trajectory of the moving mesh, - for standard input; one identity pose without it");
+  command
+      ->add_option(
+          "--planar-tolerance", options->planar_tolerance,
+          "vertices this near to a common plane are put back into it: auto (what single-precision "
+          "coordinates leave, nothing for others), off, metres, or percent of the diagonal (0.0001%)")
+      ->capture_default_str();
   command->add_option("--dir", options->folder, "folder of manifest.json and of the built meshes")
       ->capture_default_str();
   command->add_flag("--json", options->json, "one JSON object a pose, a line each");

@@ -5,6 +5,7 @@
 #include <lmdbench/experiment/loop_choice.h>
 #include <lmdbench/force/force_law.h>
 #include <lmdbench/geometry/pose.h>
+#include <lmdbench/mesh/planar_tolerance.h>
 #include <lmdbench/motion/interpolate.h>
 
 #include <nlohmann/json.hpp>
@@ -23,6 +24,7 @@ struct MeshChoice {
   std::string mesh;                  ///< Name in the manifest, generated shape or file.
   std::optional<double> diagonal_m;  ///< Scaled to this bounding-box diagonal; unset: coordinates are metres.
   Pose pose;                         ///< X_WF of a fixed mesh; identity for the moving one.
+  PlanarTolerance planar_tolerance;  ///< Of rounded planes, see flatten.h; a length is in the scene's metres.
 };
 
 /// Constants of the force profile (decision E8: the paper states none of them). Some are relative to the

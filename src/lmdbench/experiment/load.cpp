@@ -27,8 +27,12 @@ std::optional<Value> optional_value(const Json& object, const char* key) {
   return found == object.end() ? std::nullopt : std::optional<Value>(found->get<Value>());
 }
 
-MeshChoice mesh_choice(const Json& entry) {
-  return {entry["mesh"].get<std::string>(), optional_value<double>(entry, "diagonal_m"), Pose{}};
+MeshChoice mesh_choice(const Json& entry, const std::string& place, const std::string& file) {
+  const Json& tolerance = entry["planar_tolerance"];
+  // A number's own text is among those that the option takes.
+  const std::string text = tolerance.is_string() ? tolerance.get<std::string>() : tolerance.dump();
+  return {entry["mesh"].get<std::string>(), optional_value<double>(entry, "diagonal_m"), Pose{},
+          parse_planar_tolerance(text, file, place + "/planar_tolerance")};
 }
 
 Pose pose_of(const Json& entry, const std::string& place, const std::string& file) {
@@ -110,9 +114,9 @@ Experiment from_json(Json document, const std::filesystem::path& path) {
   experiment.title = document["title"].get<std::string>();
   experiment.mesh_folder =
       (path.parent_path() / document["mesh_folder"].get<std::string>()).lexically_normal();
-  experiment.moving = mesh_choice(document["moving"]);
+  experiment.moving = mesh_choice(document["moving"], "/moving", file);
   for (std::size_t i = 0; i < document["fixed"].size(); ++i) {
-    experiment.fixed.push_back(mesh_choice(document["fixed"][i]));
+    experiment.fixed.push_back(mesh_choice(document["fixed"][i], fmt::format("/fixed/{}", i), file));
     experiment.fixed.back().pose =
         pose_of(document["fixed"][i]["pose"], fmt::format("/fixed/{}/pose", i), file);
   }

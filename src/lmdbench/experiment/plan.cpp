@@ -13,6 +13,9 @@ namespace {
 
 using Json = nlohmann::json;
 
+/// Vertices stay where the file has them.
+const PlanarTolerance TAKEN_AS_THEY_ARE{PlanarTolerance::Kind::LENGTH, 0.0};
+
 std::string join_labels(const std::vector<std::string>& labels) {
   return fmt::format("{}", fmt::join(labels, ", "));
 }
@@ -76,6 +79,16 @@ Plan make_plan(const Experiment& experiment) {
                        const std::string& why_left_out) {
     plan.items.push_back({part, needed, name, needed ? why_needed : why_left_out});
   };
+  std::vector<std::string> tolerances{
+      fmt::format("moving {}", to_string(experiment.moving.planar_tolerance))};
+  bool flattens = experiment.moving.planar_tolerance != TAKEN_AS_THEY_ARE;
+  for (std::size_t i = 0; i < experiment.fixed.size(); ++i) {
+    tolerances.push_back(fmt::format("fixed_{} {}", i, to_string(experiment.fixed[i].planar_tolerance)));
+    flattens = flattens || experiment.fixed[i].planar_tolerance != TAKEN_AS_THEY_ARE;
+  }
+  add(Part::FLATTENING, "rounded planes", flattens,
+      fmt::format("planar tolerance: {}; `lmdbench mesh info` says what that moves", join_labels(tolerances)),
+      "planar_tolerance is off for every mesh");
   add(Part::LOCAL_TRACKING, "global searches and local tracking", !tracking.empty(),
       fmt::format("{}: a search every {} frames that arrives {} frames later", join_labels(tracking),
                   experiment.driver.search_every_frames, experiment.driver.search_latency_frames),

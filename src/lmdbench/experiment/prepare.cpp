@@ -29,14 +29,21 @@ std::shared_ptr<const Body> load_body(const MeshChoice& choice, const std::strin
                                     ? resolve_mesh(choice.mesh, experiment.mesh_folder)
                                     : resolve_mesh((experiment.file.parent_path() / choice.mesh).string());
   TriangleMesh mesh = resolved.mesh;
+  // In the file's coordinates, which tell how they were rounded; scaling hides that.
+  const double scale = choice.diagonal_m ? *choice.diagonal_m / bounding_box_diagonal(mesh) : 1.0;
+  PlanarTolerance tolerance = choice.planar_tolerance;
+  if (tolerance.kind == PlanarTolerance::Kind::LENGTH) tolerance.value /= scale;
+  FlatteningReport flattening = flatten(mesh, tolerance);
+  flattening.tolerance *= scale;
+  flattening.largest_move *= scale;
   if (choice.diagonal_m) mesh = scaled_to_diagonal(std::move(mesh), *choice.diagonal_m);
   const RigidTransform X_WF(choice.pose);
   if (role != "moving")
     for (Vec3& vertex : mesh.vertices) vertex = X_WF.point(vertex);
   refuse_extreme_size(mesh, choice.mesh);
   auto body = std::make_shared<const Body>(choice.mesh, build_surface(std::move(mesh)));
-  notes.push_back(
-      {role, choice.mesh, resolved.file, resolved.size, resolved.sha256, check_mesh(body->surface())});
+  notes.push_back({role, choice.mesh, resolved.file, resolved.size, resolved.sha256,
+                   check_mesh(body->surface()), flattening});
   return body;
 }
 
@@ -120,6 +127,9 @@ PreparedRun prepare(const Experiment& experiment) {
     });
     if (note.file && !listed)
       prepared.files.push_back({"mesh:" + note.name, *note.file, note.sha256, note.size});
+    if (note.flattening.moved_vertices > 0)
+      prepared.warnings.push_back(
+          fmt::format("{} mesh {}: {}", note.role, note.name, to_text(note.flattening)));
     for (const std::string& finding : findings(note.report))
       prepared.warnings.push_back(fmt::format("{} mesh {}: {}", note.role, note.name, finding));
   }

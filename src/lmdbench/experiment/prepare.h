@@ -5,6 +5,7 @@
 #include <lmdbench/experiment/experiment.h>
 #include <lmdbench/experiment/lockstep.h>
 #include <lmdbench/lmd/scene.h>
+#include <lmdbench/mesh/flatten.h>
 #include <lmdbench/mesh/validity.h>
 #include <lmdbench/record/provenance.h>
 
@@ -24,6 +25,7 @@ struct MeshNote {
   std::int64_t size = 0;                      ///< Bytes of that file
   std::string sha256;  ///< Of that file, or of the file that a generated shape would be built to.
   ValidityReport report;
+  FlatteningReport flattening;  ///< In metres of the scene.
 };
 
 /// An experiment's inputs, loaded: all that a run works on.
@@ -35,7 +37,7 @@ struct PreparedRun {
   std::vector<MeshNote> meshes;
   std::vector<InputFile> files;       ///< For the provenance.
   bool starts_touching = false;       ///< Triangles touch in the first frame.
-  std::vector<std::string> warnings;  ///< Flaws that the methods can live with, in plain words.
+  std::vector<std::string> warnings;  ///< What was done to the meshes and flaws that methods can live with.
 };
 
 /// Loads meshes and path. Open and non-manifold meshes and a start in contact are noted, not refused.

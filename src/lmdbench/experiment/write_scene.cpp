@@ -28,6 +28,9 @@ void write_scene(ResultWriter& writer, const RunResult& result) {
     writer.attribute(group, "diagonal_m", mesh.report.diagonal);
     writer.attribute(group, "closed", std::int64_t{mesh.report.closed});
     writer.attribute(group, "manifold", std::int64_t{mesh.report.manifold});
+    writer.attribute(group, "planar_tolerance_m", mesh.flattening.tolerance);
+    writer.attribute(group, "planar_moved_vertices", mesh.flattening.moved_vertices);
+    writer.attribute(group, "planar_largest_move_m", mesh.flattening.largest_move);
     writer.attribute(group, "validity", to_json(mesh.report).dump());
   }
   writer.attribute("/scene", "starts_touching", std::int64_t{prepared.starts_touching});

@@ -25,12 +25,19 @@ class Body {
   const std::string& name() const { return name_; }
   const Surface& surface() const { return surface_; }
 
-  /// What `T::of(surface())` makes of the mesh, made at the first call and shared by all later ones, from any
-  /// thread. A look-up costs a lock: methods ask once, when they are made, and keep the reference.
+  /// What `T::of(*this)`, or else `T::of(surface())`, makes of the mesh, made at the first call and shared by
+  /// all later ones, from any thread. A look-up costs a lock: methods ask once, when they are made, and keep
+  /// the reference.
   template <class T>
   const T& prepared() const {
     Preparation& preparation = preparation_for(typeid(T));
-    std::call_once(preparation.once, [&] { preparation.value = std::make_shared<const T>(T::of(surface_)); });
+    std::call_once(preparation.once, [&] {
+      if constexpr (requires(const Body& body) { T::of(body); }) {
+        preparation.value = std::make_shared<const T>(T::of(*this));  // It builds on other preparations.
+      } else {
+        preparation.value = std::make_shared<const T>(T::of(surface_));
+      }
+    });
     return *static_cast<const T*>(preparation.value.get());
   }
 

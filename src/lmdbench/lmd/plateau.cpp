@@ -1,18 +1,27 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/geometry/convex_polygon.h>
 #include <lmdbench/lmd/first_order.h>
+#include <lmdbench/lmd/flat_pieces.h>
 #include <lmdbench/lmd/plateau.h>
 #include <lmdbench/mesh/feature_corners.h>
+#include <lmdbench/mesh/flat_regions.h>
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
+#include <optional>
 #include <span>
 #include <tuple>
+#include <utility>
 
 namespace lmdbench {
 
 namespace {
+
+/// Gap, relative to the coordinates, that rounding may leave between sets of minimisers that touch.
+constexpr double TOUCHING_SETS = 1e-9;
 
 /// A vertex pair that a local minimum touches.
 struct Touch {
@@ -30,12 +39,13 @@ bool feature_pair_less(const Lmd& a, const Lmd& b) {
 /// Equal distance and direction up to rounding of the points' coordinates and up to the tilt that the
 /// first-order test lets pass on each side: faces tilted by so little count as parallel there, so they must
 /// here, or one plateau would be reported corner by corner.
-bool same_plane_of_contact(const Lmd& a, const Lmd& b) {
+/// @param tolerance of rounded meshes [m]
+bool same_plane_of_contact(const Lmd& a, const Lmd& b, double tolerance) {
   if (a.intersecting != b.intersecting) return false;
   if (a.intersecting) return true;
   const double coordinates =
       std::max(a.point_moving.cwiseAbs().maxCoeff(), a.point_fixed.cwiseAbs().maxCoeff());
-  const double rounding = 64.0 * std::numeric_limits<double>::epsilon() * coordinates +
+  const double rounding = tolerance + 64.0 * std::numeric_limits<double>::epsilon() * coordinates +
                           2.0 * PLATEAU_PIECE_TOLERANCE * (a.point_moving - b.point_moving).norm();
   if (std::abs(a.distance - b.distance) > PLATEAU_TOLERANCE * std::max(a.distance, b.distance) + rounding)
     return false;
@@ -43,12 +53,128 @@ bool same_plane_of_contact(const Lmd& a, const Lmd& b) {
   return difference.norm() <= PLATEAU_TOLERANCE * std::max(a.distance, b.distance) + rounding;
 }
 
+/// Corners of a piece's set of minimisers, on the moving mesh: a point, a segment's ends, or the polygon in
+/// which two triangles overlap, seen along the contact's direction.
+std::vector<Vec2> corners_of(const Scene& scene, const RigidTransform& X_WM, const LocalMinimum& piece,
+                             const PlanarFrame& frame_W) {
+  const Lmd& lmd = piece.lmd;
+  const Vec2 centre = frame_W.flat(lmd.point_moving);
+  if (piece.dimension == 0) return {centre};
+  const Surface& moving = scene.moving->surface();
+  const Surface& fixed = scene.fixed[static_cast<std::size_t>(lmd.fixed_body)]->surface();
+  if (piece.dimension == 2) {
+    const ConvexPolygon overlap =
+        ConvexPolygon(frame_W, X_WM.triangle(moving.mesh.triangle(lmd.triangle_moving)))
+            .cut_by(ConvexPolygon(frame_W, fixed.mesh.triangle(lmd.triangle_fixed)));
+    return overlap.corners.empty() ? std::vector<Vec2>{centre} : overlap.corners;
+  }
+  // A segment lies along the edge of one of the two.
+  const bool on_moving = lmd.feature_moving.kind == FeatureKind::EDGE;
+  const FeatureId& edge = on_moving ? lmd.feature_moving : lmd.feature_fixed;
+  if (edge.kind != FeatureKind::EDGE) return {centre};
+  const auto& mesh = (on_moving ? moving : fixed).mesh;
+  const auto& ends = (on_moving ? moving : fixed).adjacency.edges[static_cast<std::size_t>(edge.index)];
+  const Vec3 own =
+      mesh.vertices[static_cast<std::size_t>(ends[1])] - mesh.vertices[static_cast<std::size_t>(ends[0])];
+  const Vec3 half = 0.5 * piece.measure * (on_moving ? X_WM.direction(own) : own).normalized();
+  return {frame_W.flat(lmd.point_moving - half), frame_W.flat(lmd.point_moving + half)};
+}
+
+/// Whether the sets are farther apart than the gap along the axis.
+bool is_apart(const std::vector<Vec2>& a, const std::vector<Vec2>& b, const Vec2& axis, double gap) {
+  const double length = axis.norm();
+  if (!(length > 0.0)) return false;
+  double low_a = std::numeric_limits<double>::infinity(), high_a = -low_a, low_b = low_a, high_b = -low_a;
+  for (const Vec2& x : a) {
+    low_a = std::min(low_a, axis.dot(x));
+    high_a = std::max(high_a, axis.dot(x));
+  }
+  for (const Vec2& x : b) {
+    low_b = std::min(low_b, axis.dot(x));
+    high_b = std::max(high_b, axis.dot(x));
+  }
+  return std::max(low_b - high_a, low_a - high_b) > gap * length;
+}
+
+/// Whether the sets of minimisers of two pieces of one height touch: large cells that share a corner may
+/// carry sets that are apart. Separating axes of convex polygons, segments and points: square to the sides,
+/// and along segments.
+bool sets_touch(const Scene& scene, const RigidTransform& X_WM, const LocalMinimum& a, const LocalMinimum& b,
+                double tolerance) {
+  // Points and segments may be all that a tilt of rounding leaves of one set.
+  if (std::min(a.dimension, b.dimension) < 2 || a.lmd.intersecting) return true;
+  const PlanarFrame frame(a.lmd.point_moving, a.lmd.direction);
+  const std::vector<Vec2> of_a = corners_of(scene, X_WM, a, frame), of_b = corners_of(scene, X_WM, b, frame);
+  const double coordinates =
+      std::max(a.lmd.point_moving.cwiseAbs().maxCoeff(), b.lmd.point_moving.cwiseAbs().maxCoeff());
+  const double gap = tolerance + TOUCHING_SETS * coordinates;
+  for (const auto* set : {&of_a, &of_b}) {
+    for (std::size_t k = 0; k < set->size() && set->size() > 1; ++k) {
+      const Vec2 side = (*set)[(k + 1) % set->size()] - (*set)[k];
+      if (is_apart(of_a, of_b, Vec2(-side[1], side[0]), gap)) return false;
+      if (set->size() == 2 && is_apart(of_a, of_b, side, gap)) return false;
+    }
+  }
+  return true;
+}
+
 std::size_t root_of(std::vector<std::size_t>& parents, std::size_t i) {
   while (parents[i] != i) i = parents[i] = parents[parents[i]];
   return i;
 }
 
-Lmd representative(std::span<const LocalMinimum> minima, std::span<const std::size_t> plateau) {
+/// The flat feature that a piece's feature is part of: a region, or a straight edge; `index` counts those.
+FeatureId flat_feature(const Surface& surface, const FlatRegions& regions, const FeatureId& feature) {
+  const auto i = static_cast<std::size_t>(feature.index);
+  if (feature.kind == FeatureKind::FACE) return {FeatureKind::FACE, regions.region_of_triangle[i]};
+  if (feature.kind == FeatureKind::VERTEX) return {};
+  if (regions.straight_of_edge[i] >= 0) return {FeatureKind::EDGE, regions.straight_of_edge[i]};
+  const auto triangle = static_cast<std::size_t>(surface.adjacency.edge_triangles[feature.index].front());
+  return {FeatureKind::FACE, regions.region_of_triangle[triangle]};
+}
+
+/// The face or edge that names a point of a flat feature, and a triangle with it.
+std::pair<FeatureId, std::int32_t> name_at(const Body& body, const FeatureId& flat, const Vec3& p_S) {
+  const Surface& surface = body.surface();
+  const FlatRegions& regions = body.prepared<FlatRegions>();
+  if (flat.kind == FeatureKind::FACE) {
+    const std::int32_t face = regions.face_at(surface, flat.index, p_S);
+    return {{FeatureKind::FACE, face}, face};
+  }
+  const std::int32_t edge = regions.edge_at(surface, flat.index, p_S);
+  return {{FeatureKind::EDGE, edge}, surface.adjacency.edge_triangles[edge].front()};
+}
+
+/// Gives a plateau's representative the name that merge_plateaus promises.
+void name_plateau(const Scene& scene, const RigidTransform& X_WM, std::span<const LocalMinimum> minima,
+                  std::span<const std::size_t> plateau, int dimension, Lmd& lmd) {
+  const Body& moving = *scene.moving;
+  const Body& fixed = *scene.fixed[static_cast<std::size_t>(lmd.fixed_body)];
+  std::optional<std::pair<FeatureId, FeatureId>> first;
+  for (const std::size_t i : plateau) {
+    if (minima[i].dimension != dimension) continue;
+    const auto pair = std::pair(
+        flat_feature(moving.surface(), moving.prepared<FlatRegions>(), minima[i].lmd.feature_moving),
+        flat_feature(fixed.surface(), fixed.prepared<FlatRegions>(), minima[i].lmd.feature_fixed));
+    // A triangle without area is on no flat feature.
+    if (pair.first.index < 0 || pair.second.index < 0) continue;
+    if (!first || pair < *first) first = pair;
+  }
+  if (!first) return;
+  const Vec3 p_M = X_WM.rotation.transpose() * (lmd.point_moving - X_WM.translation);
+  std::tie(lmd.feature_moving, lmd.triangle_moving) = name_at(moving, first->first, p_M);
+  std::tie(lmd.feature_fixed, lmd.triangle_fixed) = name_at(fixed, first->second, lmd.point_fixed);
+}
+
+Lmd representative(const Scene& scene, const RigidTransform& X_WM, std::span<const LocalMinimum> minima,
+                   std::span<const std::size_t> plateau) {
+  if (plateau.size() == 1) {
+    const LocalMinimum& only = minima[plateau.front()];
+    Lmd lmd = only.lmd;
+    if (only.dimension > 0 && !lmd.intersecting)
+      name_plateau(scene, X_WM, minima, plateau, only.dimension, lmd);
+    return lmd;
+  }
   int dimension = 0;
   for (const std::size_t i : plateau) dimension = std::max(dimension, minima[i].dimension);
   double total = 0.0;
@@ -80,6 +206,7 @@ Lmd representative(std::span<const LocalMinimum> minima, std::span<const std::si
     const Vec3 d = centroid_fixed - centroid_moving;
     lmd.distance = d.norm();
     lmd.direction = d / lmd.distance;
+    if (dimension > 0) name_plateau(scene, X_WM, minima, plateau, dimension, lmd);
   }
   return lmd;
 }
@@ -90,6 +217,7 @@ void keep_one_a_feature_pair(std::vector<LocalMinimum>& minima) {
   std::sort(minima.begin(), minima.end(), [](const LocalMinimum& a, const LocalMinimum& b) {
     if (feature_pair_less(a.lmd, b.lmd) || feature_pair_less(b.lmd, a.lmd))
       return feature_pair_less(a.lmd, b.lmd);
+    if (a.dimension != b.dimension) return a.dimension > b.dimension;
     if (a.lmd.distance != b.lmd.distance) return a.lmd.distance < b.lmd.distance;
     if (a.measure != b.measure) return a.measure > b.measure;
     return std::tie(a.lmd.triangle_moving, a.lmd.triangle_fixed) <
@@ -105,7 +233,8 @@ void keep_one_a_feature_pair(std::vector<LocalMinimum>& minima) {
                minima.end());
 }
 
-void merge_plateaus(const Scene& scene, std::vector<LocalMinimum>& minima, LmdSet& lmds) {
+void merge_plateaus(const Scene& scene, const RigidTransform& X_WM, std::vector<LocalMinimum>& minima,
+                    LmdSet& lmds) {
   lmds.clear();
   keep_one_a_feature_pair(minima);
 
@@ -126,12 +255,16 @@ void merge_plateaus(const Scene& scene, std::vector<LocalMinimum>& minima, LmdSe
   std::vector<std::size_t> parents(minima.size());
   std::iota(parents.begin(), parents.end(), std::size_t{0});
   for (std::size_t begin = 0; begin < touches.size();) {
+    const double tolerance = parallel_tolerance(
+        scene.moving->surface(), scene.fixed[static_cast<std::size_t>(touches[begin].fixed_body)]->surface());
     std::size_t end = begin + 1;
     while (end < touches.size() && touches[begin].place() == touches[end].place()) ++end;
     for (std::size_t i = begin; i < end; ++i) {
       for (std::size_t j = i + 1; j < end; ++j) {
         const std::size_t a = touches[i].minimum, b = touches[j].minimum;
-        if (!same_plane_of_contact(minima[a].lmd, minima[b].lmd)) continue;
+        if (!same_plane_of_contact(minima[a].lmd, minima[b].lmd, tolerance) ||
+            !sets_touch(scene, X_WM, minima[a], minima[b], tolerance))
+          continue;
         const std::size_t root_a = root_of(parents, a), root_b = root_of(parents, b);
         parents[std::max(root_a, root_b)] = std::min(root_a, root_b);
       }
@@ -153,11 +286,8 @@ void merge_plateaus(const Scene& scene, std::vector<LocalMinimum>& minima, LmdSe
       begin = end;
       continue;
     }
-    if (end - begin == 1) {
-      lmds.push_back(minima[order[begin]].lmd);
-    } else {
-      lmds.push_back(representative(minima, std::span(order).subspan(begin, end - begin)));
-    }
+    const std::span pieces = std::span(order).subspan(begin, end - begin);
+    lmds.push_back(representative(scene, X_WM, minima, pieces));
     begin = end;
   }
   std::sort(lmds.begin(), lmds.end(), lmd_less);

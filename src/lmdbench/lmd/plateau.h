@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <lmdbench/geometry/pose.h>
 #include <lmdbench/lmd/lmd.h>
 #include <lmdbench/lmd/scene.h>
 
@@ -24,16 +25,22 @@ struct LocalMinimum {
 /// neighbouring minima are one plateau.
 inline constexpr double PLATEAU_TOLERANCE = 1e-9;
 
-/// Leaves one entry a feature pair, sorted by body and features: the nearest, of those the one with the
-/// largest measure; strict if any of them is.
+/// Leaves one entry a feature pair, sorted by body and features: of the highest dimension the nearest, of
+/// those the one with the largest measure; strict if any of them is.
 void keep_one_a_feature_pair(std::vector<LocalMinimum>& minima);
 
 /// Makes the LMD set out of local minima: one entry a feature pair, and one entry a plateau. Parallel edges
 /// or faces have a whole segment or polygon of minimisers that spreads over many feature pairs; neighbouring
 /// pairs of equal distance and direction are joined, and the plateau is represented by the centroid of its
-/// pieces of the highest dimension, on the features of the piece nearest to it (DEFINITION.md). Plateaus
-/// without a strict piece are dropped. The result depends on the set alone, never on the order of `minima`;
-/// it is sorted by `lmd_less`.
-void merge_plateaus(const Scene& scene, std::vector<LocalMinimum>& minima, LmdSet& lmds);
+/// pieces of the highest dimension (DEFINITION.md). Where the meshes have a planar tolerance, distances
+/// may differ by it (flat_pieces.h). Plateaus without a strict piece are dropped.
+///
+/// A plateau is named after the flat features it lies on (flat_regions.h), so that its name depends on no
+/// piece: on each mesh the face or edge that `FlatRegions::face_at` or `edge_at` gives for the centroid; of
+/// several pairs of regions or straight edges the first. Minima that meet in one point, and triangles that
+/// intersect, are named after the piece nearest to the centroid. The result depends on the set alone, never
+/// on the order of `minima`; it is sorted by `lmd_less`.
+void merge_plateaus(const Scene& scene, const RigidTransform& X_WM, std::vector<LocalMinimum>& minima,
+                    LmdSet& lmds);
 
 }  // namespace lmdbench

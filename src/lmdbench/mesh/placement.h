@@ -31,6 +31,7 @@ inline TriangleMesh scaled_to_diagonal(TriangleMesh mesh, double diagonal) {
   const Vec3 centre = bounding_box_centre(mesh);
   const double factor = diagonal / own_diagonal;
   for (Vec3& vertex : mesh.vertices) vertex = factor * (vertex - centre);
+  mesh.planar_tolerance *= factor;
   refuse_extreme_size(mesh, "");
   return mesh;
 }

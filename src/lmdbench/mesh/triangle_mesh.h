@@ -16,6 +16,9 @@ namespace lmdbench {
 struct TriangleMesh {
   std::vector<Vec3> vertices;                          ///< #V by 3.
   std::vector<std::array<std::int32_t, 3>> triangles;  ///< #T by 3, counter-clockwise seen from outside.
+  /// How far the true planes may be from those of the coordinates, because the file was rounded (flatten.h);
+  /// 0 for a mesh that is taken at its word.
+  double planar_tolerance = 0.0;
 
   Triangle triangle(std::int32_t index) const {
     const auto& corners = triangles[static_cast<std::size_t>(index)];

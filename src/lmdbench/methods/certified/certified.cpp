@@ -4,6 +4,7 @@
 #include <lmdbench/geometry/segment_distance.h>
 #include <lmdbench/geometry/triangle_distance.h>
 #include <lmdbench/lmd/first_order.h>
+#include <lmdbench/lmd/flat_pieces.h>
 #include <lmdbench/lmd/search_counters.h>
 #include <lmdbench/lmd/triangle_pair.h>
 #include <lmdbench/methods/certified/certified.h>
@@ -33,6 +34,17 @@ constexpr double APART = 1e-6;
 /// Pairs between the one that is decided and the one whose data is fetched; twice that for the indices,
 /// without which the rest is not known.
 constexpr std::size_t FETCH_DISTANCE = 4;
+
+/// Flat contacts are found from the largest features down, so that what is part of one is known before it is
+/// looked at.
+constexpr int RANKS = 3;
+int rank_of(const WidePair& pair) {
+  const int faces = static_cast<int>(pair.a.is_face()) + static_cast<int>(pair.b.is_face());
+  if (faces == 2) return 0;
+  const bool vertex =
+      pair.a.feature_id().kind == FeatureKind::VERTEX || pair.b.feature_id().kind == FeatureKind::VERTEX;
+  return faces == 1 && !vertex ? 1 : 2;
+}
 
 /// Brings a feature's indices near; a mesh that does not fit into a processor's cache
 /// is slow to follow otherwise.
@@ -127,6 +139,7 @@ bool strict_points(const PairFilter& filter, const FeatureId& on_moving, const F
 Certified::Certified(Scene scene, const CertifiedOptions& options, WideKernel kernel)
     : scene_(std::move(scene)),
       hierarchy_moving_(scene_.moving->prepared<WideHierarchy>()),
+      flat_moving_(&scene_.moving->prepared<FlatMesh>()),
       coherent_(options.frame_coherence),
       kernel_(kernel) {
   double extent = hierarchy_moving_.radius;
@@ -137,14 +150,17 @@ Certified::Certified(Scene scene, const CertifiedOptions& options, WideKernel ke
   // Without a cutoff that means something there is nothing to save, and lever arms would be without bound.
   coherent_ = coherent_ && scene_.cutoff <= 10.0 * extent;
   kept_.resize(scene_.fixed.size());
+  for (const auto& body : scene_.fixed) flat_fixed_.push_back(&body->prepared<FlatMesh>());
 }
 
-bool Certified::evaluate(const PairFilter& filter, std::int32_t body, const TrianglePair& pair,
-                         LocalMinimum& minimum, WorkCounters& counters) const {
+bool Certified::evaluate(const Frame& frame, const TrianglePair& pair, LocalMinimum& minimum,
+                         WorkCounters& counters) const {
+  const PairFilter& filter = frame.filter;
   const Triangle a = filter.X_WM.triangle(filter.moving.mesh.triangle(pair.moving));
   const TrianglePairDistance nearest = triangle_distance(a, filter.fixed.mesh.triangle(pair.fixed));
   ++counters[Counter::TRIANGLE_DISTANCES];
-  minimum = minimum_of_triangle_pair(filter.moving, filter.fixed, body, pair.moving, pair.fixed, nearest);
+  minimum =
+      minimum_of_triangle_pair(filter.moving, filter.fixed, frame.body, pair.moving, pair.fixed, nearest);
   if (!(nearest.squared_distance <= scene_.cutoff * scene_.cutoff)) {
     ++counters[Counter::REJECTED_CUTOFF];
     return false;
@@ -154,11 +170,21 @@ bool Certified::evaluate(const PairFilter& filter, std::int32_t body, const Tria
 }
 
 /// Settles a candidate or leaves its triangle pairs to decide_pending; returns what TraversalFront asks for.
-Certificate Certified::decide(const PairFilter& filter, std::int32_t body, const WidePair& candidate,
-                              double lever_arm, WorkCounters& counters) {
+Certificate Certified::decide(const Frame& frame, const WidePair& candidate, double lever_arm,
+                              WorkCounters& counters) {
   const FeatureId on_moving = candidate.a.feature_id(), on_fixed = candidate.b.feature_id();
-  const PairAnswer answer = filter(on_moving, on_fixed, lever_arm);
+  const PairAnswer answer = frame.filter(on_moving, on_fixed, lever_arm);
   if (answer.verdict == PairVerdict::NO_LMD) return answer.certificate;
+  if (!frame.is_flat || !decide_flat(frame, on_moving, on_fixed, counters))
+    settle(frame, on_moving, on_fixed, answer, counters);
+  return {};
+}
+
+/// Makes a minimum of a pair of single features that the filter did not reject, or leaves its triangle pairs
+/// to decide_pending.
+void Certified::settle(const Frame& frame, const FeatureId& on_moving, const FeatureId& on_fixed,
+                       const PairAnswer& answer, WorkCounters& counters) {
+  const PairFilter& filter = frame.filter;
   const auto triangles_moving = filter.moving.incident_triangles(on_moving);
   const auto triangles_fixed = filter.fixed.incident_triangles(on_fixed);
   Lmd lmd;
@@ -171,21 +197,24 @@ Certificate Certified::decide(const PairFilter& filter, std::int32_t body, const
     lmd.feature_fixed = on_fixed;
     lmd.triangle_moving = triangles_moving.front();
     lmd.triangle_fixed = triangles_fixed.front();
-    lmd.fixed_body = body;
+    lmd.fixed_body = frame.body;
     ++counters[Counter::FIRST_ORDER_TESTS];
     if (is_local_minimum(filter.moving, filter.X_WM, filter.fixed, lmd)) {
       minima_.push_back({lmd, 0, 0.0});
-      return {};
+      return;
     }
   }
   // Close to a tie, or the exact test sees the pair otherwise: leave nothing to the closed form.
   for (const std::int32_t t_moving : triangles_moving)
     for (const std::int32_t t_fixed : triangles_fixed) pending_.push_back({t_moving, t_fixed});
-  return {};
 }
 
-Certificate Certified::decide_touching(const PairFilter& filter, std::int32_t body, const WidePair& candidate,
-                                       double lever_arm, WorkCounters& counters) {
+Certificate Certified::decide_touching(const Frame& frame, const WidePair& candidate, double lever_arm,
+                                       WorkCounters& counters) {
+  const PairFilter& filter = frame.filter;
+  if (frame.flat_moving.mesh.is_joined(candidate.a.feature_id()) ||
+      frame.flat_fixed.mesh.is_joined(candidate.b.feature_id()))
+    return decide_touching_flat(frame, candidate, lever_arm, counters);
   const TrianglePair pair{candidate.a.feature_id().index, candidate.b.feature_id().index};
   const Triangle a = filter.X_WM.triangle(filter.moving.mesh.triangle(pair.moving));
   const Triangle b = filter.fixed.mesh.triangle(pair.fixed);
@@ -196,34 +225,47 @@ Certificate Certified::decide_touching(const PairFilter& filter, std::int32_t bo
   const ClearGap clear = clear_gap(a, normal_a, b, normal_b, margin);
   if (clear.gap > 0.0) return {clear.gap - margin, clear.axis, 0.0, lever_arm};
   LocalMinimum minimum;
-  if (evaluate(filter, body, pair, minimum, counters)) minima_.push_back(minimum);
+  if (evaluate(frame, pair, minimum, counters)) minima_.push_back(minimum);
   return {minimum.lmd.distance - margin, minimum.lmd.direction, 0.0, lever_arm};
 }
 
-void Certified::decide_pending(const PairFilter& filter, std::int32_t body, WorkCounters& counters) {
+void Certified::decide_pending(const Frame& frame, WorkCounters& counters) {
   std::sort(pending_.begin(), pending_.end());
   pending_.erase(std::unique(pending_.begin(), pending_.end()), pending_.end());
   LocalMinimum minimum;
   for (const TrianglePair& pair : pending_)
-    if (evaluate(filter, body, pair, minimum, counters)) minima_.push_back(minimum);
+    if (evaluate(frame, pair, minimum, counters)) minima_.push_back(minimum);
   pending_.clear();
 }
 
-void Certified::report(double coordinates, LmdSet& lmds) {
+void Certified::report(const RigidTransform& X_WM, double coordinates, LmdSet& lmds) {
+  double tolerance = 0.0;
+  for (const auto& body : scene_.fixed)
+    tolerance = std::max(tolerance, parallel_tolerance(scene_.moving->surface(), body->surface()));
+  const auto merge = [&] {
+    merge_plateaus(scene_, X_WM, minima_, lmds);
+    lmds.insert(lmds.end(), plateaus_.begin(), plateaus_.end());
+    std::sort(lmds.begin(), lmds.end(), lmd_less);
+  };
   // A pair may come from its own candidate and from that of a neighbour that was close to a tie.
   keep_one_a_feature_pair(minima_);
-  // Plateaus are rare, and have equal distances.
+  // Plateaus are rare: they have a size, or several pairs of equal distances.
   for (std::size_t i = 0; i < minima_.size(); ++i) {
+    if (minima_[i].dimension > 0) {
+      merge();
+      return;
+    }
     for (std::size_t j = i + 1; j < minima_.size(); ++j) {
       const double a = minima_[i].lmd.distance, b = minima_[j].lmd.distance;
-      if (std::abs(a - b) > APART * std::max(a, b) + RELATIVE_TOUCH * coordinates) continue;
-      merge_plateaus(scene_, minima_, lmds);
+      if (std::abs(a - b) > APART * std::max(a, b) + RELATIVE_TOUCH * coordinates + tolerance) continue;
+      merge();
       return;
     }
   }
   lmds.clear();
   for (const LocalMinimum& minimum : minima_)
     if (minimum.strict) lmds.push_back(minimum.lmd);
+  lmds.insert(lmds.end(), plateaus_.begin(), plateaus_.end());
   std::sort(lmds.begin(), lmds.end(), lmd_less);
 }
 
@@ -231,6 +273,7 @@ void Certified::search(const Pose& X_WM, LmdSet& lmds, WorkCounters& counters) {
   const RigidTransform transform(X_WM);
   const WideHierarchy& moving = hierarchy_moving_;
   minima_.clear();
+  plateaus_.clear();
   double coordinates = transform.point(moving.origin).cwiseAbs().maxCoeff() + moving.radius;
   for (const WideHierarchy* fixed : hierarchies_fixed_)
     coordinates = std::max(coordinates, fixed->origin.cwiseAbs().maxCoeff() + fixed->radius);
@@ -251,23 +294,41 @@ void Certified::search(const Pose& X_WM, LmdSet& lmds, WorkCounters& counters) {
     touch_ = touch;
   }
 
+  static const RigidTransform identity;
+  const FlatSide flat_moving{scene_.moving->surface(), *flat_moving_, transform, true};
   for (std::size_t i = 0; i < scene_.fixed.size(); ++i) {
     const auto body = static_cast<std::int32_t>(i);
     const WideHierarchy& fixed = *hierarchies_fixed_[i];
+    const FlatSide flat_fixed{scene_.fixed[i]->surface(), *flat_fixed_[i], identity, false};
     const PairFilter filter{scene_.moving->surface(),
                             transform,
                             scene_.fixed[i]->surface(),
                             scene_.cutoff,
                             touch,
                             FILTER_MARGIN,
-                            RELATIVE_TINY * coordinates};
+                            RELATIVE_TINY * coordinates,
+                            flat_moving.mesh.joins_features ? &flat_moving.mesh : nullptr,
+                            flat_fixed.mesh.joins_features ? &flat_fixed.mesh : nullptr};
+    PairFilter single_filter = filter;
+    single_filter.flat_moving = single_filter.flat_fixed = nullptr;
+    const double tolerance = parallel_tolerance(filter.moving, filter.fixed);
+    const Frame frame{body,
+                      filter,
+                      single_filter,
+                      flat_moving,
+                      flat_fixed,
+                      tolerance,
+                      tolerance > 0.0 || flat_moving.mesh.joins_features || flat_fixed.mesh.joins_features};
+    if (frame.is_flat) contacts_.start(body, scene_.cutoff, touch, coordinates, tolerance);
+    const std::size_t first = minima_.size();
     const WideQuery query(moving, fixed, transform, scene_.cutoff, touch);
     WideCounters work;
     const auto decide_pair = [&](const WidePair& pair, bool touches, double lever_arm) {
       ++counters[Counter::LEAF_PAIRS];
-      return touches ? decide_touching(filter, body, pair, lever_arm, counters)
-                     : decide(filter, body, pair, lever_arm, counters);
+      return touches ? decide_touching(frame, pair, lever_arm, counters)
+                     : decide(frame, pair, lever_arm, counters);
     };
+    const int ranks = frame.is_flat ? RANKS : 1;
     TraversalFront& front = kept_[i].front;
     if (keep && query.possible && kept_[i].policy.keep()) {
       if (front.empty()) {
@@ -276,7 +337,10 @@ void Certified::search(const Pose& X_WM, LmdSet& lmds, WorkCounters& counters) {
         front.advance(moving, fixed, query, motion_, transform, longest, work);
         kept_[i].policy.note(work.node_tests, front.test_count());
       }
-      front.for_each_due(moving, motion_, longest, decide_pair);
+      front.collect_due(motion_);
+      for (int rank = 0; rank < ranks; ++rank)
+        front.for_each_due(moving, motion_, longest, decide_pair,
+                           [&](const WidePair& pair) { return ranks == 1 || rank_of(pair) == rank; });
     } else {
       front.clear();
       find_wide_pairs(moving, fixed, query, kernel_, scratch_, work);
@@ -288,14 +352,18 @@ void Certified::search(const Pose& X_WM, LmdSet& lmds, WorkCounters& counters) {
       for (std::size_t k = 0; k < scratch_.lmd_pairs.size(); ++k) {
         fetch(k + 2 * FETCH_DISTANCE, fetch_indices);
         fetch(k + FETCH_DISTANCE, fetch_vertices);
-        decide_pair(scratch_.lmd_pairs[k], false, 1.0);
+        if (ranks == 1 || rank_of(scratch_.lmd_pairs[k]) == 0) decide_pair(scratch_.lmd_pairs[k], false, 1.0);
       }
+      for (int rank = 1; rank < ranks; ++rank)
+        for (const WidePair& pair : scratch_.lmd_pairs)
+          if (rank_of(pair) == rank) decide_pair(pair, false, 1.0);
       for (const WidePair& pair : scratch_.touch_pairs) decide_pair(pair, true, 1.0);
     }
-    decide_pending(filter, body, counters);
+    decide_pending(frame, counters);
+    if (frame.is_flat) take_contacts(frame, first);
     add_traversal<Counter>(counters, work);
   }
-  report(coordinates, lmds);
+  report(transform, coordinates, lmds);
 }
 
 }  // namespace lmdbench

@@ -8,6 +8,7 @@
 #include <lmdbench/methods/certified/coherence/coherence_policy.h>
 #include <lmdbench/methods/certified/coherence/traversal_front.h>
 #include <lmdbench/methods/certified/filter.h>
+#include <lmdbench/methods/certified/flat/flat_contacts.h>
 #include <lmdbench/methods/certified/hierarchy/wide_traversal.h>
 #include <lmdbench/methods/certified/options.h>
 
@@ -32,6 +33,13 @@ const MethodDescription& certified_method();
 /// Why the set equals `exhaustive`'s: PROOF.md, bound by bound. In short, what is reported has passed the
 /// truth's own test; and no bound on the way to it rejects a pair that the truth accepts, because pairs nearer
 /// than the touch distance are held back by no cone, and farther ones have accurate directions.
+///
+/// Flat contact: a region of faces in one plane and a line of edges are one feature each (flat_mesh.h), so
+/// that tessellation costs nothing. Two of them are parallel, and their sets of minimisers are found whole
+/// from the outlines (flat_contacts.h); or they have one candidate point, and the faces or edges there decide
+/// as above; or rounding decides, and then all their triangle pairs are evaluated.
+///
+/// The merging of plateaus is the truth's, and it sees the same minima.
 ///
 /// Frame coherence: where the pose moves by little, step 1 is not made anew. Every test of the last
 /// frames is kept with the number of frames that it stands if the motion goes on as forecast
@@ -70,24 +78,60 @@ class Certified : public Method {
     auto operator<=>(const TrianglePair&) const = default;
   };
 
-  Certificate decide(const PairFilter& filter, std::int32_t body, const WidePair& candidate, double lever_arm,
-                     WorkCounters& counters);
-  Certificate decide_touching(const PairFilter& filter, std::int32_t body, const WidePair& candidate,
-                              double lever_arm, WorkCounters& counters);
-  void decide_pending(const PairFilter& filter, std::int32_t body, WorkCounters& counters);
-  bool evaluate(const PairFilter& filter, std::int32_t body, const TrianglePair& pair, LocalMinimum& minimum,
+  /// A fixed body in a frame.
+  struct Frame {
+    std::int32_t body;
+    const PairFilter& filter;         ///< Of flat features, by their leads.
+    const PairFilter& single_filter;  ///< Of single faces and edges.
+    const FlatSide& flat_moving;
+    const FlatSide& flat_fixed;
+    double tolerance;  ///< parallel_tolerance
+    bool is_flat;      ///< Some flat feature has more than one face or edge, or
+                       ///< there is a tolerance.
+  };
+
+  Certificate decide(const Frame& frame, const WidePair& candidate, double lever_arm, WorkCounters& counters);
+  void settle(const Frame& frame, const FeatureId& on_moving, const FeatureId& on_fixed,
+              const PairAnswer& answer, WorkCounters& counters);
+  Certificate decide_touching(const Frame& frame, const WidePair& candidate, double lever_arm,
+                              WorkCounters& counters);
+  void decide_pending(const Frame& frame, WorkCounters& counters);
+  bool evaluate(const Frame& frame, const TrianglePair& pair, LocalMinimum& minimum,
                 WorkCounters& counters) const;
-  void report(double coordinates, LmdSet& lmds);
+
+  // certified_flat.cpp
+  bool decide_flat(const Frame& frame, const FeatureId& on_moving, const FeatureId& on_fixed,
+                   WorkCounters& counters);
+  bool decide_edges(const Frame& frame, const FeatureId& on_moving, const FeatureId& on_fixed, bool joined,
+                    WorkCounters& counters);
+  bool decide_vertex(const Frame& frame, const FeatureId& on_moving, const FeatureId& on_fixed, bool joined,
+                     WorkCounters& counters);
+  void decide_single(const Frame& frame, const FeatureId& on_moving, const FeatureId& on_fixed,
+                     WorkCounters& counters);
+  void expand_faces(const Frame& frame, std::int32_t region_moving, std::int32_t region_fixed);
+  void expand_edge_face(const Frame& frame, const FlatSide& of_edge, std::int32_t straight,
+                        const FlatSide& of_face, std::int32_t region);
+  void expand_edges(const Frame& frame, std::int32_t straight_moving, std::int32_t straight_fixed);
+  Certificate decide_touching_flat(const Frame& frame, const WidePair& candidate, double lever_arm,
+                                   WorkCounters& counters);
+  void take_contacts(const Frame& frame, std::size_t first);
+
+  void report(const RigidTransform& X_WM, double coordinates, LmdSet& lmds);
 
   Scene scene_;
   const WideHierarchy& hierarchy_moving_;
   std::vector<const WideHierarchy*> hierarchies_fixed_;  ///< One a fixed body.
+  const FlatMesh* flat_moving_;
+  std::vector<const FlatMesh*> flat_fixed_;  ///< One a fixed body.
   bool coherent_;
   WideKernel kernel_;
   double touch_ = 0.0;
   WideScratch scratch_;
   std::vector<TrianglePair> pending_;
   std::vector<LocalMinimum> minima_;
+  FlatContacts contacts_;  ///< Of one fixed body.
+  LmdSet plateaus_;        ///< The contacts of all.
+  std::vector<std::int32_t> single_, corners_;
 
   /// Of one fixed body; empty where nothing is kept.
   struct Kept {

@@ -50,6 +50,7 @@ struct Side {
   const Surface& surface;
   const RigidTransform& X_WM;
   bool is_moving;
+  const FlatMesh* flat;
 
   const Vec3& vertex_S(std::int32_t vertex) const {
     return surface.mesh.vertices[static_cast<std::size_t>(vertex)];
@@ -59,6 +60,18 @@ struct Side {
   }
   Vec3 to_surface(const Vec3& d_W) const { return is_moving ? Vec3(X_WM.rotation.transpose() * d_W) : d_W; }
   Vec3 to_world(const Vec3& d_S) const { return is_moving ? X_WM.direction(d_S) : d_S; }
+  /// Ends of an edge, or of the whole straight edge.
+  const std::array<std::int32_t, 2>& ends(std::int32_t edge) const {
+    const auto e = static_cast<std::size_t>(edge);
+    if (flat == nullptr) return surface.adjacency.edges[e];
+    return flat->regions->straight_edges[static_cast<std::size_t>(flat->regions->straight_of_edge[e])].ends;
+  }
+  /// Shape of the region that the face is the lead of; null for a face alone.
+  const RegionShape* shape(std::int32_t face) const {
+    if (flat == nullptr) return nullptr;
+    const std::int32_t region = flat->regions->region_of_triangle[static_cast<std::size_t>(face)];
+    return region < 0 ? nullptr : flat->shapes.of_region(region);
+  }
   /// By how much a point of this mesh moves against the other for a displacement of 1.
   double sign() const { return is_moving ? 1.0 : -1.0; }
 };
@@ -69,7 +82,10 @@ struct Test {
   Side moving, fixed;
 
   Test(const PairFilter& f, double arm_of_turns)
-      : filter(f), lever_arm(arm_of_turns), moving{f.moving, f.X_WM, true}, fixed{f.fixed, f.X_WM, false} {}
+      : filter(f),
+        lever_arm(arm_of_turns),
+        moving{f.moving, f.X_WM, true, f.flat_moving},
+        fixed{f.fixed, f.X_WM, false, f.flat_fixed} {}
 
   /// What is left of a length that must fall to zero before anything changes, less what rounding and the
   /// truth's tolerances take. It loses `gradient` times the displacement.
@@ -122,8 +138,9 @@ struct Test {
     const auto& ends = surface.adjacency.edges[static_cast<std::size_t>(edge)];
     const Vec3 d_S = side.to_surface(d_W);
     const double squared_d = d_S.squaredNorm();
-    const Vec3& p0 = side.vertex_S(ends[0]);
-    const Vec3 p = p0 + parameter * (side.vertex_S(ends[1]) - p0);
+    const auto& whole = side.ends(edge);
+    const Vec3& p0 = side.vertex_S(whole[0]);
+    const Vec3 p = p0 + parameter * (side.vertex_S(whole[1]) - p0);
     PairAnswer answer = HOLDS;
     for (const std::int32_t triangle : surface.adjacency.edge_triangles[edge]) {
       for (const std::int32_t corner : surface.mesh.triangles[static_cast<std::size_t>(triangle)]) {
@@ -146,7 +163,7 @@ struct Test {
 
   PairAnswer vertex_edge(const Side& of_vertex, std::int32_t vertex, const Side& of_edge,
                          std::int32_t edge) const {
-    const auto& ends = of_edge.surface.adjacency.edges[static_cast<std::size_t>(edge)];
+    const auto& ends = of_edge.ends(edge);
     const Vec3 p = of_vertex.vertex_W(vertex);
     const Vec3 e0 = of_edge.vertex_W(ends[0]);
     const Vec3 u = of_edge.vertex_W(ends[1]) - e0;
@@ -175,6 +192,8 @@ struct Test {
                          std::int32_t face) const {
     const Vec3& normal_S = of_face.surface.face_normals[static_cast<std::size_t>(face)];
     if (normal_S.isZero(0.0)) return NEVER;
+    if (const RegionShape* shape = of_face.shape(face))
+      return vertex_region(of_vertex, vertex, of_face, face, *shape);
     const auto& corners = of_face.surface.mesh.triangles[static_cast<std::size_t>(face)];
     const Vec3 p = of_vertex.vertex_W(vertex);
     const Vec3 n = of_face.to_world(normal_S);
@@ -203,9 +222,34 @@ struct Test {
     return answer;
   }
 
+  /// The outline's bounding box alone; its faces say whether the foot is inside.
+  PairAnswer vertex_region(const Side& of_vertex, std::int32_t vertex, const Side& of_face, std::int32_t face,
+                           const RegionShape& shape) const {
+    const auto region =
+        static_cast<std::size_t>(of_face.flat->regions->region_of_triangle[static_cast<std::size_t>(face)]);
+    const Plane& plane = of_face.flat->regions->planes[region];
+    const Vec3 p = of_vertex.vertex_W(vertex);
+    const Vec3 p_S =
+        of_face.is_moving ? Vec3(of_face.X_WM.rotation.transpose() * (p - of_face.X_WM.translation)) : p;
+    const Vec3 n = of_face.to_world(plane.normal);
+    const double height = plane.height(p_S);
+    const Vec3 rise = of_vertex.sign() * n;
+    if (height < 0.0) return no_lmd_within(-height, rise);
+    PairAnswer answer = CLOSE;
+    if (settle(answer, near(height * height, -height * rise))) return answer;
+    const Vec2 x = shape.frame.flat(p_S);
+    for (int k = 0; k < 2; ++k) {
+      const Vec3 axis = of_vertex.sign() * of_face.to_world(k == 0 ? shape.frame.u : shape.frame.v);
+      if (x[k] > shape.high[k] + 2.0 * filter.touch) return no_lmd_within(x[k] - shape.high[k], -axis);
+      if (x[k] < shape.low[k] - 2.0 * filter.touch) return no_lmd_within(shape.low[k] - x[k], axis);
+    }
+    if (!settle(answer, in_vertex_cone(of_vertex, vertex, -height * n, 1.0))) answer = CLOSE;
+    return answer;
+  }
+
   PairAnswer edge_edge(std::int32_t a, std::int32_t b) const {
-    const auto& ends_a = moving.surface.adjacency.edges[static_cast<std::size_t>(a)];
-    const auto& ends_b = fixed.surface.adjacency.edges[static_cast<std::size_t>(b)];
+    const auto& ends_a = moving.ends(a);
+    const auto& ends_b = fixed.ends(b);
     const Vec3 p0 = moving.vertex_W(ends_a[0]);
     const Vec3 u = moving.vertex_W(ends_a[1]) - p0;
     const Vec3 q0 = fixed.vertex_W(ends_b[0]);
@@ -266,7 +310,7 @@ struct Test {
   PairAnswer edge_face(const Side& of_edge, std::int32_t edge, const Side& of_face, std::int32_t face) const {
     const Vec3& normal_S = of_face.surface.face_normals[static_cast<std::size_t>(face)];
     if (normal_S.isZero(0.0)) return NEVER;
-    const auto& ends = of_edge.surface.adjacency.edges[static_cast<std::size_t>(edge)];
+    const auto& ends = of_edge.ends(edge);
     const Vec3 e0 = of_edge.vertex_W(ends[0]);
     const Vec3 u = of_edge.vertex_W(ends[1]) - e0;
     const Vec3 n = of_face.to_world(normal_S);

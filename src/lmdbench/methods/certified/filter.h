@@ -5,6 +5,7 @@
 #include <lmdbench/geometry/pose.h>
 #include <lmdbench/mesh/surface.h>
 #include <lmdbench/methods/certified/coherence/certificate.h>
+#include <lmdbench/methods/certified/flat/flat_mesh.h>
 
 #include <cstdint>
 
@@ -13,9 +14,10 @@ namespace lmdbench {
 /// What the closed-form test of a feature pair says.
 enum class PairVerdict : std::uint8_t {
   NO_LMD,     ///< Some condition fails by more than the margin.
-  LMD,        ///< Every condition holds by more than the margin: any incident triangle pair gives the LMD.
-  BORDERLINE  ///< Some condition is within the margin (ties, parallel features): all incident triangle pairs
-              ///< decide.
+  LMD,        ///< Every condition holds by more than the margin: any incident triangle
+              ///< pair gives the LMD.
+  BORDERLINE  ///< Some condition is within the margin (ties, parallel features):
+              ///< all incident triangle pairs decide.
 };
 
 /// What a test answers, and what that stands.
@@ -30,9 +32,15 @@ struct PairFilter {
   const RigidTransform& X_WM;
   const Surface& fixed;
   double cutoff;  ///< metres
-  double touch;   ///< metres; pairs nearer than half of it are not this filter's: see Certified
-  double margin;  ///< Relative to the lengths compared, or a sine. Far above rounding, far below geometry.
-  double tiny;    ///< metres; a feature shorter than this is rounding in its size and always borderline
+  double touch;   ///< metres; pairs nearer than half of it are not this filter's:
+                  ///< see Certified
+  double margin;  ///< Relative to the lengths compared, or a sine. Far above
+                  ///< rounding, far below geometry.
+  double tiny;    ///< metres; a feature shorter than this is rounding in its size
+                  ///< and always borderline
+  /// Where given, the lead of a region or straight edge means all of it; what is not rejected is borderline.
+  const FlatMesh* flat_moving = nullptr;
+  const FlatMesh* flat_fixed = nullptr;
   /// Decides by the one candidate point pair that the two features have: two vertices; a vertex and its
   /// projection on an edge or face; the feet of the common perpendicular of two edges. The conditions are
   /// those of the ground truth's first-order test (first_order.h) with `margin` in place of its tolerance:

@@ -8,7 +8,7 @@
 
 namespace lmdbench {
 
-Exhaustive::Exhaustive(Scene scene) : scene_(std::move(scene)) {
+Exhaustive::Exhaustive(Scene scene) : scene_(std::move(scene)), flat_pieces_(scene_) {
   grids_.reserve(scene_.fixed.size());
   for (const auto& body : scene_.fixed) grids_.emplace_back(body->surface().mesh);
 }
@@ -18,6 +18,7 @@ void Exhaustive::search(const Pose& X_WM, LmdSet& lmds, WorkCounters& counters) 
   const Surface& moving = scene_.moving->surface();
   const double squared_cutoff = scene_.cutoff * scene_.cutoff;
   minima_.clear();
+  flat_pieces_.clear();
 
   const auto triangle_count = static_cast<std::int32_t>(moving.mesh.triangles.size());
   for (std::int32_t t_moving = 0; t_moving < triangle_count; ++t_moving) {
@@ -35,12 +36,14 @@ void Exhaustive::search(const Pose& X_WM, LmdSet& lmds, WorkCounters& counters) 
         }
         LocalMinimum minimum =
             minimum_of_triangle_pair(moving, fixed, static_cast<std::int32_t>(body), t_moving, t_fixed, pair);
+        flat_pieces_.offer(transform, static_cast<std::int32_t>(body), t_moving, t_fixed);
         ++counters[Counter::FIRST_ORDER_TESTS];
         if (meets_first_order(moving, transform, fixed, minimum)) minima_.push_back(minimum);
       });
     }
   }
-  merge_plateaus(scene_, minima_, lmds);
+  flat_pieces_.append_parallel(minima_);
+  merge_plateaus(scene_, transform, minima_, lmds);
 }
 
 }  // namespace lmdbench

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <lmdbench/lmd/flat_pieces.h>
 #include <lmdbench/lmd/method.h>
 #include <lmdbench/lmd/plateau.h>
 #include <lmdbench/lmd/scene.h>
@@ -35,6 +36,7 @@ class Exhaustive : public Method {
   Scene scene_;
   std::vector<TriangleGrid> grids_;  ///< One a fixed body.
   std::vector<LocalMinimum> minima_;
+  FlatPieces flat_pieces_;
 };
 
 }  // namespace lmdbench

@@ -35,15 +35,26 @@ class TraversalFront {
                const MotionForecast& motion, const RigidTransform& X_BA, double cutoff,
                WideCounters& counters);
 
-  /// Calls decide(pair, touches, lever_arm) for every pair that is due; `touches` tells pairs of faces that may
-  /// touch from pairs that may be LMDs. It returns the Certificate of its decision.
-  template <class Decide>
-  void for_each_due(const WideHierarchy& a, const MotionForecast& motion, double cutoff, Decide&& decide) {
-    leaf_queue_.collect(motion, due_);
+  /// Finds the pairs that are due, once a frame.
+  void collect_due(const MotionForecast& motion) { leaf_queue_.collect(motion, due_); }
+  /// Calls decide(pair, touches, lever_arm) for every pair that is due and chosen(pair); `touches` tells
+  /// pairs of faces that may touch from pairs that may be LMDs. It returns the Certificate of its decision.
+  /// Every pair must be chosen in one call a frame.
+  template <class Decide, class Chosen>
+  void for_each_due(const WideHierarchy& a, const MotionForecast& motion, double cutoff, Decide&& decide,
+                    Chosen&& chosen) {
     for (const std::uint32_t i : due_) {
       const Leaf& leaf = leaves_[i];
+      if (!chosen(leaf.pair)) continue;
       plan_leaf(a, motion, i, decide(leaf.pair, leaf.touches, lever_arm_of(a, leaf, cutoff)));
     }
+  }
+
+  /// The same for all pairs that are due, found here.
+  template <class Decide>
+  void for_each_due(const WideHierarchy& a, const MotionForecast& motion, double cutoff, Decide&& decide) {
+    collect_due(motion);
+    for_each_due(a, motion, cutoff, decide, [](const WidePair&) { return true; });
   }
 
   std::size_t test_count() const { return test_queue_.count(); }

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/base/parallel.h>
 #include <lmdbench/mesh/feature_corners.h>
+#include <lmdbench/methods/certified/flat/flat_mesh.h>
 #include <lmdbench/methods/certified/hierarchy/single_precision.h>
 #include <lmdbench/methods/certified/hierarchy/wide_bounds.h>
 #include <lmdbench/methods/certified/hierarchy/wide_hierarchy.h>
@@ -77,10 +78,13 @@ struct Lane {
 class Builder {
  public:
   Builder(const Surface& surface, const WideBuildOptions& options, const std::vector<WideItem>& items,
-          WideHierarchy& result)
-      : surface_(surface), options_(options), items_(items), result_(result), scratch_([&surface] {
-          return Scratch(surface.mesh.vertices.size());
-        }) {}
+          const FlatMesh* flat, WideHierarchy& result)
+      : surface_(surface),
+        options_(options),
+        items_(items),
+        flat_(flat),
+        result_(result),
+        scratch_([&surface] { return Scratch(surface.mesh.vertices.size()); }) {}
 
   void build() {
     if (items_.empty()) return;
@@ -142,7 +146,12 @@ class Builder {
   bool build_child(std::size_t node_index, const Range& range, std::vector<std::int32_t>& vertices,
                    Scratch& scratch) {
     if (range.size() > 1) return build_node(node_index, range, vertices, scratch);
-    const FeatureCorners corners(surface_, items_[range.begin].ref.feature_id());
+    const FeatureId feature = items_[range.begin].ref.feature_id();
+    if (flat_ != nullptr && flat_->is_joined(feature)) {
+      flat_->append_corners(surface_, feature, vertices);
+      return true;
+    }
+    const FeatureCorners corners(surface_, feature);
     vertices.insert(vertices.end(), corners.view().begin(), corners.view().end());
     return true;
   }
@@ -296,13 +305,15 @@ class Builder {
   const Surface& surface_;
   const WideBuildOptions& options_;
   const std::vector<WideItem>& items_;
+  const FlatMesh* flat_;
   WideHierarchy& result_;
   PerThread<Scratch> scratch_;
 };
 
 }  // namespace
 
-WideHierarchy build_wide_hierarchy(const Surface& surface, const WideBuildOptions& options) {
+WideHierarchy build_wide_hierarchy(const Surface& surface, const WideBuildOptions& options,
+                                   const FlatMesh* flat) {
   WideHierarchy result;
   if (surface.mesh.triangles.empty()) return result;
   result.origin = bounding_box_centre(surface.mesh);
@@ -311,8 +322,8 @@ WideHierarchy build_wide_hierarchy(const Surface& surface, const WideBuildOption
     squared_radius = std::max(squared_radius, (p - result.origin).squaredNorm());
   result.radius = std::sqrt(squared_radius) * (1.0 + 1e-15);
 
-  std::vector<WideItem> items = collect_wide_items(surface, options);
-  partition_wide_items(surface, options, result.origin, result.radius, items);
+  std::vector<WideItem> items = collect_wide_items(surface, options, flat);
+  partition_wide_items(surface, options, flat, result.origin, result.radius, items);
   result.feature_count = items.size();
   double squared_least = std::numeric_limits<double>::infinity();
   for (const auto& ends : surface.adjacency.edges)
@@ -320,12 +331,12 @@ WideHierarchy build_wide_hierarchy(const Surface& surface, const WideBuildOption
                                              surface.mesh.vertices[static_cast<std::size_t>(ends[1])])
                                                 .squaredNorm());
   result.least_edge = std::sqrt(squared_least);
-  Builder(surface, options, items, result).build();
+  Builder(surface, options, items, flat, result).build();
   return result;
 }
 
-WideHierarchy WideHierarchy::of(const Surface& surface) {
-  return build_wide_hierarchy(surface);
+WideHierarchy WideHierarchy::of(const Body& body) {
+  return build_wide_hierarchy(body.surface(), {}, &body.prepared<FlatMesh>());
 }
 
 }  // namespace lmdbench

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <lmdbench/geometry/types.h>
+#include <lmdbench/lmd/body.h>
 #include <lmdbench/mesh/surface.h>
 
 #include <cstddef>
@@ -10,6 +11,8 @@
 #include <vector>
 
 namespace lmdbench {
+
+struct FlatMesh;
 
 /// Children of a wide node.
 inline constexpr int WIDE_WIDTH = 8;
@@ -87,23 +90,24 @@ inline constexpr float NO_LMD_COSINE = 2.0F;
 /// times as many. All meshes and rows, width 16 among them, with times: results/reference/builders.md.
 enum class WideSplit : std::uint8_t {
   POSITION,  ///< Median along the longest side of the box of centres.
-  NORMAL,    ///< Median along the longest side of the box of centres and cone axes, axes weighted by
-             ///< normal_weight.
+  NORMAL,    ///< Median along the longest side of the box of centres and cone
+             ///< axes, axes weighted by normal_weight.
   ORDER      ///< Median in Morton order of the centres: fastest to build.
 };
 
 struct WideBuildOptions {
   WideSplit split = WideSplit::POSITION;
-  bool tight_caps =
-      true;  ///< Cones from polar cones; false: one-ring cones of face normals (for comparison only).
-  bool full_nodes =
-      true;  ///< Divide at multiples of powers of the width, which fills nodes; false: at the middle.
-  std::size_t width = WIDE_WIDTH;  ///< Children that a node gets, 2 to WIDE_WIDTH; fewer for comparison only.
+  bool tight_caps = true;          ///< Cones from polar cones; false: one-ring cones of
+                                   ///< face normals (for comparison only).
+  bool full_nodes = true;          ///< Divide at multiples of powers of the width, which
+                                   ///< fills nodes; false: at the middle.
+  std::size_t width = WIDE_WIDTH;  ///< Children that a node gets, 2 to
+                                   ///< WIDE_WIDTH; fewer for comparison only.
   /// Features in the smallest sets, 1 to `width`: sets of more than one get a node of their own, which nodes
   /// of several features a lane would save. More than one for comparison only.
   std::size_t leaf_size = 1;
-  double normal_weight =
-      0.3;  ///< Length that a unit of axis difference counts as, in units of the set's extent.
+  double normal_weight = 0.3;  ///< Length that a unit of axis difference counts
+                               ///< as, in units of the set's extent.
 };
 
 /// Hierarchy over the features of a mesh that can carry an LMD (non-empty outward polar cone),
@@ -111,18 +115,22 @@ struct WideBuildOptions {
 /// child, the root; empty for an empty mesh.
 struct WideHierarchy {
   std::vector<WideNode> nodes;
-  Vec3 origin = Vec3::Zero();  ///< Mesh-frame point that is the origin of the nodes' coordinates.
-  double radius = 0.0;         ///< Every point of every feature is within this distance of `origin`.
+  Vec3 origin = Vec3::Zero();  ///< Mesh-frame point that is the origin of the
+                               ///< nodes' coordinates.
+  double radius = 0.0;         ///< Every point of every feature is within this distance
+                               ///< of `origin`.
   std::size_t feature_count = 0;
   double least_edge = 0.0;  ///< Length of the shortest edge among the features.
 
   std::size_t bytes() const { return nodes.size() * sizeof(WideNode); }
 
-  /// Built with the default options: what `certified` prepares for a mesh.
-  static WideHierarchy of(const Surface& surface);
+  /// Built with the default options over the mesh's flat features: what `certified` prepares for a mesh.
+  static WideHierarchy of(const Body& body);
 };
 
 /// Deterministic, whatever the number of threads.
-WideHierarchy build_wide_hierarchy(const Surface& surface, const WideBuildOptions& options = {});
+/// @param flat where given, regions and straight edges are features in place of their faces and edges
+WideHierarchy build_wide_hierarchy(const Surface& surface, const WideBuildOptions& options = {},
+                                   const FlatMesh* flat = nullptr);
 
 }  // namespace lmdbench

@@ -2,10 +2,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/base/parallel.h>
 #include <lmdbench/geometry/cone.h>
+#include <lmdbench/lmd/flat_pieces.h>
 #include <lmdbench/mesh/feature_corners.h>
+#include <lmdbench/methods/certified/flat/flat_mesh.h>
 #include <lmdbench/methods/certified/hierarchy/wide_items.h>
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 
 namespace lmdbench {
@@ -30,6 +33,15 @@ PolarCap one_ring_cap(const Surface& surface, const FeatureId& feature) {
   return {cone.axis, cone.cosine, cone.sine};
 }
 
+/// The cap with a larger half angle; all directions where that is a right angle.
+/// @param angle small [rad]
+PolarCap widened(const PolarCap& cap, double angle) {
+  PolarCap result{cap.axis, cap.cosine - angle * cap.sine - angle * angle, 1.0};
+  if (cap.is_all_directions() || !(result.cosine > 0.0)) return {};
+  result.sine = std::sqrt(1.0 - result.cosine * result.cosine);
+  return result;
+}
+
 void append_item(const Surface& surface, const WideBuildOptions& options, const FeatureId& feature,
                  std::vector<WideItem>& items) {
   const std::optional<PolarCap> cap = polar_cap(surface, feature);
@@ -37,12 +49,17 @@ void append_item(const Surface& surface, const WideBuildOptions& options, const 
   WideItem& item = items.emplace_back();
   item.ref = WideRef::feature(feature);
   item.carries_lmd = cap.has_value();
-  if (cap) item.cap = options.tight_caps ? *cap : one_ring_cap(surface, feature);
+  if (!cap) return;
+  item.cap = options.tight_caps ? *cap : one_ring_cap(surface, feature);
+  // Flat features of a rounded mesh count as parallel to others at a small tilt.
+  if (surface.mesh.planar_tolerance > 0.0 && feature.kind != FeatureKind::VERTEX)
+    item.cap = widened(item.cap, LARGEST_PARALLEL_TILT);
 }
 
 }  // namespace
 
-std::vector<WideItem> collect_wide_items(const Surface& surface, const WideBuildOptions& options) {
+std::vector<WideItem> collect_wide_items(const Surface& surface, const WideBuildOptions& options,
+                                         const FlatMesh* flat) {
   const std::size_t vertices = surface.mesh.vertices.size();
   const std::size_t before_faces = vertices + surface.adjacency.edges.size();
   const std::size_t features = before_faces + surface.mesh.triangles.size();
@@ -56,7 +73,8 @@ std::vector<WideItem> collect_wide_items(const Surface& surface, const WideBuild
     blocks[block].reserve(BLOCK);
     const std::size_t end = std::min(features, (block + 1) * BLOCK);
     for (std::size_t i = block * BLOCK; i < end; ++i)
-      append_item(surface, options, feature_at(i), blocks[block]);
+      if (flat == nullptr || flat->is_feature(feature_at(i)))
+        append_item(surface, options, feature_at(i), blocks[block]);
   });
 
   std::vector<std::size_t> starts{0};

@@ -17,7 +17,8 @@ struct WideItem {
   bool carries_lmd = false;  ///< False for triangles without area: they have no cap.
 };
 
-/// The features that a hierarchy owns: vertices, edges and faces, each by index.
-std::vector<WideItem> collect_wide_items(const Surface& surface, const WideBuildOptions& options);
+/// The features that a hierarchy owns: vertices, edges and faces, each by index; flat ones by their leads.
+std::vector<WideItem> collect_wide_items(const Surface& surface, const WideBuildOptions& options,
+                                         const FlatMesh* flat);
 
 }  // namespace lmdbench

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/base/parallel.h>
 #include <lmdbench/mesh/feature_corners.h>
+#include <lmdbench/methods/certified/flat/flat_mesh.h>
 #include <lmdbench/methods/certified/hierarchy/wide_partition.h>
 
 #include <Eigen/Core>
@@ -29,11 +30,18 @@ struct Place {
   std::uint32_t item;      ///< index, in the order of features
 };
 
-Place make_place(const Surface& surface, const Vec3& origin, const WideItem& item, std::size_t index) {
+Place make_place(const Surface& surface, const FlatMesh* flat, const Vec3& origin, const WideItem& item,
+                 std::size_t index) {
   constexpr double INFINITE = std::numeric_limits<double>::infinity();
   const FeatureCorners corners(surface, item.ref.feature_id());
+  std::span<const std::int32_t> vertices = corners.view();
+  std::vector<std::int32_t> of_joined;
+  if (flat != nullptr && flat->is_joined(item.ref.feature_id())) {
+    flat->append_corners(surface, item.ref.feature_id(), of_joined);
+    vertices = of_joined;
+  }
   Vec3 low = Vec3::Constant(INFINITE), high = -low;
-  for (const std::int32_t vertex : corners.view()) {
+  for (const std::int32_t vertex : vertices) {
     const Vec3& p = surface.mesh.vertices[static_cast<std::size_t>(vertex)];
     low = low.cwiseMin(p);
     high = high.cwiseMax(p);
@@ -201,11 +209,11 @@ std::size_t count_wide_nodes(std::size_t size, const WideBuildOptions& options) 
   return count;
 }
 
-void partition_wide_items(const Surface& surface, const WideBuildOptions& options, const Vec3& origin,
-                          double radius, std::vector<WideItem>& items) {
+void partition_wide_items(const Surface& surface, const WideBuildOptions& options, const FlatMesh* flat,
+                          const Vec3& origin, double radius, std::vector<WideItem>& items) {
   std::vector<Place> places(items.size());
   parallel_ranges(items.size(), PARALLEL_GRAIN, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) places[i] = make_place(surface, origin, items[i], i);
+    for (std::size_t i = begin; i < end; ++i) places[i] = make_place(surface, flat, origin, items[i], i);
   });
   Partition(options, items, radius, places).run();
   std::vector<WideItem> ordered(items.size());

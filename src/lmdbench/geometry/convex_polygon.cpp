@@ -1,0 +1,71 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/geometry/convex_polygon.h>
+
+#include <algorithm>
+#include <utility>
+
+namespace lmdbench {
+
+namespace {
+
+double cross(const Vec2& a, const Vec2& b) {
+  return a[0] * b[1] - a[1] * b[0];
+}
+
+}  // namespace
+
+ConvexPolygon::ConvexPolygon(const PlanarFrame& frame, const Triangle& triangle)
+    : corners{frame.flat(triangle[0]), frame.flat(triangle[1]), frame.flat(triangle[2])} {
+  if (cross(corners[1] - corners[0], corners[2] - corners[0]) < 0.0) std::swap(corners[1], corners[2]);
+}
+
+ConvexPolygon ConvexPolygon::cut_by(const ConvexPolygon& other) const {
+  std::vector<Vec2> kept = corners, cut;
+  for (std::size_t k = 0; k < other.corners.size() && !kept.empty(); ++k) {
+    const Vec2& p = other.corners[k];
+    const Vec2 side = other.corners[(k + 1) % other.corners.size()] - p;
+    cut.clear();
+    double side_from = cross(side, kept.front() - p);
+    for (std::size_t i = 0; i < kept.size(); ++i) {
+      const Vec2& from = kept[i];
+      const Vec2& to = kept[(i + 1) % kept.size()];
+      const double side_to = cross(side, to - p);
+      if (side_from >= 0.0) cut.push_back(from);
+      if ((side_from > 0.0 && side_to < 0.0) || (side_from < 0.0 && side_to > 0.0))
+        cut.push_back(from + side_from / (side_from - side_to) * (to - from));
+      side_from = side_to;
+    }
+    kept.swap(cut);
+  }
+  return ConvexPolygon(std::move(kept));
+}
+
+SegmentPart ConvexPolygon::part_of(const Vec2& p, const Vec2& q) const {
+  SegmentPart part{0.0, corners.empty() ? 0.0 : 1.0};
+  for (std::size_t k = 0; k < corners.size(); ++k) {
+    const Vec2 side = corners[(k + 1) % corners.size()] - corners[k];
+    const double side_p = cross(side, p - corners[k]), side_q = cross(side, q - corners[k]);
+    if (side_p < 0.0 && side_q < 0.0) return {};
+    if (side_p < 0.0) part.begin = std::max(part.begin, side_p / (side_p - side_q));
+    if (side_q < 0.0) part.end = std::min(part.end, side_p / (side_p - side_q));
+  }
+  return part;
+}
+
+AreaAndCentroid ConvexPolygon::measure() const {
+  AreaAndCentroid result;
+  if (corners.size() < 3) return result;
+  // A fan from the first corner keeps the products as small as the polygon.
+  const Vec2& origin = corners[0];
+  for (std::size_t i = 1; i + 1 < corners.size(); ++i) {
+    const Vec2 a = corners[i] - origin, b = corners[i + 1] - origin;
+    const double area = 0.5 * cross(a, b);
+    result.area += area;
+    result.centroid += area / 3.0 * (a + b);
+  }
+  if (result.area > 0.0) result.centroid = origin + result.centroid / result.area;
+  return result;
+}
+
+}  // namespace lmdbench

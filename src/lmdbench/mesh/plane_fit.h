@@ -1,0 +1,32 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <lmdbench/geometry/types.h>
+
+#include <span>
+
+namespace lmdbench {
+
+/// The points x with normal . (x - point) = 0; `normal` is a unit vector on the outer side.
+struct Plane {
+  Vec3 point = Vec3::Zero();
+  Vec3 normal = Vec3::Zero();
+
+  double height(const Vec3& x) const { return normal.dot(x - point); }
+};
+
+/// A plane through points, and how well they fix it.
+struct FittedPlane {
+  Plane plane;
+  double breadth = 0.0;  ///< Standard deviation of the points along the narrower way in the plane [m].
+};
+
+/// Plane of least squared distance (total least squares). Right to a few roundings of the points' coordinates
+/// for thin strips too: the eigenvectors of the covariance lose digits there, so the plane is turned once
+/// more by the slopes of the points' heights over it.
+/// @param points  at least one; points on a line or in one place give some plane through them
+/// @param towards the normal is on this side
+FittedPlane fit_plane(std::span<const Vec3> points, const Vec3& towards);
+
+}  // namespace lmdbench

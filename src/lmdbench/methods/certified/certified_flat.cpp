@@ -1,0 +1,311 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/geometry/segment_distance.h>
+#include <lmdbench/methods/certified/certified.h>
+#include <lmdbench/methods/certified/touch.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <span>
+
+/// The part of `certified` that knows regions and straight edges (flat_mesh.h). What the filter leaves of a
+/// pair of them is either a parallel contact, found whole (flat_contacts.h), or it has at most one candidate
+/// point, like a pair of faces or edges: then the faces or edges at that point decide in their place.
+namespace lmdbench {
+
+namespace {
+
+/// Sines of angles between edges: below the first they may be parallel (as in the filter), above the second
+/// they cross in one place.
+constexpr double NEARLY_PARALLEL_SINE = 1e-4;
+constexpr double CROSSING_SINE = 1e-8;
+
+std::int32_t region_of(const FlatSide& side, const FeatureId& face) {
+  return side.mesh.regions->region_of_triangle[static_cast<std::size_t>(face.index)];
+}
+
+std::int32_t straight_of(const FlatSide& side, const FeatureId& edge) {
+  return side.mesh.regions->straight_of_edge[static_cast<std::size_t>(edge.index)];
+}
+
+Segment whole_edge(const FlatSide& side, const FeatureId& edge) {
+  const auto& ends =
+      side.mesh.regions->straight_edges[static_cast<std::size_t>(straight_of(side, edge))].ends;
+  return {side.vertex(ends[0]), side.vertex(ends[1])};
+}
+
+/// Calls visit(edge) for the edge at a place of a straight edge (0 at its first end, 1 at the other), and for
+/// its neighbours, which rounding may mean.
+template <class Visit>
+void for_each_edge_at(const FlatSide& side, std::int32_t straight, double place, Visit visit) {
+  const auto edges = side.mesh.regions->edges_of_straight[straight];
+  const auto& ends = side.mesh.regions->straight_edges[static_cast<std::size_t>(straight)].ends;
+  const auto vertex = [&](std::int32_t v) -> const Vec3& {
+    return side.surface.mesh.vertices[static_cast<std::size_t>(v)];
+  };
+  const Vec3 u = vertex(ends[1]) - vertex(ends[0]);
+  // Where an edge but the first begins: at the vertex that it shares with the one before.
+  const auto begin_of = [&](std::size_t k) {
+    const auto& own = side.surface.adjacency.edges[static_cast<std::size_t>(edges[k])];
+    const auto& before = side.surface.adjacency.edges[static_cast<std::size_t>(edges[k - 1])];
+    const std::int32_t shared = own[0] == before[0] || own[0] == before[1] ? own[0] : own[1];
+    return (vertex(shared) - vertex(ends[0])).dot(u) / u.squaredNorm();
+  };
+  std::size_t low = 0, high = edges.size();  // the edge is in [low, high)
+  while (high - low > 1) {
+    const std::size_t middle = (low + high) / 2;
+    (begin_of(middle) <= place ? low : high) = middle;
+  }
+  for (std::size_t k = low > 0 ? low - 1 : 0; k < std::min(low + 2, edges.size()); ++k) visit(edges[k]);
+}
+
+/// Calls visit(face) for the faces of a region near the box of some points of the world.
+template <class Visit>
+void for_each_face_near(const FlatSide& side, std::int32_t region, std::span<const Vec3> points_W,
+                        double reach, Visit visit) {
+  const RegionShape* shape = side.mesh.shapes.of_region(region);
+  if (shape == nullptr) {
+    visit(side.mesh.lead_of_region(region));
+    return;
+  }
+  Vec2 low = Vec2::Constant(std::numeric_limits<double>::infinity()), high = -low;
+  for (const Vec3& p_W : points_W) {
+    const Vec2 x = shape->frame.flat(side.X_WS.rotation.transpose() * (p_W - side.X_WS.translation));
+    low = low.cwiseMin(x);
+    high = high.cwiseMax(x);
+  }
+  shape->for_each_near(low, high, reach, visit);
+}
+
+/// Gap between a feature's corners and a plane, with the axis from the feature towards it.
+ClearGap gap_to(const Plane& plane, const FlatSide& side, std::span<const std::int32_t> corners) {
+  double lowest = std::numeric_limits<double>::infinity(), highest = -lowest;
+  for (const std::int32_t corner : corners) {
+    const double height = plane.height(side.vertex(corner));
+    lowest = std::min(lowest, height);
+    highest = std::max(highest, height);
+  }
+  return lowest >= -highest ? ClearGap{lowest, -plane.normal} : ClearGap{-highest, plane.normal};
+}
+
+}  // namespace
+
+/// Whether the pair is settled; else it is one of single features, and its triangles decide.
+bool Certified::decide_flat(const Frame& frame, const FeatureId& on_moving, const FeatureId& on_fixed,
+                            WorkCounters& counters) {
+  const bool joined =
+      frame.flat_moving.mesh.is_joined(on_moving) || frame.flat_fixed.mesh.is_joined(on_fixed);
+  const bool is_tolerant = frame.tolerance > 0.0;
+  const FeatureKind kind_m = on_moving.kind, kind_f = on_fixed.kind;
+  if (kind_m == FeatureKind::VERTEX || kind_f == FeatureKind::VERTEX)
+    return decide_vertex(frame, on_moving, on_fixed, joined, counters);
+  if (kind_m == FeatureKind::FACE && kind_f == FeatureKind::FACE) {
+    const std::int32_t a = region_of(frame.flat_moving, on_moving), b = region_of(frame.flat_fixed, on_fixed);
+    if (!joined && !is_tolerant) {
+      contacts_.leave({FeatureKind::FACE, a}, {FeatureKind::FACE, b});
+      return false;
+    }
+    if (contacts_.add_faces(frame.flat_moving, a, frame.flat_fixed, b) == FlatVerdict::UNSURE)
+      expand_faces(frame, a, b);
+    return true;
+  }
+  if (kind_m == FeatureKind::FACE || kind_f == FeatureKind::FACE) {
+    if (contacts_.contact_of(frame.flat_moving, on_moving, frame.flat_fixed, on_fixed) != nullptr)
+      return true;
+    const bool forward = kind_m == FeatureKind::EDGE;
+    const FlatSide& of_edge = forward ? frame.flat_moving : frame.flat_fixed;
+    const FlatSide& of_face = forward ? frame.flat_fixed : frame.flat_moving;
+    const std::int32_t straight = straight_of(of_edge, forward ? on_moving : on_fixed);
+    const std::int32_t region = region_of(of_face, forward ? on_fixed : on_moving);
+    if (!joined && !is_tolerant) {
+      const FeatureId flat_edge{FeatureKind::EDGE, straight}, flat_face{FeatureKind::FACE, region};
+      contacts_.leave(forward ? flat_edge : flat_face, forward ? flat_face : flat_edge);
+      return false;
+    }
+    if (contacts_.add_edge_face(of_edge, straight, of_face, region) == FlatVerdict::UNSURE)
+      expand_edge_face(frame, of_edge, straight, of_face, region);
+    return true;
+  }
+  return decide_edges(frame, on_moving, on_fixed, joined, counters);
+}
+
+bool Certified::decide_edges(const Frame& frame, const FeatureId& on_moving, const FeatureId& on_fixed,
+                             bool joined, WorkCounters& counters) {
+  const Segment a = whole_edge(frame.flat_moving, on_moving), b = whole_edge(frame.flat_fixed, on_fixed);
+  const Vec3 u = a[1] - a[0], v = b[1] - b[0], r = a[0] - b[0];
+  const double uu = u.squaredNorm(), vv = v.squaredNorm(), uv = u.dot(v);
+  const double sine = u.cross(v).norm() / std::sqrt(uu * vv);
+  if (sine > NEARLY_PARALLEL_SINE) {
+    // The common perpendicular of edges of two faces in contact is the contact's direction.
+    if (contacts_.contact_of(frame.flat_moving, on_moving, frame.flat_fixed, on_fixed) != nullptr)
+      return true;
+  } else if (joined || frame.tolerance > 0.0) {
+    const std::int32_t s = straight_of(frame.flat_moving, on_moving);
+    const std::int32_t t = straight_of(frame.flat_fixed, on_fixed);
+    const FlatVerdict verdict = contacts_.add_edges(frame.flat_moving, s, frame.flat_fixed, t);
+    if (verdict == FlatVerdict::UNSURE) expand_edges(frame, s, t);
+    if (verdict != FlatVerdict::NONE || sine <= CROSSING_SINE) return true;
+  }
+  if (!joined) return false;
+  const double determinant = uu * vv - uv * uv, ur = u.dot(r), vr = v.dot(r);
+  const double place_a = (uv * vr - vv * ur) / determinant, place_b = (uu * vr - uv * ur) / determinant;
+  for_each_edge_at(
+      frame.flat_moving, straight_of(frame.flat_moving, on_moving), place_a, [&](std::int32_t i) {
+        for_each_edge_at(frame.flat_fixed, straight_of(frame.flat_fixed, on_fixed), place_b,
+                         [&](std::int32_t j) {
+                           decide_single(frame, {FeatureKind::EDGE, i}, {FeatureKind::EDGE, j}, counters);
+                         });
+      });
+  return true;
+}
+
+bool Certified::decide_vertex(const Frame& frame, const FeatureId& on_moving, const FeatureId& on_fixed,
+                              bool joined, WorkCounters& counters) {
+  const bool forward = on_moving.kind == FeatureKind::VERTEX;
+  const FeatureId& vertex = forward ? on_moving : on_fixed;
+  const FeatureId& other = forward ? on_fixed : on_moving;
+  const FlatSide& of_vertex = forward ? frame.flat_moving : frame.flat_fixed;
+  const FlatSide& of_other = forward ? frame.flat_fixed : frame.flat_moving;
+  const auto decide_with = [&](const FeatureId& feature) {
+    decide_single(frame, forward ? vertex : feature, forward ? feature : vertex, counters);
+  };
+  const Vec3 p = of_vertex.vertex(vertex.index);
+  if (other.kind == FeatureKind::FACE) {
+    if (contacts_.contact_of(frame.flat_moving, on_moving, frame.flat_fixed, on_fixed) != nullptr)
+      return true;
+    if (!joined) return false;
+    single_.clear();
+    for_each_face_near(of_other, region_of(of_other, other), std::span(&p, 1), frame.filter.touch,
+                       [&](std::int32_t t) { single_.push_back(t); });
+    std::sort(single_.begin(), single_.end());
+    single_.erase(std::unique(single_.begin(), single_.end()), single_.end());
+    for (const std::int32_t t : single_) decide_with({FeatureKind::FACE, t});
+    return true;
+  }
+  Vec3 q;
+  double place = 0.0;
+  if (other.kind == FeatureKind::VERTEX) {
+    q = of_other.vertex(other.index);
+  } else {
+    const Segment edge = whole_edge(of_other, other);
+    place = std::clamp((p - edge[0]).dot(edge[1] - edge[0]) / (edge[1] - edge[0]).squaredNorm(), 0.0, 1.0);
+    q = edge[0] + place * (edge[1] - edge[0]);
+  }
+  if (contacts_.contains(frame.flat_moving, on_moving, frame.flat_fixed, on_fixed, forward ? p : q,
+                         forward ? q : p))
+    return true;
+  if (!joined) return false;
+  for_each_edge_at(of_other, straight_of(of_other, other), place, [&](std::int32_t e) {
+    decide_with({FeatureKind::EDGE, e});
+  });
+  return true;
+}
+
+/// Decides a pair of single faces, edges and vertices, whatever they are part of.
+void Certified::decide_single(const Frame& frame, const FeatureId& on_moving, const FeatureId& on_fixed,
+                              WorkCounters& counters) {
+  const PairAnswer answer = frame.single_filter(on_moving, on_fixed, 1.0);
+  if (answer.verdict != PairVerdict::NO_LMD) settle(frame, on_moving, on_fixed, answer, counters);
+}
+
+void Certified::expand_faces(const Frame& frame, std::int32_t region_moving, std::int32_t region_fixed) {
+  for (const std::int32_t t_moving : frame.flat_moving.mesh.regions->region_triangles[region_moving]) {
+    const Triangle a = frame.filter.X_WM.triangle(frame.filter.moving.mesh.triangle(t_moving));
+    for_each_face_near(frame.flat_fixed, region_fixed, a, 4.0 * frame.filter.touch,
+                       [&](std::int32_t t_fixed) {
+                         pending_.push_back({t_moving, t_fixed});
+                       });
+  }
+}
+
+void Certified::expand_edge_face(const Frame& frame, const FlatSide& of_edge, std::int32_t straight,
+                                 const FlatSide& of_face, std::int32_t region) {
+  for (const std::int32_t e : of_edge.mesh.regions->edges_of_straight[straight]) {
+    const auto& ends = of_edge.surface.adjacency.edges[static_cast<std::size_t>(e)];
+    const std::array<Vec3, 2> points{of_edge.vertex(ends[0]), of_edge.vertex(ends[1])};
+    for (const std::int32_t t : of_edge.surface.adjacency.edge_triangles[e])
+      for_each_face_near(of_face, region, points, 4.0 * frame.filter.touch, [&](std::int32_t face) {
+        pending_.push_back(of_edge.is_moving ? TrianglePair{t, face} : TrianglePair{face, t});
+      });
+  }
+}
+
+void Certified::expand_edges(const Frame& frame, std::int32_t straight_moving, std::int32_t straight_fixed) {
+  for (const std::int32_t i : frame.flat_moving.mesh.regions->edges_of_straight[straight_moving])
+    for (const std::int32_t j : frame.flat_fixed.mesh.regions->edges_of_straight[straight_fixed]) {
+      const PairAnswer answer = frame.single_filter({FeatureKind::EDGE, i}, {FeatureKind::EDGE, j}, 1.0);
+      if (answer.verdict == PairVerdict::NO_LMD) continue;
+      for (const std::int32_t t_moving : frame.filter.moving.adjacency.edge_triangles[i])
+        for (const std::int32_t t_fixed : frame.filter.fixed.adjacency.edge_triangles[j])
+          pending_.push_back({t_moving, t_fixed});
+    }
+}
+
+Certificate Certified::decide_touching_flat(const Frame& frame, const WidePair& candidate, double lever_arm,
+                                            WorkCounters& counters) {
+  const FeatureId on_moving = candidate.a.feature_id(), on_fixed = candidate.b.feature_id();
+  const std::int32_t region_m = region_of(frame.flat_moving, on_moving);
+  const std::int32_t region_f = region_of(frame.flat_fixed, on_fixed);
+  const double margin = 2.0 * frame.filter.touch;
+  // A triangle without area has no plane and separates nothing.
+  corners_.clear();
+  frame.flat_moving.mesh.append_corners(frame.filter.moving, on_moving, corners_);
+  if (region_f >= 0) {
+    const ClearGap gap = gap_to(frame.flat_fixed.plane(region_f), frame.flat_moving, corners_);
+    if (gap.gap > margin) return {gap.gap - margin, gap.axis, 0.0, lever_arm};
+  }
+  corners_.clear();
+  frame.flat_fixed.mesh.append_corners(frame.filter.fixed, on_fixed, corners_);
+  if (region_m >= 0) {
+    const ClearGap gap = gap_to(frame.flat_moving.plane(region_m), frame.flat_fixed, corners_);
+    if (gap.gap > margin) return {gap.gap - margin, -gap.axis, 0.0, lever_arm};
+  }
+  const auto decide_triangles = [&](std::int32_t t_moving, std::int32_t t_fixed) {
+    const Triangle a = frame.filter.X_WM.triangle(frame.filter.moving.mesh.triangle(t_moving));
+    const Triangle b = frame.filter.fixed.mesh.triangle(t_fixed);
+    const Vec3 normal_a =
+        frame.filter.X_WM.direction(frame.filter.moving.face_normals[static_cast<std::size_t>(t_moving)]);
+    const Vec3& normal_b = frame.filter.fixed.face_normals[static_cast<std::size_t>(t_fixed)];
+    if (clear_gap(a, normal_a, b, normal_b, margin).gap > 0.0) return;
+    LocalMinimum minimum;
+    if (evaluate(frame, {t_moving, t_fixed}, minimum, counters)) minima_.push_back(minimum);
+  };
+  // Of the moving region only the triangles that reach the other one's plane.
+  const auto triangles = region_m >= 0 ? frame.flat_moving.mesh.regions->region_triangles[region_m]
+                                       : std::span<const std::int32_t>(&on_moving.index, 1);
+  for (const std::int32_t t_moving : triangles) {
+    const Triangle a = frame.filter.X_WM.triangle(frame.filter.moving.mesh.triangle(t_moving));
+    if (region_f < 0) {
+      decide_triangles(t_moving, on_fixed.index);
+      continue;
+    }
+    const Plane plane = frame.flat_fixed.plane(region_f);
+    const double h0 = plane.height(a[0]), h1 = plane.height(a[1]), h2 = plane.height(a[2]);
+    if (std::min({h0, h1, h2}) > margin || std::max({h0, h1, h2}) < -margin) continue;
+    single_.clear();
+    for_each_face_near(frame.flat_fixed, region_f, a, margin, [&](std::int32_t t) { single_.push_back(t); });
+    std::sort(single_.begin(), single_.end());
+    single_.erase(std::unique(single_.begin(), single_.end()), single_.end());
+    for (const std::int32_t t_fixed : single_) decide_triangles(t_moving, t_fixed);
+  }
+  return {};
+}
+
+/// Leaves out the minima of this body that are part of its contacts, and adds those.
+/// @param first of minima_ that are this body's
+void Certified::take_contacts(const Frame& frame, std::size_t first) {
+  if (contacts_.contacts().empty()) return;
+  minima_.erase(std::remove_if(minima_.begin() + static_cast<std::ptrdiff_t>(first), minima_.end(),
+                               [&](const LocalMinimum& minimum) {
+                                 const Lmd& lmd = minimum.lmd;
+                                 return contacts_.contains(frame.flat_moving, lmd.feature_moving,
+                                                           frame.flat_fixed, lmd.feature_fixed,
+                                                           lmd.point_moving, lmd.point_fixed);
+                               }),
+                minima_.end());
+  for (const FlatContacts::Contact& contact : contacts_.contacts()) plateaus_.push_back(contact.lmd);
+}
+
+}  // namespace lmdbench

@@ -1,0 +1,359 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/geometry/tolerance.h>
+#include <lmdbench/lmd/first_order.h>
+#include <lmdbench/lmd/flat_pieces.h>
+#include <lmdbench/methods/certified/flat/flat_contacts.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+namespace lmdbench {
+
+namespace {
+
+/// Tilt beyond which the first-order test of no piece of a plateau passes (PLATEAU_PIECE_TOLERANCE and the
+/// rounding beside it), with room.
+constexpr double CLEAR_TILT = 1e-8;
+/// How far, relative to the coordinates, a minimum that a triangle pair found may be from the contact that it
+/// is a part of.
+constexpr double TOUCHING = 1e-9;
+/// Relative difference of the distances of a contact and of a minimum that is a part of it.
+constexpr double SAME_DISTANCE = 1e-6;
+
+double along(const Plane& plane, const Vec3& n, const Vec3& x) {
+  return plane.normal.dot(plane.point - x) / plane.normal.dot(n);
+}
+
+double cross(const Vec2& a, const Vec2& b) {
+  return a[0] * b[1] - a[1] * b[0];
+}
+
+/// Whether all of b is farther than the tolerance outside some side of a.
+bool side_separates(const ConvexPolygon& a, const ConvexPolygon& b, double tolerance) {
+  for (std::size_t k = 0; k < a.corners.size(); ++k) {
+    const Vec2 side = a.corners[(k + 1) % a.corners.size()] - a.corners[k];
+    const double limit = -tolerance * side.norm();
+    if (std::all_of(b.corners.begin(), b.corners.end(),
+                    [&](const Vec2& x) { return cross(side, x - a.corners[k]) < limit; }))
+      return true;
+  }
+  return false;
+}
+
+bool touch(const ConvexPolygon& a, const ConvexPolygon& b, double tolerance) {
+  return !side_separates(a, b, tolerance) && !side_separates(b, a, tolerance);
+}
+
+bool is_inside(const ConvexPolygon& polygon, const Vec2& x, double tolerance) {
+  for (std::size_t k = 0; k < polygon.corners.size(); ++k) {
+    const Vec2 side = polygon.corners[(k + 1) % polygon.corners.size()] - polygon.corners[k];
+    if (cross(side, x - polygon.corners[k]) < -tolerance * side.norm()) return false;
+  }
+  return true;
+}
+
+bool is_speck(const ConvexPolygon& polygon, double area, double width) {
+  double longest = 0.0;
+  for (std::size_t k = 0; k < polygon.corners.size(); ++k)
+    longest =
+        std::max(longest, (polygon.corners[(k + 1) % polygon.corners.size()] - polygon.corners[k]).norm());
+  return !(area > width * longest);
+}
+
+}  // namespace
+
+void FlatContacts::start(std::int32_t body, double cutoff, double touch, double coordinates,
+                         double tolerance) {
+  body_ = body;
+  cutoff_ = cutoff;
+  touch_ = touch;
+  coordinates_ = coordinates;
+  tolerance_ = tolerance;
+  contacts_.clear();
+  unsure_.clear();
+  pieces_.clear();
+  frames_.clear();
+}
+
+FlatVerdict FlatContacts::judge(const Range& distances, double tilt) const {
+  // Faces that are in touch or cross have no direction: their triangles tell.
+  if (distances.greatest < 0.0) return FlatVerdict::NONE;
+  if (distances.least <= 2.0 * touch_) return FlatVerdict::UNSURE;
+  if (distances.greatest - distances.least <= std::max(tolerance_, coincidence_length(coordinates_)))
+    return FlatVerdict::FOUND;
+  return tilt <= CLEAR_TILT ? FlatVerdict::UNSURE : FlatVerdict::NONE;
+}
+
+void FlatContacts::collect_pieces(const FlatSide& side, std::int32_t region, const PlanarFrame& frame_W,
+                                  std::vector<ConvexPolygon>& pieces) const {
+  pieces.clear();
+  const RegionShape* shape = side.mesh.shapes.of_region(region);
+  if (shape == nullptr) {
+    pieces.emplace_back(frame_W,
+                        side.X_WS.triangle(side.surface.mesh.triangle(side.mesh.lead_of_region(region))));
+    return;
+  }
+  const Vec2 origin = frame_W.flat(side.X_WS.point(shape->frame.origin));
+  const Vec3 u = side.X_WS.direction(shape->frame.u), v = side.X_WS.direction(shape->frame.v);
+  Eigen::Matrix2d turn;
+  turn << frame_W.u.dot(u), frame_W.u.dot(v), frame_W.v.dot(u), frame_W.v.dot(v);
+  for (const ConvexPolygon& own : shape->pieces) {
+    ConvexPolygon& piece = pieces.emplace_back();
+    piece.corners.reserve(own.corners.size());
+    for (const Vec2& x : own.corners) piece.corners.push_back(origin + turn * x);
+    if (turn.determinant() < 0.0) std::reverse(piece.corners.begin(), piece.corners.end());
+  }
+}
+
+FlatVerdict FlatContacts::add_faces(const FlatSide& moving, std::int32_t region_moving, const FlatSide& fixed,
+                                    std::int32_t region_fixed) {
+  const Plane plane_m = moving.plane(region_moving), plane_f = fixed.plane(region_fixed);
+  const double tilt = (plane_m.normal + plane_f.normal).norm();
+  if (tilt > (tolerance_ > 0.0 ? LARGEST_PARALLEL_TILT : CLEAR_TILT)) return FlatVerdict::NONE;
+  const Vec3 n = contact_direction(plane_m.normal, plane_f.normal, moving.surface, fixed.surface);
+  const PlanarFrame frame(plane_f.point, n);
+  collect_pieces(moving, region_moving, frame, of_moving_);
+  collect_pieces(fixed, region_fixed, frame, of_fixed_);
+  const double width = coincidence_length(coordinates_);
+  overlaps_.clear();
+  Range distances{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
+  for (const ConvexPolygon& a : of_moving_) {
+    for (const ConvexPolygon& b : of_fixed_) {
+      if (!touch(a, b, 0.0)) continue;
+      ConvexPolygon overlap = a.cut_by(b);
+      if (is_speck(overlap, overlap.measure().area, width)) continue;
+      for (const Vec2& corner : overlap.corners) {
+        const Vec3 x = frame.lifted(corner);
+        distances.add(along(plane_f, n, x) - along(plane_m, n, x));
+      }
+      overlaps_.push_back(std::move(overlap));
+    }
+  }
+  if (overlaps_.empty() || distances.least > cutoff_) return FlatVerdict::NONE;
+  const FlatVerdict verdict = judge(distances, tilt);
+  if (verdict == FlatVerdict::UNSURE)
+    return unsure({FeatureKind::FACE, region_moving}, {FeatureKind::FACE, region_fixed});
+  if (verdict == FlatVerdict::NONE) return verdict;
+
+  group_.resize(overlaps_.size());
+  std::iota(group_.begin(), group_.end(), std::size_t{0});
+  for (std::size_t i = 0; i < overlaps_.size(); ++i)
+    for (std::size_t j = i + 1; j < overlaps_.size(); ++j)
+      if (group_[i] != group_[j] && touch(overlaps_[i], overlaps_[j], TOUCHING * coordinates_))
+        std::replace(group_.begin(), group_.end(), std::max(group_[i], group_[j]),
+                     std::min(group_[i], group_[j]));
+  for (std::size_t g = 0; g < overlaps_.size(); ++g) {
+    if (group_[g] != g) continue;
+    Contact contact;
+    contact.flat_moving = {FeatureKind::FACE, region_moving};
+    contact.flat_fixed = {FeatureKind::FACE, region_fixed};
+    contact.first = pieces_.size();
+    double area = 0.0;
+    Vec2 centroid = Vec2::Zero();
+    for (std::size_t i = g; i < overlaps_.size(); ++i) {
+      if (group_[i] != g) continue;
+      const AreaAndCentroid piece = overlaps_[i].measure();
+      area += piece.area;
+      centroid += piece.area * piece.centroid;
+      pieces_.push_back(overlaps_[i]);
+    }
+    contact.count = pieces_.size() - contact.first;
+    const Vec3 x = frame.lifted(centroid / area);
+    contact.lmd.point_moving = x + along(plane_m, n, x) * n;
+    contact.lmd.point_fixed = x + along(plane_f, n, x) * n;
+    frames_.resize(contacts_.size(), frame);
+    frames_.push_back(frame);
+    add(moving, fixed, contact);
+  }
+  return FlatVerdict::FOUND;
+}
+
+FlatVerdict FlatContacts::add_edge_face(const FlatSide& of_edge, std::int32_t straight,
+                                        const FlatSide& of_face, std::int32_t region) {
+  const auto& ends = of_edge.mesh.regions->straight_edges[static_cast<std::size_t>(straight)].ends;
+  const Vec3 x0 = of_edge.vertex(ends[0]), u = of_edge.vertex(ends[1]) - x0;
+  const double length = u.norm();
+  const Plane plane = of_face.plane(region);
+  const double tilt = std::abs(u.dot(plane.normal)) / length;
+  if (!(tilt <= (tolerance_ > 0.0 ? LARGEST_PARALLEL_TILT : CLEAR_TILT))) return FlatVerdict::NONE;
+  const Vec3 n = -(plane.normal - u.dot(plane.normal) / (length * length) * u).normalized();
+  const PlanarFrame frame(plane.point, n);
+  collect_pieces(of_face, region, frame, of_fixed_);
+  const double width = coincidence_length(coordinates_);
+  struct Part {
+    double begin, end;
+    int covers;  ///< 2 inside a piece; 1 along a side: inside the region where
+                 ///< two pieces share the side.
+  };
+  std::vector<Part> parts;
+  const Vec2 flat0 = frame.flat(x0), flat1 = frame.flat(x0 + u);
+  for (const ConvexPolygon& piece : of_fixed_) {
+    const SegmentPart part = piece.part_of(flat0, flat1);
+    if (!((part.end - part.begin) * length > width)) continue;
+    const Vec2 middle = flat0 + 0.5 * (part.begin + part.end) * (flat1 - flat0);
+    parts.push_back({part.begin, part.end, is_inside(piece, middle, -width) ? 2 : 1});
+  }
+  std::sort(parts.begin(), parts.end(), [](const Part& a, const Part& b) { return a.begin < b.begin; });
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    if (kept > 0 && (parts[i].begin - parts[kept - 1].end) * length <= TOUCHING * coordinates_) {
+      parts[kept - 1].end = std::max(parts[kept - 1].end, parts[i].end);
+      parts[kept - 1].covers += parts[i].covers;
+    } else {
+      parts[kept++] = parts[i];
+    }
+  }
+  parts.resize(kept);
+  std::erase_if(parts, [](const Part& part) { return part.covers < 2; });
+  const FeatureId lead{FeatureKind::EDGE, of_edge.mesh.lead_of_straight(straight)};
+  Range distances{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
+  for (const Part& part : parts) {
+    distances.add(along(plane, n, x0 + part.begin * u));
+    distances.add(along(plane, n, x0 + part.end * u));
+  }
+  if (parts.empty() || distances.least > cutoff_) return FlatVerdict::NONE;
+  const FlatVerdict verdict = judge(distances, tilt);
+  const FeatureId edge{FeatureKind::EDGE, straight}, face{FeatureKind::FACE, region};
+  const FeatureId& flat_moving = of_edge.is_moving ? edge : face;
+  const FeatureId& flat_fixed = of_edge.is_moving ? face : edge;
+  if (verdict == FlatVerdict::NONE) return verdict;
+  const FeatureId lead_face{FeatureKind::FACE, of_face.mesh.lead_of_region(region)};
+  if (verdict == FlatVerdict::UNSURE || (of_edge.is_moving ? is_on_unsure(of_edge, lead, of_face, lead_face)
+                                                           : is_on_unsure(of_face, lead_face, of_edge, lead)))
+    return unsure(flat_moving, flat_fixed);
+  for (const Part& part : parts) {
+    const Vec3 middle = x0 + 0.5 * (part.begin + part.end) * u;
+    const Vec3 foot = middle + along(plane, n, middle) * n;
+    if (!in_outward_polar_cone(of_edge.surface, of_edge.X_WS, lead, middle, foot - middle))
+      return unsure(flat_moving, flat_fixed);
+    Contact contact;
+    contact.flat_moving = flat_moving;
+    contact.flat_fixed = flat_fixed;
+    contact.lmd.point_moving = of_edge.is_moving ? middle : foot;
+    contact.lmd.point_fixed = of_edge.is_moving ? foot : middle;
+    contact.end0 = contact.lmd.point_fixed + (part.begin - 0.5 * (part.begin + part.end)) * u;
+    contact.end1 = contact.lmd.point_fixed + (part.end - 0.5 * (part.begin + part.end)) * u;
+    add(of_edge.is_moving ? of_edge : of_face, of_edge.is_moving ? of_face : of_edge, contact);
+  }
+  return FlatVerdict::FOUND;
+}
+
+FlatVerdict FlatContacts::add_edges(const FlatSide& moving, std::int32_t straight_moving,
+                                    const FlatSide& fixed, std::int32_t straight_fixed) {
+  const auto& ends_m = moving.mesh.regions->straight_edges[static_cast<std::size_t>(straight_moving)].ends;
+  const auto& ends_f = fixed.mesh.regions->straight_edges[static_cast<std::size_t>(straight_fixed)].ends;
+  const Vec3 a0 = moving.vertex(ends_m[0]), u = moving.vertex(ends_m[1]) - a0;
+  const Vec3 b0 = fixed.vertex(ends_f[0]), v = fixed.vertex(ends_f[1]) - b0;
+  const double length_u = u.norm(), length_v = v.norm();
+  const double tilt = u.cross(v).norm() / (length_u * length_v);
+  if (!(tilt <= (tolerance_ > 0.0 ? LARGEST_PARALLEL_TILT : CLEAR_TILT))) return FlatVerdict::NONE;
+  const double sense = u.dot(v) > 0.0 ? 1.0 : -1.0;
+  const Vec3 w = (u / length_u + sense / length_v * v).normalized();
+  const double end_a = u.dot(w), begin_b = (b0 - a0).dot(w), end_b = begin_b + v.dot(w);
+  const double begin = std::max(0.0, std::min(begin_b, end_b));
+  const double end = std::min(end_a, std::max(begin_b, end_b));
+  // Where they face each other in a point or less, their ends answer.
+  if (!(end - begin > coincidence_length(coordinates_))) return FlatVerdict::UNSURE;
+  const auto on_moving = [&](double s) { return Vec3(a0 + s / end_a * u); };
+  const auto on_fixed = [&](double s) { return Vec3(b0 + (s - begin_b) / (end_b - begin_b) * v); };
+  const double middle = 0.5 * (begin + end);
+  const Vec3 p = on_moving(middle), d = on_fixed(middle) - p;
+  Range distances{d.norm(), d.norm()};
+  distances.add((on_fixed(begin) - on_moving(begin)).norm());
+  distances.add((on_fixed(end) - on_moving(end)).norm());
+  if (distances.least > cutoff_) return FlatVerdict::NONE;
+  const FlatVerdict verdict = judge(distances, tilt);
+  if (verdict == FlatVerdict::NONE) return verdict;
+  const FeatureId lead_m{FeatureKind::EDGE, moving.mesh.lead_of_straight(straight_moving)};
+  const FeatureId lead_f{FeatureKind::EDGE, fixed.mesh.lead_of_straight(straight_fixed)};
+  if (verdict == FlatVerdict::UNSURE || is_on_unsure(moving, lead_m, fixed, lead_f))
+    return FlatVerdict::UNSURE;
+  const Vec3 across_m = d - d.dot(u) / (length_u * length_u) * u;
+  const Vec3 across_f = d - d.dot(v) / (length_v * length_v) * v;
+  if (!in_outward_polar_cone(moving.surface, moving.X_WS, lead_m, p, across_m) ||
+      !in_outward_polar_cone(fixed.surface, fixed.X_WS, lead_f, p + d, -across_f))
+    return FlatVerdict::UNSURE;
+  Contact contact;
+  contact.flat_moving = {FeatureKind::EDGE, straight_moving};
+  contact.flat_fixed = {FeatureKind::EDGE, straight_fixed};
+  contact.lmd.point_moving = p;
+  contact.lmd.point_fixed = p + d;
+  contact.end0 = on_fixed(begin);
+  contact.end1 = on_fixed(end);
+  add(moving, fixed, contact);
+  return FlatVerdict::FOUND;
+}
+
+void FlatContacts::add(const FlatSide& moving, const FlatSide& fixed, Contact contact) {
+  Lmd& lmd = contact.lmd;
+  const Vec3 d = lmd.point_fixed - lmd.point_moving;
+  lmd.distance = d.norm();
+  if (lmd.distance > cutoff_) return;
+  lmd.direction = d / lmd.distance;
+  lmd.fixed_body = body_;
+  const auto name = [](const FlatSide& side, const FeatureId& flat, const Vec3& p_W, FeatureId& feature,
+                       std::int32_t& triangle) {
+    const Vec3 p_S = side.X_WS.rotation.transpose() * (p_W - side.X_WS.translation);
+    if (flat.kind == FeatureKind::FACE) {
+      triangle = side.mesh.face_at(side.surface, flat.index, p_S);
+      feature = {FeatureKind::FACE, triangle};
+    } else {
+      feature = {FeatureKind::EDGE, side.mesh.regions->edge_at(side.surface, flat.index, p_S)};
+      triangle = side.surface.adjacency.edge_triangles[feature.index].front();
+    }
+  };
+  name(moving, contact.flat_moving, lmd.point_moving, lmd.feature_moving, lmd.triangle_moving);
+  name(fixed, contact.flat_fixed, lmd.point_fixed, lmd.feature_fixed, lmd.triangle_fixed);
+  // Two edges of faces that are in contact are part of that.
+  if (contains(moving, lmd.feature_moving, fixed, lmd.feature_fixed, lmd.point_moving, lmd.point_fixed))
+    return;
+  contacts_.push_back(contact);
+}
+
+bool FlatContacts::is_on_unsure(const FlatSide& moving, const FeatureId& on_moving, const FlatSide& fixed,
+                                const FeatureId& on_fixed) const {
+  return std::any_of(unsure_.begin(), unsure_.end(), [&](const auto& pair) {
+    return moving.mesh.is_on(moving.surface, on_moving, pair.first) &&
+           fixed.mesh.is_on(fixed.surface, on_fixed, pair.second);
+  });
+}
+
+const FlatContacts::Contact* FlatContacts::contact_of(const FlatSide& moving, const FeatureId& on_moving,
+                                                      const FlatSide& fixed, const FeatureId& on_fixed,
+                                                      std::size_t from) const {
+  for (std::size_t i = from; i < contacts_.size(); ++i)
+    if (moving.mesh.is_on(moving.surface, on_moving, contacts_[i].flat_moving) &&
+        fixed.mesh.is_on(fixed.surface, on_fixed, contacts_[i].flat_fixed))
+      return &contacts_[i];
+  return nullptr;
+}
+
+bool FlatContacts::contains(const FlatSide& moving, const FeatureId& on_moving, const FlatSide& fixed,
+                            const FeatureId& on_fixed, const Vec3& p_W, const Vec3& q_W) const {
+  const Vec3 d = q_W - p_W;
+  const double reach = TOUCHING * coordinates_ + tolerance_;
+  for (std::size_t i = 0; i < contacts_.size(); ++i) {
+    const Contact& contact = contacts_[i];
+    const double distance = contact.lmd.distance;
+    if ((d - distance * contact.lmd.direction).norm() > SAME_DISTANCE * distance + reach) continue;
+    if (!moving.mesh.is_on(moving.surface, on_moving, contact.flat_moving) ||
+        !fixed.mesh.is_on(fixed.surface, on_fixed, contact.flat_fixed))
+      continue;
+    if (contact.count == 0) {
+      const Vec3 along_segment = contact.end1 - contact.end0;
+      const double t =
+          std::clamp((q_W - contact.end0).dot(along_segment) / along_segment.squaredNorm(), 0.0, 1.0);
+      if ((contact.end0 + t * along_segment - q_W).norm() <= reach) return true;
+      continue;
+    }
+    const Vec2 x = frames_[i].flat(q_W);
+    for (std::size_t k = 0; k < contact.count; ++k)
+      if (is_inside(pieces_[contact.first + k], x, reach)) return true;
+  }
+  return false;
+}
+
+}  // namespace lmdbench

@@ -1,0 +1,203 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/methods/certified/certified.h>
+#include <lmdbench/methods/registry.h>
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+#include <support/rounded.h>
+#include <support/scenes.h>
+
+#include <cmath>
+#include <memory>
+#include <numbers>
+#include <string>
+
+/// Flat contact: regions and straight edges must give the sets that the triangles give.
+namespace lmdbench {
+namespace {
+
+using testing::make_scene;
+using testing::random_direction;
+using testing::uniform;
+
+std::string text(const LmdSet& lmds) {
+  std::string result;
+  for (const Lmd& lmd : lmds)
+    result += fmt::format("{:.17g} {} {} - {} {} at {:.9g} {:.9g} {:.9g}\n", lmd.distance,
+                          to_string(lmd.feature_moving.kind), lmd.feature_moving.index,
+                          to_string(lmd.feature_fixed.kind), lmd.feature_fixed.index, lmd.point_fixed.x(),
+                          lmd.point_fixed.y(), lmd.point_fixed.z());
+  return result;
+}
+
+std::string text(const Pose& pose) {
+  return fmt::format("pose {:.17g} {:.17g} {:.17g} xyzw {:.17g} {:.17g} {:.17g} {:.17g}",
+                     pose.translation.x(), pose.translation.y(), pose.translation.z(), pose.rotation.x(),
+                     pose.rotation.y(), pose.rotation.z(), pose.rotation.w());
+}
+
+/// Every contact of the truth, of the same features, at the same place, and no other.
+void expect_same(const LmdSet& set, const LmdSet& truth, const Pose& pose) {
+  SCOPED_TRACE(text(pose) + "\nset:\n" + text(set) + "truth:\n" + text(truth));
+  ASSERT_EQ(set.size(), truth.size());
+  std::vector<bool> used(set.size(), false);
+  for (const Lmd& true_lmd : truth) {
+    std::size_t partner = set.size();
+    for (std::size_t i = 0; i < set.size() && partner == set.size(); ++i)
+      if (!used[i] && same_feature_pair(set[i], true_lmd) && set[i].intersecting == true_lmd.intersecting &&
+          std::abs(set[i].distance - true_lmd.distance) <= 1e-12 &&
+          (set[i].point_moving - true_lmd.point_moving).norm() <= 1e-9 &&
+          (set[i].point_fixed - true_lmd.point_fixed).norm() <= 1e-9)
+        partner = i;
+    ASSERT_LT(partner, set.size()) << "without a partner: " << text({true_lmd});
+    used[partner] = true;
+  }
+}
+
+/// Searches from scratch and, along a path, with what earlier frames left.
+class Comparison {
+ public:
+  explicit Comparison(Scene scene)
+      : scene_(std::move(scene)),
+        truth_(make_method("exhaustive", scene_)),
+        coherent_(make_method("certified", scene_)) {}
+
+  void check(const Pose& pose) {
+    LmdSet truth, set;
+    WorkCounters counters;
+    truth_->search(pose, truth, counters);
+    coherent_->search(pose, set, counters);
+    expect_same(set, truth, pose);
+    make_method("certified", scene_)->search(pose, set, counters);
+    expect_same(set, truth, pose);
+    found_ += truth.size();
+  }
+  std::size_t found() const { return found_; }
+
+ private:
+  Scene scene_;
+  std::unique_ptr<Method> truth_, coherent_;
+  std::size_t found_ = 0;
+};
+
+Pose on_top(std::mt19937_64& random, double height) {
+  return {Vec3(0.16 * (uniform(random) - 0.5), 0.16 * (uniform(random) - 0.5), height),
+          Eigen::Quaterniond(Eigen::AngleAxisd(2.0 * std::numbers::pi * uniform(random), Vec3::UnitZ()))};
+}
+
+TEST(FlatScenes, BoxesFaceToFace) {
+  std::mt19937_64 random(1);
+  for (const int cells : {1, 2, 5}) {
+    Comparison boxes(make_scene(make_box({0.1, 0.1, 0.1}, cells), make_box({0.1, 0.12, 0.1}, 3), 0.02));
+    for (int i = 0; i < 40; ++i) boxes.check(on_top(random, 0.11));
+    EXPECT_GT(boxes.found(), 30u);
+  }
+}
+
+TEST(FlatScenes, AlignedBoxesOfAllOffsets) {
+  // Edges over edges, corners over corners, tessellations that coincide.
+  Comparison boxes(make_scene(make_box({0.1, 0.1, 0.1}, 2), make_box({0.1, 0.1, 0.1}, 2), 0.04));
+  for (int x = -5; x <= 5; ++x)
+    for (int y = -5; y <= 5; ++y)
+      boxes.check({Vec3(0.025 * x, 0.025 * y, 0.11), Eigen::Quaterniond::Identity()});
+  EXPECT_GT(boxes.found(), 100u);
+}
+
+TEST(FlatScenes, NonConvexFacesAndSeveralOverlaps) {
+  std::mt19937_64 random(2);
+  Comparison blocks(make_scene(make_l_block(0.1), make_two_boxes({0.08, 0.1, 0.1}, 0.02), 0.03));
+  for (int i = 0; i < 40; ++i) {
+    Pose pose = on_top(random, 0.0);
+    pose.rotation = pose.rotation * Eigen::AngleAxisd(0.5 * std::numbers::pi * (i % 4), Vec3::UnitX()) *
+                    Eigen::AngleAxisd(0.5 * std::numbers::pi * (i % 3), Vec3::UnitY());
+    pose.translation.z() = 0.11;
+    blocks.check(pose);
+  }
+  EXPECT_GT(blocks.found(), 40u);
+}
+
+TEST(FlatScenes, OverlapsThatAreApartAreTwoContactsHoweverLargeTheTriangles) {
+  // The two overlaps lie in triangles that share corners.
+  const Scene scene = make_scene(make_l_block(0.1), make_l_block(0.13), 0.02);
+  const Pose pose{Vec3(0.068008165683898031, -0.116, 0.00074457514592900925),
+                  Eigen::Quaterniond(0.93280356198851988, 0.0, -0.36038523102581421, 0.0)};
+  Comparison blocks(scene);
+  blocks.check(pose);
+  EXPECT_EQ(blocks.found(), 2u);
+}
+
+TEST(FlatScenes, EdgesOnFacesAndAlongEdges) {
+  std::mt19937_64 random(3);
+  Comparison wedge(make_scene(make_wedge(0.05, 0.1, 0.05), make_box({0.2, 0.2, 0.1}, 4), 0.03));
+  for (int i = 0; i < 40; ++i) {
+    Pose pose = on_top(random, 0.085);
+    pose.rotation = pose.rotation * Eigen::AngleAxisd(std::numbers::pi, Vec3::UnitX());
+    wedge.check(pose);
+  }
+  EXPECT_GT(wedge.found(), 30u);
+  Comparison boxes(make_scene(make_box({0.1, 0.1, 0.1}, 3), make_box({0.1, 0.1, 0.1}, 2), 0.05));
+  for (int i = 0; i < 20; ++i)
+    boxes.check({Vec3(0.11 + 0.01 * uniform(random), 0.11, 0.16 * (uniform(random) - 0.5)),
+                 Eigen::Quaterniond::Identity()});
+  EXPECT_GT(boxes.found(), 15u);
+}
+
+TEST(FlatScenes, TiltedBoxesAtAnyAngle) {
+  std::mt19937_64 random(4);
+  Comparison boxes(make_scene(make_box({0.1, 0.1, 0.1}, 3), make_box({0.3, 0.3, 0.1}, 4), 0.03));
+  for (int i = 0; i < 60; ++i) {
+    Pose pose = on_top(random, 0.115);
+    const double tilt = std::pow(10.0, -14.0 + 13.0 * uniform(random));
+    pose.rotation = Eigen::AngleAxisd(tilt, random_direction(random)) * pose.rotation;
+    boxes.check(pose);
+  }
+  for (int i = 0; i < 60; ++i) {
+    Pose pose = on_top(random, 0.05 + 0.12 * uniform(random));
+    pose.rotation = testing::random_rotation(random);
+    boxes.check(pose);
+  }
+}
+
+TEST(FlatScenes, BoxesThatRockAndSlide) {
+  Comparison boxes(make_scene(make_box({0.1, 0.1, 0.1}, 3), make_box({0.3, 0.3, 0.1}, 4), 0.03));
+  for (int i = 0; i < 150; ++i) {
+    const double t = 0.01 * i;
+    Pose pose;
+    pose.translation = Vec3(0.05 * t, 0.02 * std::sin(t), 0.105 + 0.002 * std::sin(3.0 * t));
+    pose.rotation = Eigen::AngleAxisd(i % 50 < 25 ? 0.0 : 1e-3 * std::sin(20.0 * t), Vec3::UnitX()) *
+                    Eigen::AngleAxisd(0.1 * t, Vec3::UnitZ());
+    boxes.check(pose);
+  }
+}
+
+TEST(FlatScenes, BoxesInContact) {
+  std::mt19937_64 random(5);
+  Comparison boxes(make_scene(make_box({0.1, 0.1, 0.1}, 2), make_box({0.1, 0.1, 0.1}, 2), 0.02));
+  for (int i = 0; i < 30; ++i) {
+    Pose pose = on_top(random, i % 3 == 0 ? 0.1 : 0.09);
+    if (i % 3 == 2) pose.rotation = testing::random_rotation(random);
+    boxes.check(pose);
+  }
+}
+
+TEST(FlatScenes, CostsNoMoreForFinerTessellation) {
+  // Test counts, not times: the same contact of the same shapes.
+  std::array<WorkCounters, 2> work;
+  std::array<LmdSet, 2> sets;
+  for (std::size_t k = 0; k < 2; ++k) {
+    const int cells = k == 0 ? 2 : 40;
+    const Scene scene = make_scene(make_box({1.0, 1.0, 0.1}, cells), make_box({1.2, 0.8, 0.1}, cells), 0.02);
+    Pose pose;
+    pose.translation = Vec3(0.1, 0.05, 0.101);
+    pose.rotation = Eigen::AngleAxisd(0.3, Vec3::UnitZ());
+    make_method("certified", scene)->search(pose, sets[k], work[k]);
+  }
+  ASSERT_EQ(sets[0].size(), 1u);
+  ASSERT_EQ(sets[1].size(), 1u);
+  EXPECT_LT((sets[0][0].point_fixed - sets[1][0].point_fixed).norm(), 1e-12);
+  EXPECT_EQ(work[0].values, work[1].values);
+}
+
+}  // namespace
+}  // namespace lmdbench

@@ -1,0 +1,46 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <lmdbench/geometry/pose.h>
+#include <lmdbench/mesh/triangle_mesh.h>
+
+#include <support/scenes.h>
+
+#include <cstdint>
+#include <random>
+#include <utility>
+
+/// Meshes as files in single precision hold them.
+namespace lmdbench::testing {
+
+/// Some rigid motion that depends on the seed: any rotation, up to half a metre away along each axis.
+inline Pose pose_of_seed(std::uint64_t seed) {
+  std::mt19937_64 random(seed);
+  Pose pose;
+  pose.rotation = random_rotation(random);
+  for (int k = 0; k < 3; ++k) pose.translation[k] = uniform(random) - 0.5;
+  return pose;
+}
+
+inline TriangleMesh placed(TriangleMesh mesh, const Pose& pose) {
+  const RigidTransform X(pose);
+  for (Vec3& p : mesh.vertices) p = X.point(p);
+  return mesh;
+}
+
+inline TriangleMesh turned(TriangleMesh mesh, std::uint64_t seed) {
+  return placed(std::move(mesh), pose_of_seed(seed));
+}
+
+inline TriangleMesh rounded_to_floats(TriangleMesh mesh) {
+  for (Vec3& p : mesh.vertices)
+    for (double& x : p) {
+      // Through memory: GCC 12 was seen to drop the two conversions of neighbouring coordinates at -O3.
+      volatile float rounded = static_cast<float>(x);
+      x = static_cast<double>(rounded);
+    }
+  return mesh;
+}
+
+}  // namespace lmdbench::testing
