@@ -133,7 +133,7 @@ LOSSES = {"recall": 0.8, "recall_adjacent": 0.9, "precision": 0.7, "precision_ad
           "force_error_rms_n": 0.9, "force_error_maximum_n": 2.0, "jumps_per_second": 20.0}
 EXACT = {"recall": 1.0, "recall_adjacent": 1.0, "precision": 1.0, "precision_adjacent": 1.0, "frames_wrong": 0.0,
          "force_error_rms_n": 0.0, "force_error_maximum_n": 0.0, "jumps_per_second": 0.0}
-COMMON = {"frames_touching": 0.0, "lmd_count_median": 2.0, "lmd_count_p99": 4.0, "lmd_count_maximum": 4.0,
+COMMON = {"frames_touching": 0.0, "frames_late": 0.0, "lmd_count_median": 2.0, "lmd_count_p99": 4.0, "lmd_count_maximum": 4.0,
           "candidates_median": 24.0, "minimum_distance_error_maximum_m": 0.0, "force_error_median_n": 0.0,
           "force_error_p99_n": 0.0, "force_angle_error_median_rad": 0.0, "force_jump_p99_n": 0.0,
           "force_jump_maximum_n": 0.0, "true_force_jump_p99_n": 0.0, "true_force_jump_maximum_n": 0.0,

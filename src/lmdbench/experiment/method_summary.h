@@ -55,6 +55,7 @@ struct MethodSummary {
   double frame_time_median_s = UNSET;
   double frame_time_p99_s = UNSET;
   double frame_time_maximum_s = UNSET;
+  double frames_late = UNSET;
 };
 
 /// A number of the summary with what a reader must know of it.

@@ -86,6 +86,14 @@ bool touches(const Scene& scene, const Pose& X_WM) {
 
 }  // namespace
 
+Scene load_scene(const Experiment& experiment, std::vector<MeshNote>& notes) {
+  Scene scene;
+  scene.moving = load_body(experiment.moving, "moving", experiment, notes);
+  for (std::size_t i = 0; i < experiment.fixed.size(); ++i)
+    scene.fixed.push_back(load_body(experiment.fixed[i], fmt::format("fixed_{}", i), experiment, notes));
+  return scene;
+}
+
 PreparedRun prepare(const Experiment& experiment) {
   // The cheap checks first: a misspelt device should not wait for a large mesh.
   const Device& device = device_named(experiment.device, experiment.file.string(), "/device");
@@ -93,10 +101,7 @@ PreparedRun prepare(const Experiment& experiment) {
   const Path frames = load_frames(experiment, files);
 
   std::vector<MeshNote> notes;
-  Scene scene;
-  scene.moving = load_body(experiment.moving, "moving", experiment, notes);
-  for (std::size_t i = 0; i < experiment.fixed.size(); ++i)
-    scene.fixed.push_back(load_body(experiment.fixed[i], fmt::format("fixed_{}", i), experiment, notes));
+  Scene scene = load_scene(experiment, notes);
   const ForceProfile profile = profile_for(experiment, notes.front().report.diagonal);
   scene.cutoff = profile.cutoff;
 

@@ -40,6 +40,11 @@ struct PreparedRun {
   std::vector<std::string> warnings;  ///< What was done to the meshes and flaws that methods can live with.
 };
 
+/// The meshes of the scene at their places; the cutoff is left to the caller.
+/// @param notes receives one a mesh, the moving one first
+/// @throws InputError for a mesh that cannot be used
+Scene load_scene(const Experiment& experiment, std::vector<MeshNote>& notes);
+
 /// Loads meshes and path. Open and non-manifold meshes and a start in contact are noted, not refused.
 /// @throws InputError for a mesh or path that cannot be used, UsageError for a profile that does not
 ///         fit the mesh

@@ -117,6 +117,8 @@ RunResult run_experiment_to_file(const Experiment& experiment, const std::filesy
   RunResult result = run_experiment(experiment, progress);
   write_provenance(writer, argv, experiment.resolved_json, plan_json(result.plan, experiment),
                    result.prepared.files);
+  // Relative names of the experiment are relative to its folder.
+  writer.attribute("/provenance", "experiment_file", experiment.file.string());
   write_result(writer, experiment, result);
   writer.commit();
   return result;

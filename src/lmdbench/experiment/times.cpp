@@ -3,6 +3,7 @@
 #include <lmdbench/base/statistics.h>
 #include <lmdbench/experiment/times.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 
@@ -10,6 +11,7 @@ namespace lmdbench {
 namespace {
 
 constexpr double P99 = 0.99;
+constexpr double HAPTIC_FRAME_S = 1e-3;  ///< At 1 kHz, whatever the rate of the experiment.
 
 std::size_t first_measured(const MethodRecord& record) {
   return record.repetitions.size() > 1 ? 1 : 0;
@@ -98,6 +100,9 @@ void summarise_times(MethodSummary& summary, const MethodRecord& record,
   summary.frame_time_median_s = median(frame_times);
   summary.frame_time_p99_s = quantile(frame_times, P99);
   summary.frame_time_maximum_s = maximum(frame_times);
+  if (!frame_times.empty())
+    summary.frames_late = static_cast<double>(std::count_if(
+        frame_times.begin(), frame_times.end(), [](double time) { return time > HAPTIC_FRAME_S; }));
 }
 
 }  // namespace lmdbench

@@ -1,0 +1,63 @@
+# SPDX-FileCopyrightText: The lmdbench authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""The first screen's table and sentence: of each method the error beside the time. All numbers are the program's own."""
+
+import math
+
+BUDGET_S = 1e-3  # one haptic frame at 1 kHz
+
+
+class Row:
+    """A method in a result, with the numbers of its summary (results/README.md)."""
+
+    def __init__(self, method):
+        self.label = method.label
+        self.force_law = method.force_law
+        self.number = method.number
+        self.force_error = method.number("force_error_rms_n") / method.result.maximum_force()
+        self.largest_force_error = method.number("force_error_maximum_n") / method.result.maximum_force()
+
+
+def sentence(rows):
+    """Which method to take at the budget of one haptic frame, said with its conditions; what cannot be said is said."""
+    probed = [row for row in rows if math.isfinite(row.force_error)]
+    if not probed:
+        return "No truth probe in this run: the times stand without an error, so no method can be preferred."
+    punctual = [row for row in probed if row.number("frame_time_p99_s") <= BUDGET_S]
+    if not punctual:
+        return "No method keeps 99 % of its frames within 1 ms here."
+    best = min(punctual, key=lambda row: (row.force_error, row.number("frame_time_median_s")))
+    late = int(best.number("frames_late"))
+    return (f"Within one haptic frame (1 ms), {best.label} leaves the least force error: {100 * best.force_error:.3g} % of "
+            f"F_max (root mean square), at {1e6 * best.number('frame_time_median_s'):.3g} us in the median frame, "
+            f"{1e6 * best.number('frame_time_p99_s'):.3g} us in 99 % of them; "
+            f"{late or 'none'} of its frames {'is' if late < 2 else 'are'} late.")
+
+
+def number(value, scale=1.0):
+    return f"{value * scale:.3g}" if math.isfinite(value) else "-"
+
+
+def summary(name, scale=1.0):
+    return lambda row: number(row.number(name), scale)
+
+
+COLUMNS = (
+    ("method", lambda row: row.label),
+    ("force law", lambda row: row.force_law),
+    ("recall [%]", summary("recall", 100.0)),
+    ("recall, neighbouring features count [%]", summary("recall_adjacent", 100.0)),
+    ("precision [%]", summary("precision", 100.0)),
+    ("force error, RMS [% of F_max]", lambda row: number(row.force_error, 100.0)),
+    ("force error, largest [% of F_max]", lambda row: number(row.largest_force_error, 100.0)),
+    ("frame, median [us]", summary("frame_time_median_s", 1e6)),
+    ("frame, 99 % [us]", summary("frame_time_p99_s", 1e6)),
+    ("frame, largest [us]", summary("frame_time_maximum_s", 1e6)),
+    ("frames above 1 ms", summary("frames_late")),
+)
+
+
+def answer(result):
+    rows = [Row(method) for method in result.methods.values()]
+    return {"sentence": sentence(rows), "headings": [name for name, _ in COLUMNS],
+            "rows": [[cell(row) for _, cell in COLUMNS] for row in rows]}

@@ -1,0 +1,118 @@
+# SPDX-FileCopyrightText: The lmdbench authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""What the page's plots draw and what their CSV files hold: time series of a result, as little-endian single-precision
+numbers in base64, so that 6,000 frames of a series are 32 kB of page."""
+
+import base64
+
+import numpy as np
+
+import figure_style as style
+from lmdbench_results import truth_of
+
+# Lines must be seen on a white and on a dark page.
+TRUTH_COLOURS = {"linear": style.GREY, "exponential": style.SKY}
+ON_BOTH = {style.BLACK: "#777777"}
+RECALL_WINDOW = 40  # probed frames: a frame has so few LMDs that its own recall is mostly 0 or 1
+
+
+def encoded(values):
+    return base64.b64encode(np.ascontiguousarray(values, dtype="<f4").tobytes()).decode("ascii")
+
+
+def series(label, values, colour, **look):
+    return {"label": label, "values": encoded(values), "colour": colour, **look}
+
+
+def at_frames(result, frames, values):
+    """(N) the values at their frames, NaN between them."""
+    full = np.full(result.time.size, np.nan)
+    full[frames] = values
+    return full
+
+
+def held(result, frames, values):
+    """(N) the value of the last of `frames` up to each frame; NaN before the first."""
+    if frames.size == 0:
+        return np.full(result.time.size, np.nan)
+    index = np.searchsorted(frames, np.arange(result.time.size), side="right") - 1
+    return np.where(index >= 0, np.asarray(values, dtype=float)[np.maximum(index, 0)], np.nan)
+
+
+def moving_recall(truth):
+    """(K) share of the true LMDs of the last RECALL_WINDOW probed frames that the method has."""
+    found = np.cumsum(np.nan_to_num(truth.recall) * truth.true_count)
+    true = np.cumsum(truth.true_count)
+    before = np.maximum(np.arange(found.size) - RECALL_WINDOW, -1)
+    window_found = found - np.where(before >= 0, found[before], 0.0)
+    window_true = true - np.where(before >= 0, true[before], 0.0)
+    return np.where(window_true > 0, window_found / np.maximum(window_true, 1), np.nan)
+
+
+def force_panel(result, colours):
+    lines = [series(method.label, method.force_magnitude(), colours[method.label]) for method in result.methods.values()]
+    if result.has("/reference/frame"):
+        frames = result.read("/reference/frame").astype(int)
+        for law in dict.fromkeys(method.force_law for method in result.methods.values()):
+            if result.has(f"/reference/force_{law}"):
+                force = np.linalg.norm(result.read(f"/reference/force_{law}"), axis=1)
+                lines.append(series(f"truth, {law} law", at_frames(result, frames, force), TRUTH_COLOURS.get(law, style.GREY),
+                                    points=True))
+    return {"id": "force", "title": "Force", "unit": "N", "series": lines}
+
+
+def count_panel(result, colours):
+    lines = [series(method.label, method.read("lmd_count"), colours[method.label], steps=True)
+             for method in result.methods.values()]
+    return {"id": "lmds", "title": "LMDs within the cutoff", "unit": "1", "series": lines}
+
+
+def search_panel(result, colours):
+    lines = []
+    for method in result.methods.values():
+        if method.searches_every_frame():
+            continue
+        frames = method.read("global_frame").astype(int)
+        total = np.nan_to_num(method.median_times("global_search_time"))
+        if method.has("first_reduction_time"):
+            total = total + np.nan_to_num(method.median_times("first_reduction_time"))
+        lines.append(series(method.label, held(result, frames, total * 1e3), colours[method.label], steps=True))
+    return {"id": "search", "title": "Global search with first reduction", "unit": "ms", "series": lines} if lines else None
+
+
+def update_panel(result, colours):
+    lines = [series(method.label, method.median_times("local_update_time") * 1e6, colours[method.label])
+             for method in result.methods.values()]
+    return {"id": "update", "title": "Local update", "unit": "us", "log": True, "series": lines}
+
+
+def age_panel(result, colours):
+    lines = [series(method.label, method.read("lmd_age") * 1e3, colours[method.label], steps=True)
+             for method in result.methods.values() if method.has("lmd_age") and not method.searches_every_frame()]
+    return {"id": "age", "title": "Age of the LMD set in use", "unit": "ms", "series": lines} if lines else None
+
+
+def recall_panel(result, colours):
+    lines = []
+    for method in result.methods.values():
+        truth = truth_of(method)
+        if truth is not None:
+            lines.append(series(method.label, at_frames(result, truth.frames, 100.0 * moving_recall(truth)),
+                                colours[method.label], points=True))
+    title = f"True LMDs known, over the last {RECALL_WINDOW} probed frames"
+    return {"id": "recall", "title": title, "unit": "%", "series": lines} if lines else None
+
+
+PANELS = (force_panel, count_panel, search_panel, update_panel, age_panel, recall_panel)
+
+
+def page_colours(result):
+    """{label: colour} as in the figures."""
+    return {label: ON_BOTH.get(colour, colour) for label, colour in style.colours_of(result.methods.values()).items()}
+
+
+def time_panels(result):
+    """The panels of Figure 7 and those that go beyond it; what a result does not hold has no panel."""
+    colours = page_colours(result)
+    panels = [panel for panel in (make(result, colours) for make in PANELS) if panel]
+    return {"name": result.name, "time": encoded(result.time), "panels": panels}

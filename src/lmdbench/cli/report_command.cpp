@@ -1,0 +1,28 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/cli/commands.h>
+#include <lmdbench/experiment/report.h>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+
+#include <memory>
+#include <string>
+
+namespace lmdbench {
+
+void add_report_command(CLI::App& app) {
+  auto* command = app.add_subcommand("report", "Make a page of results: one file that needs no network");
+  const auto request = std::make_shared<ReportRequest>();
+  command->add_option("results", request->results, "result files of 'lmdbench run'")->required();
+  command->add_option("--out,-o", request->out, "folder of index.html and of its figures")->required();
+  command->add_option("--study", request->studies,
+                      "Markdown tables to show as well, such as results/reference/*.md");
+  command->callback([request] {
+    const auto page = write_report(*request, [](const std::string& step) { spdlog::info("{}", step); });
+    fmt::print("{}\n", page.string());
+  });
+}
+
+}  // namespace lmdbench

@@ -1,0 +1,29 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace lmdbench {
+
+/// The page of one or more results.
+struct ReportRequest {
+  std::vector<std::filesystem::path> results;  ///< Result files, in the order of the page.
+  std::filesystem::path out;  ///< Folder of index.html and of its figures; made where it is missing.
+  std::vector<std::filesystem::path> studies;  ///< Markdown tables to show as well.
+};
+
+/// Writes `out`/index.html, one file that needs no network, and every figure as SVG and PNG beside it. The page itself is
+/// made by scripts/report/report.py; this finds the meshes of each result again, from its provenance, and the exact LMD
+/// sets of some of its frames for the 3D view. A result whose meshes are not to be had any more, or are no longer what was
+/// run, gets a page that says so instead of a view.
+/// @param progress what is being done, for a person who waits
+/// @return the page
+/// @throws InputError for a file that is no result, EnvironmentError where Python, one of its modules or the script is missing
+std::filesystem::path write_report(const ReportRequest& request,
+                                   const std::function<void(const std::string&)>& progress);
+
+}  // namespace lmdbench
