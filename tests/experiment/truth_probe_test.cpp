@@ -142,6 +142,23 @@ TEST(FclProbe, AgreesOnSpheresAndComparesOnlyWhereItMeansSomething) {
   EXPECT_TRUE(std::isnan(check.frames[2].method_difference[0]));
 }
 
+/// A tolerance that no two programs meet: rounding alone is a disagreement, and lands in the list.
+TEST(FclProbe, DisagreesBeyondTheTolerance) {
+  const Scene scene = spheres();
+  LockstepInput input = approach({0.04, 0.03, 0.02});
+  for (Pose& pose : input.poses) pose.rotation = Eigen::AngleAxisd(0.7, Vec3(1.0, 2.0, 3.0).normalized());
+  const FclCheck check = probe_fcl(scene, input, {}, {0, 1, 2}, 0.0, {});
+  std::size_t differing = 0;
+  for (const FclFrame& frame : check.frames) {
+    EXPECT_TRUE(frame.separated);
+    EXPECT_EQ(frame.agrees, frame.relative_difference == 0.0);
+    differing += frame.agrees ? 0 : 1;
+  }
+  ASSERT_GT(differing, 0u) << "or the tolerance was not put to the test";
+  EXPECT_EQ(check.exceptions.size(), differing);
+  for (const FclException& exception : check.exceptions) EXPECT_EQ(exception.who, "lmdbench");
+}
+
 /// Finds nothing, or a pair that is too far away.
 class WrongMethod : public Method {
  public:

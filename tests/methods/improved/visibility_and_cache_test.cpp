@@ -99,5 +99,15 @@ TEST(ResultCache, FindsWhatItHoldsUntilItIsErased) {
   for (std::int32_t i = 0; i < 5000; ++i) EXPECT_FALSE(cache.find_or_insert(i % 3, i, 7 * i).second);
 }
 
+/// Among so many pairs some meet the other body's entry where they look for their own.
+TEST(ResultCache, TellsBodiesApartWhereTheirSlotsMeet) {
+  ResultCache cache;
+  for (std::int32_t t = 0; t < 20000; ++t) {
+    cache.erase();
+    cache.find_or_insert(0, t, 0);
+    ASSERT_FALSE(cache.find_or_insert(1, t, 0).second) << t;
+  }
+}
+
 }  // namespace
 }  // namespace lmdbench

@@ -77,6 +77,8 @@ TEST(DirectionVerification, AcceptsTheNormalSetAndItsTolerance) {
     EXPECT_FALSE(exact.accepts(edge, tilted(middle, along, 0.01)));
     EXPECT_TRUE(loose.accepts(edge, tilted(middle, along, 0.29)));
     EXPECT_FALSE(loose.accepts(edge, tilted(middle, along, 0.31)));
+    EXPECT_TRUE(loose.accepts(edge, tilted(middle, Vec3(-along), 0.29)));
+    EXPECT_FALSE(loose.accepts(edge, tilted(middle, Vec3(-along), 0.31)));
     EXPECT_TRUE(loose.accepts(edge, tilted(n0, Vec3(-n1), 0.29)));
     EXPECT_FALSE(loose.accepts(edge, tilted(n0, Vec3(-n1), 0.31)));
   }
