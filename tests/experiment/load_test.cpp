@@ -159,7 +159,7 @@ TEST(LoadExperiment, SchemaViolationsNamePointerValueAndExpectation) {
   EXPECT_THAT(message({"/name=has blank"}), HasSubstr("/name: "));
   EXPECT_THAT(message({"/methods/0/label=a/b"}), HasSubstr("/methods/0/label: "));
   EXPECT_THAT(message({}, R"({"name": "x"})"), HasSubstr("Missing required property"));
-  EXPECT_THAT(message({}, "[1, 2]"), HasSubstr("/data/e.json: /: "));
+  EXPECT_THAT(message({}, "[1, 2]"), HasSubstr("/data/e.json: / (line 1): "));
 }
 
 TEST(LoadExperiment, SyntaxErrorsNameLineAndColumn) {

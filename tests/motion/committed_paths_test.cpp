@@ -36,8 +36,8 @@ TEST_P(CommittedPath, HasTheTimesAndSpeedsOfItsSpecification) {
   EXPECT_EQ(facts.pose_count, static_cast<std::size_t>(spec_.duration() * spec_.stored_rate + 1.5));
   EXPECT_EQ(facts.frame_count, static_cast<std::size_t>(spec_.duration() * spec_.frame_rate + 1.5));
   // The radial motion keeps its limits; sliding and interpolation add theirs. A jump would be far beyond.
-  EXPECT_LT(facts.maximum_speed, 2.0 * spec_.radial_limits.speed);
-  EXPECT_LT(facts.maximum_acceleration, 2.0 * spec_.radial_limits.acceleration);
+  EXPECT_LT(facts.maximum_speed, 2.0 * spec_.radial_speed.value());
+  EXPECT_LT(facts.maximum_acceleration, 2.0 * spec_.radial_acceleration.value());
   EXPECT_GT(facts.turning, 0.3);
 }
 
@@ -50,7 +50,7 @@ TEST_P(CommittedPath, KeepsItsGapOnTheMeshesItNames) {
       GTEST_SKIP() << "run 'lmdbench mesh build " << mesh.mesh << "' first";
   }
   const auto place = [](const PlacedMesh& mesh) {
-    return scaled_to_diagonal(resolve_mesh(mesh.mesh, ROOT / "meshes").mesh, mesh.diagonal);
+    return scaled_to_diagonal(resolve_mesh(mesh.mesh, ROOT / "meshes").mesh, mesh.diagonal.value());
   };
   const PathScene scene = mesh_scene(place(spec_.moving), place(spec_.fixed));
   const Path all_frames = resample(path_, spec_.frame_rate);

@@ -56,7 +56,8 @@ PathSpec spec_of(std::uint64_t seed) {
   spec.seed = seed;
   spec.slide_rate = 0.4;
   spec.turn_rate = 0.6;
-  spec.radial_limits = {.speed = 0.15, .acceleration = 2.0};
+  spec.radial_speed = 0.15;
+  spec.radial_acceleration = 2.0;
   spec.gap_floor = 0.0003;
   spec.gaps = {{0.0, 0.05}, {0.8, 0.004}, {1.2, 0.0005}, {2.0, 0.001}, {2.6, 0.02}, {3.0, 0.02}};
   return spec;

@@ -48,7 +48,8 @@ TEST(MeshScene, GeneratedPathKeepsTheGapOnMeshes) {
   spec.seed = 3;
   spec.slide_rate = 0.6;
   spec.turn_rate = 0.8;
-  spec.radial_limits = {.speed = 0.15, .acceleration = 2.0};
+  spec.radial_speed = 0.15;
+  spec.radial_acceleration = 2.0;
   spec.gap_floor = 0.0003;
   spec.gaps = {{0.0, 0.02}, {0.4, 0.001}, {0.7, 0.001}};
   const PathScene scene = mesh_scene(scaled_to_diagonal(make_torus(1.0, 0.4, 24, 12), 0.15),

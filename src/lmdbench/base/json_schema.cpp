@@ -26,6 +26,13 @@ const Json& follow(const Json& schema, const Json& root) {
   return reference == schema.end() ? schema : root.at(Pointer(reference->get<std::string>().substr(1)));
 }
 
+/// What a schema without named keys says of every key (an object that is a map); null where it says nothing.
+const Json* schema_of_other_keys(const Json& schema) {
+  const auto other = schema.find("additionalProperties");
+  const bool is_map = other != schema.end() && other->is_object() && !schema.contains("properties");
+  return is_map ? &*other : nullptr;
+}
+
 /// Whether the constants that an "if" names are those of the object.
 bool holds(const Json& condition, const Json& object) {
   if (!object.is_object()) return false;
@@ -67,12 +74,15 @@ void refuse_unknown(const Json& value, const Json& schema_or_reference, const Js
       for (std::size_t i = 0; i < value.size(); ++i)
         refuse_unknown(value[i], (*schema)["items"], root, place / i, file);
     }
-    if (!value.is_object() || !schema->contains("properties")) continue;
+    if (!value.is_object()) continue;
+    if (const Json* other = schema_of_other_keys(*schema))
+      for (const auto& [key, child] : value.items()) refuse_unknown(child, *other, root, place / key, file);
+    if (!schema->contains("properties")) continue;
     const Json& properties = (*schema)["properties"];
     for (const auto& [key, child] : value.items()) {
       if (properties.contains(key)) {
         refuse_unknown(child, properties[key], root, place / key, file);
-      } else if (schema->value("additionalProperties", true) == false) {
+      } else if (schema->contains("additionalProperties") && (*schema)["additionalProperties"] == false) {
         std::vector<std::string> known;
         for (const auto& property : properties.items()) known.push_back(property.key());
         const std::string near = nearest_word(key, known);
@@ -92,7 +102,10 @@ void fill(Json& value, const Json& schema_or_reference, const Json& root) {
     if (value.is_array() && schema->contains("items")) {
       for (Json& item : value) fill(item, (*schema)["items"], root);
     }
-    if (!value.is_object() || !schema->contains("properties")) continue;
+    if (!value.is_object()) continue;
+    if (const Json* other = schema_of_other_keys(*schema))
+      for (auto& child : value.items()) fill(child.value(), *other, root);
+    if (!schema->contains("properties")) continue;
     for (const auto& [key, property_or_reference] : (*schema)["properties"].items()) {
       const Json& property = follow(property_or_reference, root);
       if (!value.contains(key) && property.contains("default")) value[key] = property["default"];
@@ -112,6 +125,8 @@ Json schema_at(const std::vector<std::string>& place, const Json& root, const Js
         next = &(*here)["items"];
       else if (here->contains("properties") && (*here)["properties"].contains(step))
         next = &(*here)["properties"][step];
+      else if (const Json* other = schema_of_other_keys(*here))
+        next = other;
     }
     if (next == nullptr) return Json::object();
     schema = next;
@@ -127,6 +142,7 @@ std::string expectation(const Json& schema) {
     text = schema["type"].is_array() ? fmt::format("one of the types {}", schema["type"].dump())
                                      : schema["type"].get<std::string>();
   if (schema.contains("enum")) text = fmt::format("one of {}", schema["enum"].dump());
+  if (schema.contains("const")) text = schema["const"].dump();
   const auto add = [&](const char* keyword, const char* sign) {
     if (schema.contains(keyword)) text += fmt::format(" {} {}", sign, schema[keyword].dump());
   };

@@ -3,68 +3,24 @@
 #include <lmdbench/base/error.h>
 #include <lmdbench/base/file_hash.h>
 #include <lmdbench/base/input_file.h>
-#include <lmdbench/base/json_text.h>
+#include <lmdbench/base/json_document.h>
 #include <lmdbench/catalogue/import.h>
 #include <lmdbench/catalogue/manifest.h>
-#include <lmdbench/catalogue/manifest_schema.h>
 #include <lmdbench/catalogue/off_file.h>
 #include <lmdbench/catalogue/shape_recipe.h>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <valijson/adapters/nlohmann_json_adapter.hpp>
-#include <valijson/schema.hpp>
-#include <valijson/schema_parser.hpp>
-#include <valijson/validator.hpp>
 
 #include <algorithm>
 
 namespace lmdbench {
 
+const std::string& manifest_schema_text();  // manifest.schema.json, compiled in
+
 namespace {
 
 constexpr const char* MANIFEST_REMEDY = "correct the manifest; its keys are explained in meshes/README.md";
-
-// Ordered, so that meshes keep the file's order.
-nlohmann::ordered_json parse(const std::filesystem::path& file) {
-  const InputKind kind{
-      .what = "mesh manifest",
-      .most_bytes = Limit::JSON_BYTES,
-      .remedy = "run in the folder that holds meshes/, or name a mesh file by its path (with a / or a .)"};
-  const std::string text = read_input_file(file, kind).bytes;
-  try {
-    static_cast<void>(parse_json(text, file.string()));
-  } catch (const UsageError& error) {
-    throw InputError("", "", error.what(), "");
-  }
-  return nlohmann::ordered_json::parse(text);
-}
-
-std::string pointer_of(const std::vector<std::string>& context) {
-  std::string pointer;
-  // The first item is "<root>"; the others are "[key]".
-  for (std::size_t i = 1; i < context.size(); ++i) {
-    std::string_view item = context[i];
-    if (item.size() > 2 && item.front() == '[' && item.back() == ']') item = item.substr(1, item.size() - 2);
-    pointer += fmt::format("/{}", item);
-  }
-  return pointer;
-}
-
-void validate(const nlohmann::json& document, const std::filesystem::path& file) {
-  const nlohmann::json schema_json = nlohmann::json::parse(MANIFEST_SCHEMA);
-  valijson::Schema schema;
-  valijson::SchemaParser(valijson::SchemaParser::kDraft7)
-      .populateSchema(valijson::adapters::NlohmannJsonAdapter(schema_json), schema);
-  valijson::ValidationResults results;
-  if (valijson::Validator().validate(schema, valijson::adapters::NlohmannJsonAdapter(document), &results))
-    return;
-  // The error deepest in the document says most.
-  const auto deepest = std::max_element(results.begin(), results.end(), [](const auto& a, const auto& b) {
-    return a.context.size() < b.context.size();
-  });
-  throw InputError(file.string(), pointer_of(deepest->context), deepest->description, MANIFEST_REMEDY);
-}
 
 /// Whether a relative path has only plain parts.
 bool stays_inside(std::string_view path) {
@@ -78,22 +34,20 @@ bool stays_inside(std::string_view path) {
   }
 }
 
-MeshSource read_source(const std::string& name, const nlohmann::ordered_json& source,
-                       const std::string& file) {
+MeshSource read_source(const std::string& name, const nlohmann::json& source, const JsonDocument& document) {
   MeshSource result;
   result.name = name;
-  result.registry = source.value("registry", "debian") == "npm" ? MeshRegistry::NPM : MeshRegistry::DEBIAN;
+  result.registry = source.at("registry") == "npm" ? MeshRegistry::NPM : MeshRegistry::DEBIAN;
   const bool npm = result.registry == MeshRegistry::NPM;
   if (npm != source.contains("version") || npm == source.contains("archive"))
-    throw InputError(file, "/sources/" + name,
-                     npm ? "is of npm: it needs 'version' and has no 'archive'"
-                         : "is of Debian: it needs 'archive' and has no 'version'",
-                     MANIFEST_REMEDY);
+    document.fail("/sources/" + name,
+                  npm ? "is of npm: it needs 'version' and has no 'archive'"
+                      : "is of Debian: it needs 'archive' and has no 'version'",
+                  MANIFEST_REMEDY);
   for (const char* key : {"archive", "path"})
     if (source.contains(key) && !stays_inside(source.at(key).get<std::string>()))
-      throw InputError(file, fmt::format("/sources/{}/{}", name, key),
-                       "leads out of its archive, or is no plain path",
-                       "name it by its parts, without '.', '..' and empty ones");
+      document.fail(fmt::format("/sources/{}/{}", name, key), "leads out of its archive, or is no plain path",
+                    "name it by its parts, without '.', '..' and empty ones");
   result.package = source.at("package");
   result.version = source.value("version", "");
   result.archive = source.value("archive", "");
@@ -104,11 +58,11 @@ MeshSource read_source(const std::string& name, const nlohmann::ordered_json& so
   return result;
 }
 
-ManifestEntry read_entry(const std::string& name, const nlohmann::ordered_json& mesh,
-                         const nlohmann::ordered_json& sources, const std::string& file) {
-  const std::string pointer = "/meshes/" + name;
+ManifestEntry read_entry(const std::string& name, const JsonDocument& document) {
+  const nlohmann::json& mesh = document.json().at("meshes").at(name);
+  const nlohmann::json& sources = document.json().at("sources");
   const auto fail = [&](const std::string& problem) {
-    throw InputError(file, pointer, problem, MANIFEST_REMEDY);
+    document.fail("/meshes/" + name, problem, MANIFEST_REMEDY);
   };
   if (!is_mesh_name(name)) fail("is no mesh name: lower-case letters, digits and dashes only");
   if (mesh.contains("source") == mesh.contains("shape")) fail("needs either 'source' or 'shape'");
@@ -117,7 +71,7 @@ ManifestEntry read_entry(const std::string& name, const nlohmann::ordered_json& 
   entry.description = mesh.at("description");
   entry.triangles = mesh.at("triangles");
   entry.sha256 = mesh.value("sha256", "");
-  entry.optional = mesh.value("optional", false);
+  entry.optional = mesh.at("optional");
   if (mesh.contains("target_triangles")) entry.target_triangles = mesh.at("target_triangles");
   if (mesh.contains("shape")) {
     if (entry.target_triangles) fail("is a shape: 'target_triangles' is for sources");
@@ -126,7 +80,7 @@ ManifestEntry read_entry(const std::string& name, const nlohmann::ordered_json& 
   }
   const std::string key = mesh.at("source");
   if (!sources.contains(key)) fail(fmt::format("names the source '{}', which is not in /sources", key));
-  entry.source = read_source(key, sources.at(key), file);
+  entry.source = read_source(key, sources.at(key), document);
   return entry;
 }
 
@@ -169,12 +123,18 @@ std::filesystem::path Manifest::built_file(const ManifestEntry& entry) const {
 }
 
 Manifest load_manifest(const std::filesystem::path& file) {
-  const nlohmann::ordered_json document = parse(file);
-  validate(nlohmann::json(document), file);
+  static const nlohmann::json schema = nlohmann::json::parse(manifest_schema_text());
+  const InputKind kind{
+      .what = "mesh manifest",
+      .most_bytes = Limit::JSON_BYTES,
+      .remedy = "run in the folder that holds meshes/, or name a mesh file by its path (with a / or a .)"};
+  const JsonDocument document(read_input_file(file, kind).bytes, file.string(), schema, ExitCode::INPUT_DATA);
   Manifest manifest;
   manifest.file = file;
-  for (const auto& [name, mesh] : document.at("meshes").items())
-    manifest.entries.push_back(read_entry(name, mesh, document.at("sources"), file.string()));
+  // Meshes keep the file's order.
+  const auto in_order = nlohmann::ordered_json::parse(document.text());
+  for (const auto& mesh : in_order.at("meshes").items())
+    manifest.entries.push_back(read_entry(mesh.key(), document));
   return manifest;
 }
 

@@ -50,9 +50,13 @@ struct PathArguments {
 
 TriangleMesh place(const PlacedMesh& placed, const PathArguments& arguments) {
   const std::filesystem::path beside_spec = std::filesystem::path(arguments.spec).parent_path() / placed.mesh;
-  return scaled_to_diagonal(is_mesh_name(placed.mesh) ? resolve_mesh(placed.mesh, arguments.mesh_folder).mesh
-                                                      : resolve_mesh(beside_spec.string()).mesh,
-                            placed.diagonal);
+  TriangleMesh mesh = is_mesh_name(placed.mesh) ? resolve_mesh(placed.mesh, arguments.mesh_folder).mesh
+                                                : resolve_mesh(beside_spec.string()).mesh;
+  return placed.diagonal ? scaled_to_diagonal(std::move(mesh), *placed.diagonal) : mesh;
+}
+
+std::string name_of(const PlacedMesh& placed) {
+  return placed.diagonal ? fmt::format("{} ({:g} m)", placed.mesh, *placed.diagonal) : placed.mesh;
 }
 
 PathScene load_scene(const PathSpec& spec, const PathArguments& arguments) {
@@ -158,9 +162,8 @@ void generate(const PathArguments& arguments) {
     ProgressBar bar(progress_welcome());
     path = generate_path(spec, scene, progress_on(bar, "generate"));
   }
-  const std::string comment = fmt::format("{} ({:g} m) past {} ({:g} m), {} {}'", spec.moving.mesh,
-                                          spec.moving.diagonal, spec.fixed.mesh, spec.fixed.diagonal, MADE_BY,
-                                          std::filesystem::path(arguments.spec).filename().string());
+  const std::string comment = fmt::format("{} past {}, {} {}'", name_of(spec.moving), name_of(spec.fixed),
+                                          MADE_BY, std::filesystem::path(arguments.spec).filename().string());
   const std::string text = tum_text(path, comment, STORED_DECIMALS);
   // What counts is what readers will see: the rounded poses, interpolated.
   std::istringstream stream(text);

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/base/error.h>
 #include <lmdbench/base/input_file.h>
+#include <lmdbench/base/json_document.h>
 #include <lmdbench/base/json_schema.h>
-#include <lmdbench/base/json_text.h>
 #include <lmdbench/experiment/experiment.h>
 #include <lmdbench/experiment/schema.h>
 #include <lmdbench/methods/registry.h>
@@ -169,15 +169,9 @@ double ForceChoice::saturation(double moving_diagonal) const {
 
 Experiment parse_experiment(const std::string& text, const std::filesystem::path& file,
                             const std::vector<Override>& overrides) {
-  const Json& schema = experiment_schema();
-  Json document = parse_json(text, file.string());
-  for (const Override& entry : overrides) apply_override(document, entry);
-  // The validator goes last but one: a misspelt key would else be reported as a missing one.
-  check_method_names(document, file.string());
-  refuse_unknown_keys(document, schema, file.string());
-  validate_against_schema(document, schema, file.string());
-  fill_defaults(document, schema);
-  return from_json(std::move(document), file);
+  const JsonDocument document(text, file.string(), experiment_schema(), ExitCode::USAGE, overrides,
+                              [&](const Json& json) { check_method_names(json, file.string()); });
+  return document.locate([&] { return from_json(document.json(), file); });
 }
 
 Experiment load_experiment(const std::filesystem::path& file, const std::vector<Override>& overrides) {

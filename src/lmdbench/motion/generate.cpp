@@ -61,7 +61,7 @@ Path generate_path(const PathSpec& spec, const PathScene& scene, const ProgressF
     reaches[k] = first_reach(scene, direction_turns[k] * spec.start_direction, rotations[k], gap);
     if (progress) progress(k + 1, frame_total);
   }
-  reaches = bounded_majorant(reaches, time_step, spec.radial_limits);
+  reaches = bounded_majorant(reaches, time_step, spec.radial_limits(scene.diagonal));
 
   const auto stride = static_cast<std::size_t>(std::lround(spec.frame_rate / spec.stored_rate));
   Path path;

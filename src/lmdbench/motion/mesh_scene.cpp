@@ -47,9 +47,9 @@ class MeshPair {
   std::int32_t last_fixed_ = -1;
 };
 
-double radius_about_origin(const TriangleMesh& mesh) {
+double radius_about(const Vec3& centre, const TriangleMesh& mesh) {
   double radius = 0.0;
-  for (const Vec3& vertex : mesh.vertices) radius = std::max(radius, vertex.norm());
+  for (const Vec3& vertex : mesh.vertices) radius = std::max(radius, (vertex - centre).norm());
   return radius;
 }
 
@@ -58,8 +58,10 @@ double radius_about_origin(const TriangleMesh& mesh) {
 PathScene mesh_scene(TriangleMesh moving, TriangleMesh fixed) {
   PathScene scene;
   scene.diagonal = bounding_box_diagonal(moving);
-  scene.moving_radius = radius_about_origin(moving);
-  scene.fixed_radius = radius_about_origin(fixed);
+  scene.moving_centre_M = bounding_box_centre(moving);
+  scene.fixed_centre_W = bounding_box_centre(fixed);
+  scene.moving_radius = radius_about(scene.moving_centre_M, moving);
+  scene.fixed_radius = radius_about(scene.fixed_centre_W, fixed);
   const auto pair = std::make_shared<MeshPair>(std::move(moving), std::move(fixed));
   scene.distance = [pair](const Pose& X_WM) { return pair->distance(X_WM); };
   return scene;

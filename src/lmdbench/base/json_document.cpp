@@ -1,0 +1,65 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/base/json_document.h>
+#include <lmdbench/base/json_place.h>
+#include <lmdbench/base/json_schema.h>
+#include <lmdbench/base/json_text.h>
+
+#include <fmt/format.h>
+
+namespace lmdbench {
+namespace {
+
+[[noreturn]] void throw_error(ExitCode code, const std::string& file, const std::string& place,
+                              const std::string& problem, const std::string& remedy) {
+  if (code == ExitCode::USAGE) throw UsageError(file, place, problem, remedy);
+  if (code == ExitCode::INPUT_DATA) throw InputError(file, place, problem, remedy);
+  throw Error(code, file, place, problem, remedy);
+}
+
+}  // namespace
+
+JsonDocument::JsonDocument(std::string text, std::string file, const nlohmann::json& schema, ExitCode code,
+                           std::vector<std::string> overrides,
+                           const std::function<void(const nlohmann::json&)>& early)
+    : text_(std::move(text)), file_(std::move(file)), code_(code), overrides_(std::move(overrides)) {
+  locate([&] {
+    json_ = parse_json(text_, file_);
+    for (const std::string& entry : overrides_) apply_override(json_, entry);
+    if (early) early(json_);
+    // The validator goes last but one: a misspelt key would else be reported as a missing one.
+    refuse_unknown_keys(json_, schema, file_);
+    validate_against_schema(json_, schema, file_);
+    fill_defaults(json_, schema);
+  });
+}
+
+void JsonDocument::fail(const std::string& pointer, const std::string& problem,
+                        const std::string& remedy) const {
+  throw_error(code_, file_, place(pointer), problem, remedy);
+}
+
+void JsonDocument::rethrow(const Error& error) const {
+  // A message begins with file and place (error.h).
+  const std::string message = error.what();
+  const std::string about_this_file = file_ + ": ";
+  // Errors about other files (a mesh that the document names) keep their own place and code.
+  if (!message.starts_with(about_this_file)) throw_error(error.code(), "", "", message, "");
+  const std::string rest = message.substr(about_this_file.size());
+  const std::size_t end = rest.find(": ");
+  const bool points =
+      rest.starts_with("/") && end != std::string::npos && !rest.substr(0, end).ends_with(")");
+  if (!points) throw_error(code_, file_, "", rest, "");
+  throw_error(code_, file_, place(rest.substr(0, end)), rest.substr(end + 2), "");
+}
+
+std::string JsonDocument::place(const std::string& pointer) const {
+  // What --set gave stands in no line; the user has just typed it.
+  for (const std::string& entry : overrides_) {
+    const std::string target = entry.substr(0, entry.find('='));
+    if (pointer == target || pointer.starts_with(target + "/")) return pointer;
+  }
+  return fmt::format("{} (line {})", pointer, line_of(text_, pointer));
+}
+
+}  // namespace lmdbench
