@@ -2,18 +2,40 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/base/error.h>
 
+#include <fmt/format.h>
 #include <micro/benchmark_program.h>
 #include <micro/program.h>
 
+#include <algorithm>
 #include <cstdlib>
 
 namespace lmdbench::micro {
 
-int run_benchmarks(int argc, char** argv, const std::function<void()>& add) {
+namespace {
+
+std::vector<BenchmarkTask> chosen_tasks(const std::vector<BenchmarkTask>& tasks,
+                                        const std::vector<std::string>& names) {
+  if (names.empty()) return tasks;
+  std::vector<BenchmarkTask> chosen;
+  std::vector<std::string> known;
+  for (const BenchmarkTask& task : tasks) known.push_back(task.name);
+  for (const std::string& name : names) {
+    const auto found = std::find(known.begin(), known.end(), name);
+    if (found == known.end())
+      throw UsageError("", name, "is neither a task nor a flag of Google Benchmark",
+                       fmt::format("name tasks of {}; --help lists the flags", fmt::join(known, ", ")));
+    chosen.push_back(tasks[static_cast<std::size_t>(found - known.begin())]);
+  }
+  return chosen;
+}
+
+}  // namespace
+
+int run_benchmarks(int argc, char** argv, const std::vector<BenchmarkTask>& tasks) {
   benchmark::Initialize(&argc, argv);
-  if (benchmark::ReportUnrecognizedArguments(argc, argv)) return static_cast<int>(ExitCode::USAGE);
-  return report_errors([&add] {
-    add();
+  const std::vector<std::string> names(argv + 1, argv + argc);
+  return report_errors([&] {
+    for (const BenchmarkTask& task : chosen_tasks(tasks, names)) task.add();
     benchmark::RunSpecifiedBenchmarks();
     return static_cast<int>(ExitCode::DONE);
   });

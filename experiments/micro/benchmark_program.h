@@ -9,16 +9,24 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <string>
 #include <type_traits>
 #include <utility>
+#include <vector>
 
 /// What the Google Benchmark programs share.
 namespace lmdbench::micro {
 
-/// The main function of such a program: reads Google Benchmark's flags, lets `add` register benchmarks, runs
-/// them. Errors are told on standard error.
+/// One input, many implementations.
+struct BenchmarkTask {
+  std::string name;           ///< Benchmarks are called <name>/<implementation>/<input>.
+  std::function<void()> add;  ///< Registers them.
+};
+
+/// The main function of such a program: reads Google Benchmark's flags and the names of tasks, registers the
+/// benchmarks of those (all without a name), runs them. Errors are told on standard error.
 /// @return exit code (error.h)
-int run_benchmarks(int argc, char** argv, const std::function<void()>& add);
+int run_benchmarks(int argc, char** argv, const std::vector<BenchmarkTask>& tasks);
 
 /// Folder of built meshes: the variable LMDBENCH_MESHES, "meshes" unless set.
 std::filesystem::path benchmark_meshes();

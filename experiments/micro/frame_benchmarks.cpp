@@ -38,10 +38,13 @@ void add(const std::string& task, const FrameImplementation& implementation, con
 
 }  // namespace
 
-std::vector<RecordedPath> contact_paths() {
-  std::vector<RecordedPath> paths;
-  for (const char* experiment : {"experiments/bunny-hard.json", "experiments/bunny-soft.json"})
-    paths.push_back(load_path({experiment, benchmark_meshes(), FIRST_FRAME, FRAME_COUNT, CHECK_STRIDE}));
+const std::vector<RecordedPath>& contact_paths() {
+  static const std::vector<RecordedPath> paths = [] {
+    std::vector<RecordedPath> loaded;
+    for (const char* experiment : {"experiments/bunny-hard.json", "experiments/bunny-soft.json"})
+      loaded.push_back(load_path({experiment, benchmark_meshes(), FIRST_FRAME, FRAME_COUNT, CHECK_STRIDE}));
+    return loaded;
+  }();
   return paths;
 }
 

@@ -9,8 +9,8 @@
 
 namespace lmdbench::micro {
 
-/// The recorded paths of the hard and the soft experiment, in the part where they are in contact.
-std::vector<RecordedPath> contact_paths();
+/// The recorded paths of the hard and the soft experiment, in the part where they are in contact; loaded once.
+const std::vector<RecordedPath>& contact_paths();
 
 /// Registers <task>/<implementation>/<path> with Google Benchmark: an iteration is the whole
 /// path, so that every frame counts alike, and the counter "per_frame" is the time of one

@@ -58,12 +58,12 @@ def load(files):
             with open(file, encoding="utf-8") as stream:
                 report = json.load(stream)
         except FileNotFoundError as error:
-            raise ResultError(f"{file}: there is no such file (remedy: make it with build/release/scaling --json "
+            raise ResultError(f"{file}: there is no such file (remedy: make it with lmdbench-study scaling --json "
                               f"{file})") from error
         except json.JSONDecodeError as error:
-            raise ResultError(f"{file}: {error} (remedy: run build/release/scaling again)") from error
+            raise ResultError(f"{file}: {error} (remedy: run lmdbench-study scaling again)") from error
         if report.get("format") != FORMAT or report.get("format_version") != FORMAT_VERSION:
-            raise ResultError(f"{file}: is no {FORMAT} of version {FORMAT_VERSION} (remedy: run build/release/scaling "
+            raise ResultError(f"{file}: is no {FORMAT} of version {FORMAT_VERSION} (remedy: run lmdbench-study scaling "
                               "again)")
         for study in report["studies"]:
             studies[study["name"]] = study["points"]
@@ -213,14 +213,14 @@ def draw(studies):
 
 def main(argv):
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("files", nargs="+", metavar="SCALING.json", help="what build/release/scaling --json wrote")
+    parser.add_argument("files", nargs="+", metavar="SCALING.json", help="what lmdbench-study scaling --json wrote")
     parser.add_argument("--out", required=True, metavar="DIR", help="directory of scaling.svg and scaling.png")
     arguments = parser.parse_args(argv)
     studies = load(arguments.files)
     missing = [name for name in ("bunny", "cutoff") if name not in studies]
     if missing:
         raise ResultError(f"{', '.join(arguments.files)}: the study '{missing[0]}' is missing (remedy: run "
-                          "build/release/scaling without --only)")
+                          "lmdbench-study scaling without --only)")
     print_slopes(studies)
     for file in style.save(draw(studies), arguments.out, "scaling"):
         print(file)

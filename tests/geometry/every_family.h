@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "geometry/triangle_families.h"
 #include <gtest/gtest.h>
+#include <judge/triangle_families.h>
 
 #include <cctype>
 #include <string>

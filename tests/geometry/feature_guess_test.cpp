@@ -5,9 +5,9 @@
 #include <lmdbench/geometry/tolerance.h>
 #include <lmdbench/geometry/triangle_distance.h>
 
-#include "geometry/triangle_families.h"
 #include <gtest/gtest.h>
 #include <hwy/targets.h>
+#include <judge/triangle_families.h>
 
 #include <cmath>
 #include <limits>

@@ -5,9 +5,9 @@
 #include <lmdbench/geometry/tolerance.h>
 #include <lmdbench/geometry/triangle_distance.h>
 
-#include "geometry/brute_force_distance.h"
 #include "geometry/every_family.h"
 #include <gtest/gtest.h>
+#include <judge/brute_force_distance.h>
 
 #include <cmath>
 #include <iomanip>

@@ -3,9 +3,9 @@
 #include <lmdbench/geometry/triangle_distance.h>
 #include <lmdbench/geometry/triangle_intersection.h>
 
-#include "geometry/brute_force_distance.h"
-#include "geometry/triangle_families.h"
 #include <gtest/gtest.h>
+#include <judge/brute_force_distance.h>
+#include <judge/triangle_families.h>
 
 #include <cmath>
 

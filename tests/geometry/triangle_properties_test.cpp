@@ -3,7 +3,7 @@
 #include <lmdbench/geometry/tolerance.h>
 #include <lmdbench/geometry/triangle_distance.h>
 
-#include "geometry/triangle_families.h"
+#include <judge/triangle_families.h>
 // RapidCheck's header uses GoogleTest without including it.
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>

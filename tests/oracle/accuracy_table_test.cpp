@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "oracle/accuracy_table.h"
-
 #include <gtest/gtest.h>
+#include <judge/accuracy_table.h>
 
 #include <algorithm>
 #include <cctype>
@@ -41,7 +40,7 @@ TEST(AccuracyTable, IsTheOneThatIsPublished) {
   EXPECT_GT(wrong_fcl, 100) << "the families no longer show the published defects";
   const std::string table = accuracy_markdown(published_rows(), PUBLISHED_PAIRS);
   EXPECT_NE(published(PUBLISHED_TABLE).find(table), std::string::npos)
-      << PUBLISHED_TABLE << " is out of date (remedy: lmdbench_triangle_accuracy > " << PUBLISHED_TABLE
+      << PUBLISHED_TABLE << " is out of date (remedy: lmdbench-judge accuracy > " << PUBLISHED_TABLE
       << "); the table is now\n"
       << table;
 }
@@ -104,7 +103,7 @@ TEST_P(MillionTable, HasThisRow) {
     EXPECT_EQ(row.cells[kernel].contact_mistakes, 0);
   }
   EXPECT_NE(published(MILLION_TABLE).find(accuracy_markdown(row)), std::string::npos)
-      << MILLION_TABLE << " is out of date (remedy: lmdbench_triangle_accuracy --million > " << MILLION_TABLE
+      << MILLION_TABLE << " is out of date (remedy: lmdbench-judge accuracy --million > " << MILLION_TABLE
       << "); the row is now\n"
       << accuracy_markdown(row);
 }

@@ -1,12 +1,11 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "oracle/exact_scene.h"
-
 #include <lmdbench/catalogue/shapes.h>
 #include <lmdbench/methods/registry.h>
 
-#include "oracle/exact_scene_judgement.h"
 #include <gtest/gtest.h>
+#include <judge/exact_scene.h>
+#include <judge/exact_scene_judgement.h>
 #include <support/scenes.h>
 
 #include <algorithm>

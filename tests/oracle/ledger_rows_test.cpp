@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/crosscheck/fcl_triangle_distance.h>
 
-#include "oracle/exact_distance.h"
 #include <gtest/gtest.h>
+#include <judge/exact_distance.h>
 
-/// Rows of the disagreement ledger, pasted as lmdbench_ledger prints them: they show that a row reproduces
+/// Rows of the disagreement ledger, pasted as lmdbench-judge ledger prints them: they show that a row reproduces
 /// what it tells, and keep two errors of FCL's kernel on parallel edges for good.
 namespace lmdbench {
 namespace {

@@ -1,7 +1,5 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "oracle/ledger.h"
-
 #include <lmdbench/base/error.h>
 #include <lmdbench/experiment/experiment.h>
 #include <lmdbench/experiment/run.h>
@@ -9,6 +7,7 @@
 #include "record/result_reading.h"
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <judge/ledger.h>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>

@@ -3,11 +3,11 @@
 #include <lmdbench/geometry/tolerance.h>
 #include <lmdbench/geometry/triangle_distance.h>
 
-#include "geometry/brute_force_distance.h"
 #include "geometry/every_family.h"
-#include "oracle/distance_bracket.h"
-#include "oracle/exact_distance.h"
 #include <gtest/gtest.h>
+#include <judge/brute_force_distance.h>
+#include <judge/distance_bracket.h>
+#include <judge/exact_distance.h>
 
 #include <cmath>
 #include <iomanip>

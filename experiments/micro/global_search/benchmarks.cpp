@@ -4,6 +4,7 @@
 #include <micro/global_search/benchmarks.h>
 #include <micro/global_search/check.h>
 #include <micro/setting.h>
+#include <micro/tasks.h>
 
 namespace lmdbench::micro {
 namespace {
@@ -36,15 +37,16 @@ void add(const SearchImplementation& implementation, const Setting& setting) {
 
 }  // namespace
 
-int run_search_benchmarks(int argc, char** argv, const std::vector<SearchImplementation>& implementations) {
-  std::vector<Setting> settings;
-  return run_benchmarks(argc, argv, [&] {
-    SceneChoice choice;
-    choice.meshes = benchmark_meshes();
-    settings = grazing_settings(choice, {0.005, 0.02, 0.05}, POSE_COUNT);
-    for (const SearchImplementation& implementation : implementations)
-      for (const Setting& setting : settings) add(implementation, setting);
-  });
+void add_search_benchmarks(const std::vector<SearchImplementation>& implementations) {
+  SceneChoice choice;
+  choice.meshes = benchmark_meshes();
+  static const std::vector<Setting> settings = grazing_settings(choice, {0.005, 0.02, 0.05}, POSE_COUNT);
+  for (const SearchImplementation& implementation : implementations)
+    for (const Setting& setting : settings) add(implementation, setting);
+}
+
+void add_global_searches() {
+  add_search_benchmarks(search_implementations());
 }
 
 }  // namespace lmdbench::micro

@@ -8,10 +8,7 @@
 
 namespace lmdbench::micro {
 
-/// The main function of a program that times global searches: names are
-/// global_search/<implementation>/<cutoff>. Two bunnies at unrelated poses 0.2 % of the diagonal apart;
-/// each implementation is checked against ground truth first and skipped with the reason when it breaks
-/// its promise.
-int run_search_benchmarks(int argc, char** argv, const std::vector<SearchImplementation>& implementations);
+/// The benchmarks of `add_global_searches` (tasks.h) for these implementations.
+void add_search_benchmarks(const std::vector<SearchImplementation>& implementations);
 
 }  // namespace lmdbench::micro

@@ -6,6 +6,7 @@
 #include <micro/benchmark_program.h>
 #include <micro/bodies.h>
 #include <micro/hierarchy_build/benchmarks.h>
+#include <micro/tasks.h>
 
 #include <iostream>
 
@@ -46,23 +47,25 @@ void add(const BuildImplementation& implementation, const std::string& mesh,
 
 }  // namespace
 
-int run_build_benchmarks(int argc, char** argv, const std::vector<BuildImplementation>& implementations) {
-  return run_benchmarks(argc, argv, [&implementations] {
-    const SceneChoice size;
-    for (const std::string mesh : MESHES) {
-      std::shared_ptr<const Body> body;
-      try {
-        body = load_body(mesh, benchmark_meshes(), size.diagonal);
-      } catch (const InputError& error) {
-        std::cerr << "left out: " << error.what() << '\n';
-        continue;
-      }
-      const auto prepared = once([body] {
-        return Prepared{body, build_probes(body->surface().mesh, PROBE_COUNT)};
-      });
-      for (const BuildImplementation& implementation : implementations) add(implementation, mesh, prepared);
+void add_build_benchmarks(const std::vector<BuildImplementation>& implementations) {
+  const SceneChoice size;
+  for (const std::string mesh : MESHES) {
+    std::shared_ptr<const Body> body;
+    try {
+      body = load_body(mesh, benchmark_meshes(), size.diagonal);
+    } catch (const InputError& error) {
+      std::cerr << "left out: " << error.what() << '\n';
+      continue;
     }
-  });
+    const auto prepared = once([body] {
+      return Prepared{body, build_probes(body->surface().mesh, PROBE_COUNT)};
+    });
+    for (const BuildImplementation& implementation : implementations) add(implementation, mesh, prepared);
+  }
+}
+
+void add_hierarchy_builds() {
+  add_build_benchmarks(build_implementations());
 }
 
 }  // namespace lmdbench::micro

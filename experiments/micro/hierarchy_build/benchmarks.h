@@ -8,9 +8,7 @@
 
 namespace lmdbench::micro {
 
-/// The main function of a program that times builds: names are hierarchy_build/<implementation>/<mesh>, items
-/// are triangles. Wall time is what counts, because some builders use all cores; processor time of all
-/// threads stands beside it. Each is asked some distances first. Meshes that are not there are left out.
-int run_build_benchmarks(int argc, char** argv, const std::vector<BuildImplementation>& implementations);
+/// The benchmarks of `add_hierarchy_builds` (tasks.h) for these implementations.
+void add_build_benchmarks(const std::vector<BuildImplementation>& implementations);
 
 }  // namespace lmdbench::micro

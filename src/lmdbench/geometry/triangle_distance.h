@@ -29,7 +29,7 @@ struct TrianglePairDistance {
 };
 
 /// Distance of two triangles given in one frame; degenerate triangles are segments or points. The error stays
-/// below 1e-14 of the largest coordinate (published bound 1e-12; see tests/oracle/triangle_accuracy.md), and
+/// below 1e-14 of the largest coordinate (published bound 1e-12; see results/reference/triangle_accuracy.md), and
 /// `intersecting` is decided by exact predicates. All tolerances are relative to the coordinates.
 /// Swapping the arguments or permuting corners gives the same points, bit for bit, and an edge or corner
 /// gives the same bits from each of its triangles. Never NaN for finite input; all NaN where a

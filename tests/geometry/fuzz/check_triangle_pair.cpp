@@ -6,7 +6,7 @@
 #include <lmdbench/geometry/triangle_distance.h>
 #include <lmdbench/geometry/triangle_distance_batch.h>
 
-#include "geometry/brute_force_distance.h"
+#include <judge/brute_force_distance.h>
 
 #include <array>
 #include <cmath>

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "geometry/triangle_families.h"
+#include <judge/triangle_families.h>
 
 #include <cstddef>
 #include <cstdint>

@@ -1,0 +1,23 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <judge/random_triangles.h>
+#include <judge/triangle_pair.h>
+
+#include <span>
+#include <string_view>
+
+namespace lmdbench::testing {
+
+/// A family of triangle pairs that some published distance routine gets wrong, or could. The generator is
+/// deterministic given the engine's state, on every platform.
+struct TriangleFamily {
+  std::string_view name;
+  TrianglePair (*generate)(Random& random);
+};
+
+/// The families of the accuracy table, in its order.
+std::span<const TriangleFamily> triangle_families();
+
+}  // namespace lmdbench::testing

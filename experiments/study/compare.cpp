@@ -1,0 +1,141 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/base/statistics.h>
+
+#include <CLI/CLI.hpp>
+#include <fmt/core.h>
+#include <micro/global_search/check.h>
+#include <micro/poses.h>
+#include <micro/program.h>
+#include <micro/timing.h>
+#include <nlohmann/json.hpp>
+#include <study/studies.h>
+
+#include <memory>
+
+/// Times every implementation of the task "global search" on the same poses, interleaved
+/// pose by pose, and reports the error of each beside its time. Exit code 1 when an
+/// implementation does not do what it promises.
+namespace lmdbench::micro {
+namespace {
+
+struct Choice : StudyChoice {
+  Choice() { poses = 40; }
+  std::size_t repetitions = 9;
+  std::string path;
+  std::size_t first_frame = 0;
+  bool slow = false;
+};
+
+struct Row {
+  std::string name;
+  LmdError error;
+  double median_ms = 0.0, p99_ms = 0.0, ratio_to_fcl = 0.0;
+};
+
+std::vector<Row> measure(const Scene& scene, const std::vector<Pose>& poses, const Choice& choice) {
+  const Truth truth = exhaustive_truth(scene, poses);
+  std::vector<Row> rows;
+  std::vector<std::unique_ptr<GlobalSearch>> searches;
+  std::vector<TimedTask> tasks;
+  for (const SearchImplementation& implementation : search_implementations()) {
+    if (implementation.slow && !choice.slow) continue;
+    searches.push_back(implementation.make(scene));
+    GlobalSearch* search = searches.back().get();
+    rows.push_back({implementation.name, check_search(implementation, *search, scene, poses, truth)});
+    tasks.push_back({implementation.name, [search, &poses](std::size_t pose) { search->run(poses[pose]); }});
+  }
+  const auto seconds = time_interleaved(tasks, poses.size(), choice.repetitions);
+  double fcl_ms = 0.0;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    rows[i].median_ms = 1e3 * median(seconds[i]);
+    rows[i].p99_ms = 1e3 * quantile(seconds[i], 0.99);
+    if (rows[i].name == "fcl-cold") fcl_ms = rows[i].median_ms;
+  }
+  for (Row& row : rows) row.ratio_to_fcl = fcl_ms / row.median_ms;
+  return rows;
+}
+
+void print(const std::vector<Row>& rows, double cutoff) {
+  fmt::print("\nCutoff {:g} % of the diagonal\n\n", 100.0 * cutoff);
+  fmt::print(
+      "| implementation | median [ms] | p99 [ms] | FCL cold / this | recall | recall, adjacent | precision | "
+      "precision, adjacent | minimum missed | worst minimum error |\n");
+  fmt::print("|---|---|---|---|---|---|---|---|---|---|\n");
+  for (const Row& row : rows) {
+    const auto share = [&](double value) {
+      return row.error.same.true_lmds > 0 ? fmt::format("{:.4f}", value) : "-";
+    };
+    fmt::print(
+        "| {} | {:.4f} | {:.4f} | {:.2f} | {} | {} | {} | {} | {} | {:.2g} |{}\n", row.name, row.median_ms,
+        row.p99_ms, row.ratio_to_fcl, share(row.error.same.recall()), share(row.error.neighbours.recall()),
+        share(row.error.same.precision()), share(row.error.neighbours.precision()), row.error.minimum_missed,
+        row.error.worst_minimum_error, row.error.objection.empty() ? "" : " WRONG: " + row.error.objection);
+  }
+}
+
+nlohmann::json to_json(const Row& row) {
+  return {{"name", row.name},
+          {"median_ms", row.median_ms},
+          {"p99_ms", row.p99_ms},
+          {"fcl_cold_ratio", row.ratio_to_fcl},
+          {"set", error_json(row.error.same, row.error.neighbours)},
+          {"minimum_missed", row.error.minimum_missed},
+          {"worst_minimum_error", row.error.worst_minimum_error},
+          {"objection", row.error.objection}};
+}
+
+std::vector<Pose> choose_poses(const Scene& scene, const Choice& choice) {
+  if (!choice.path.empty()) return path_poses(choice.path, choice.first_frame, choice.poses);
+  return grazing_poses(*scene.moving, *scene.fixed.at(0), choice.scene.gap * choice.scene.diagonal,
+                       choice.poses, choice.seed);
+}
+
+std::string describe_poses(const Choice& choice) {
+  if (!choice.path.empty())
+    return fmt::format("{} frames of {} from frame {}", choice.poses, choice.path, choice.first_frame);
+  return fmt::format("{} random poses at gap {:g} % of the diagonal, seed {}", choice.poses,
+                     100.0 * choice.scene.gap, choice.seed);
+}
+
+int run(const Choice& choice) {
+  Scene scene = load_scene(choice.scene);
+  const std::vector<Pose> poses = choose_poses(scene, choice);
+  fmt::print("{} on {}, diagonal {:g} m: {}; median of {} runs a pose, one thread's processor time\n",
+             choice.scene.moving, choice.scene.fixed, choice.scene.diagonal, describe_poses(choice),
+             choice.repetitions);
+  nlohmann::json report = {{"moving", choice.scene.moving},       {"fixed", choice.scene.fixed},
+                           {"diagonal_m", choice.scene.diagonal}, {"poses", describe_poses(choice)},
+                           {"pose_count", poses.size()},          {"repetitions", choice.repetitions}};
+  bool kept_promises = true;
+  for (const double cutoff : choice.cutoffs) {
+    scene.cutoff = cutoff * choice.scene.diagonal;
+    const std::vector<Row> rows = measure(scene, poses, choice);
+    print(rows, cutoff);
+    nlohmann::json entry = {{"cutoff", cutoff}};
+    for (const Row& row : rows) {
+      entry["implementations"].push_back(to_json(row));
+      kept_promises = kept_promises && row.error.objection.empty();
+    }
+    report["cutoffs"].push_back(entry);
+  }
+  write_report(choice.json, report);
+  return kept_promises ? 0 : 1;
+}
+
+}  // namespace
+}  // namespace lmdbench::micro
+
+void lmdbench::study::add_compare(CLI::App& app, Run& chosen) {
+  CLI::App* command =
+      app.add_subcommand("compare", "Interleaved comparison of global searches, error beside time");
+  const auto choice = std::make_shared<micro::Choice>();
+  micro::add_mesh_options(*command, choice->scene);
+  micro::add_study_options(*command, *choice);
+  command->add_option("--repetitions", choice->repetitions, "Timed runs a pose")->capture_default_str();
+  command->add_option("--path", choice->path,
+                      "Recorded path (TUM) instead of random poses: consecutive frames at 1 kHz");
+  command->add_option("--first-frame", choice->first_frame, "First frame of the path")->capture_default_str();
+  command->add_flag("--slow", choice->slow, "Time slow implementations too");
+  command->callback([&chosen, choice] { chosen = [choice] { return micro::run(*choice); }; });
+}

@@ -1,0 +1,253 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/base/error.h>
+#include <lmdbench/motion/tum_file.h>
+
+#include <CLI/CLI.hpp>
+#include <completeness/far_scenes.h>
+#include <completeness/study.h>
+#include <fmt/core.h>
+#include <micro/context.h>
+#include <micro/poses.h>
+#include <micro/program.h>
+#include <nlohmann/json.hpp>
+#include <study/studies.h>
+
+#include <cmath>
+#include <cstdio>
+#include <limits>
+#include <memory>
+
+/// Is `certified` complete and exact? Recall and precision, distances and points against `exhaustive` on
+/// random grazing poses of many mesh pairs, and frame coherence against searches from scratch along recorded
+/// paths. Markdown on standard output, JSON in a file. Exit code 1 on the first thing that is wrong, after
+/// all has run; every wrong pose is printed as a TUM line that `--poses-file` takes.
+namespace lmdbench::completeness {
+namespace {
+
+/// Scans with much detail, CAD, holes, few and large triangles, parallel faces, extreme shapes; every mesh of
+/// the manifest that is no variant of another one appears.
+const std::vector<std::string> DEFAULT_PAIRS = {"bunny-5k:bunny-5k",
+                                                "bunny-10k:bunny-5k",
+                                                "bunny-16k:bunny-16k",
+                                                "bunny-5k:bunny-40k",
+                                                "bunny-75k:bunny-5k",
+                                                "armadillo:bunny-5k",
+                                                "chinese-dragon:bunny-5k",
+                                                "camel:bunny-5k",
+                                                "fandisk:bunny-5k",
+                                                "fandisk:fandisk",
+                                                "elephant-with-holes:bunny-5k",
+                                                "elephant-with-holes:patch",
+                                                "box:box",
+                                                "box:bunny-5k",
+                                                "unequal:bunny-5k",
+                                                "unequal:unequal",
+                                                "needles-few:needles-few",
+                                                "needles-few:torus",
+                                                "blob:torus",
+                                                "sphere:box",
+                                                "wedge:l-block",
+                                                "two-boxes:patch"};
+
+struct Choice : micro::StudyChoice {
+  Choice() { seed = 3; }
+  std::vector<std::string> pairs = DEFAULT_PAIRS;
+  std::vector<std::string> experiments;
+  std::string poses_file;
+  std::size_t truth_stride = 50;
+  std::size_t far_poses = 20000;
+};
+
+constexpr std::size_t MAXIMUM_COMPLAINTS = 20;
+
+/// Prints the first complaints in full and counts all.
+class Complaints {
+ public:
+  Complain about(const std::string& subject) {
+    return [this, subject](const std::string& what) {
+      if (++count_ <= MAXIMUM_COMPLAINTS) fmt::print(stderr, "wrong: {}: {}\n", subject, what);
+    };
+  }
+  std::size_t count() const { return count_; }
+
+ private:
+  std::size_t count_ = 0;
+};
+
+void choose_pair(const std::string& pair, micro::SceneChoice& scene) {
+  const std::size_t colon = pair.find(':');
+  if (colon == std::string::npos)
+    throw UsageError("", "--pair", "'" + pair + "' has no colon", "write MOVING:FIXED");
+  scene.moving = pair.substr(0, colon);
+  scene.fixed = pair.substr(colon + 1);
+}
+
+nlohmann::json to_json(const Judgement& judgement) {
+  return {{"poses", judgement.poses},
+          {"wrong_poses", judgement.wrong_poses},
+          {"set", micro::error_json(judgement.same, judgement.neighbours)},
+          {"duplicates", judgement.duplicates},
+          {"worst_distance_difference_diagonals", judgement.worst_distance_difference},
+          {"worst_point_difference_diagonals", judgement.worst_point_difference}};
+}
+
+std::string numbers(const Judgement& judgement) {
+  return fmt::format("{} | {} | {} | {} | {} | {:.1e} | {:.1e}", judgement.same.true_lmds,
+                     judgement.same.missed(), judgement.same.wrong(), judgement.duplicates,
+                     judgement.wrong_poses, judgement.worst_distance_difference,
+                     judgement.worst_point_difference);
+}
+
+constexpr const char* NUMBER_HEADS =
+    "true LMDs | missed | wrong | duplicates | wrong poses | distance off, diagonals | points off, diagonals";
+
+std::vector<Pose> choose_poses(const Scene& scene, const Choice& choice) {
+  if (choice.poses_file.empty())
+    return micro::grazing_poses(*scene.moving, *scene.fixed.at(0), choice.scene.gap * choice.scene.diagonal,
+                                choice.poses, choice.seed);
+  std::vector<Pose> poses;
+  for (const TimedPose& timed : read_tum(choice.poses_file)) poses.push_back(timed.pose);
+  return poses;
+}
+
+nlohmann::json run_pair(const std::string& pair, Choice choice, Complaints& complaints) {
+  choose_pair(pair, choice.scene);
+  const Scene scene = load_scene(choice.scene);
+  const std::size_t moving_triangles = scene.moving->surface().mesh.triangles.size();
+  const std::size_t fixed_triangles = scene.fixed.at(0)->surface().mesh.triangles.size();
+  fmt::print(stderr, "{}: {} and {} triangles\n", pair, moving_triangles, fixed_triangles);
+  const auto results = judge_poses(scene, choice.scene.diagonal, choice.cutoffs, choose_poses(scene, choice),
+                                   complaints.about(pair));
+  nlohmann::json entry = {{"moving", choice.scene.moving},
+                          {"fixed", choice.scene.fixed},
+                          {"moving_triangles", moving_triangles},
+                          {"fixed_triangles", fixed_triangles}};
+  for (const CutoffResult& result : results) {
+    nlohmann::json row = {{"cutoff", result.cutoff}};
+    Judgement all;
+    for (std::size_t v = 0; v < variants().size(); ++v) {
+      row["variants"][variants()[v].label] = to_json(result.judgements[v]);
+      all += result.judgements[v];
+    }
+    entry["cutoffs"].push_back(row);
+    fmt::print("| {} on {} | {:g} | {} | {} |\n", choice.scene.moving, choice.scene.fixed,
+               100.0 * result.cutoff, all.poses, numbers(all));
+    std::fflush(stdout);
+  }
+  return entry;
+}
+
+nlohmann::json run_path(const std::string& experiment, const Choice& choice, Complaints& complaints) {
+  fmt::print(stderr, "{}\n", experiment);
+  const PathResult result =
+      judge_path(experiment, choice.scene.meshes, choice.truth_stride, complaints.about(experiment));
+  fmt::print("| {} | coherent against from scratch | {} | {} |\n", result.experiment,
+             result.against_scratch.poses, numbers(result.against_scratch));
+  fmt::print("| {} | coherent against exhaustive | {} | {} |\n", result.experiment,
+             result.against_truth.poses, numbers(result.against_truth));
+  std::fflush(stdout);
+  nlohmann::json entry = {{"experiment", result.experiment},
+                          {"frames", result.frames},
+                          {"coherent_against_scratch", to_json(result.against_scratch)},
+                          {"coherent_against_exhaustive", to_json(result.against_truth)}};
+  for (const CounterDescription& counter : method_description("certified").counters)
+    entry["work"][counter.name] = {{"coherent", result.coherent_work.values[counter.index]},
+                                   {"from_scratch", result.scratch_work.values[counter.index]}};
+  return entry;
+}
+
+nlohmann::json run_far_scenes(const Choice& choice, Complaints& complaints) {
+  fmt::print(stderr, "{} poses far from the origin\n", choice.far_poses);
+  nlohmann::json rows = nlohmann::json::array();
+  for (const FarResult& result :
+       judge_far_scenes(choice.seed, choice.far_poses, complaints.about("far from the origin"))) {
+    nlohmann::json row = {{"smallest_size_offsets", std::pow(10.0, result.decade)}};
+    Judgement all;
+    for (std::size_t v = 0; v < variants().size(); ++v) {
+      row["variants"][variants()[v].label] = to_json(result.judgements[v]);
+      all += result.judgements[v];
+    }
+    rows.push_back(row);
+    fmt::print("| 1e{} to 1e{} | {} | {} |\n", result.decade, result.decade + 1, all.poses, numbers(all));
+  }
+  return rows;
+}
+
+int run(const Choice& choice) {
+  Complaints complaints;
+  nlohmann::json report = {
+      {"format", "lmdbench-completeness"}, {"format_version", 1},
+      {"context", micro::run_context()},   {"diagonal_m", choice.scene.diagonal},
+      {"gap", choice.scene.gap},           {"seed", choice.seed},
+      {"poses_file", choice.poses_file},   {"position_tolerance_diagonals", POSITION_TOLERANCE},
+      {"pairs", nlohmann::json::array()},  {"paths", nlohmann::json::array()}};
+  const auto save = [&] {
+    report["wrong_poses"] = complaints.count();
+    micro::write_report(choice.json, report);
+  };
+  if (!choice.pairs.empty()) {
+    fmt::print("## certified against exhaustive\n\n");
+    if (choice.poses_file.empty())
+      fmt::print("Random poses at gap {:g} % of the diagonal, seed {}; ", 100.0 * choice.scene.gap,
+                 choice.seed);
+    else
+      fmt::print("Poses of {}; ", choice.poses_file);
+    fmt::print("each searched by {} variants of certified, which the counts add up.\n\n", variants().size());
+    fmt::print("| meshes | cutoff [%] | searches | {} |\n|---|---|---|---|---|---|---|---|---|---|\n",
+               NUMBER_HEADS);
+  }
+  for (const std::string& pair : choice.pairs) {
+    report["pairs"].push_back(run_pair(pair, choice, complaints));
+    save();
+  }
+  if (choice.far_poses > 0) {
+    fmt::print(
+        "\n## Far from the origin\n\nGenerated shapes; sizes as shares of their distance from the origin, "
+        "on whose scale points are compared.\n\n");
+    fmt::print("| size | searches | {} |\n|---|---|---|---|---|---|---|---|---|\n", NUMBER_HEADS);
+    report["far"] = run_far_scenes(choice, complaints);
+    save();
+  }
+  if (!choice.experiments.empty()) {
+    fmt::print("\n## Along recorded paths\n\n| path | comparison | frames | {} |\n", NUMBER_HEADS);
+    fmt::print("|---|---|---|---|---|---|---|---|---|---|\n");
+  }
+  for (const std::string& experiment : choice.experiments) {
+    report["paths"].push_back(run_path(experiment, choice, complaints));
+    save();
+  }
+  if (complaints.count() == 0) return static_cast<int>(ExitCode::DONE);
+  fmt::print(stderr,
+             "error: {} searches are wrong; to see one again, put its line into a file and give that "
+             "with --pair and --poses-file\n",
+             complaints.count());
+  return static_cast<int>(ExitCode::CHECK_FAILED);
+}
+
+}  // namespace
+}  // namespace lmdbench::completeness
+
+void lmdbench::study::add_completeness(CLI::App& app, Run& chosen) {
+  CLI::App* command = app.add_subcommand("completeness", "Is certified complete and exact?");
+  const auto choice = std::make_shared<completeness::Choice>();
+  const auto no_pairs = std::make_shared<bool>(false);
+  command->add_option("--pair", choice->pairs, "MOVING:FIXED meshes, may be repeated");
+  command->add_flag("--no-pairs", *no_pairs, "Only the experiments");
+  command->add_option("--experiment", choice->experiments,
+                      "Experiment file whose path is followed, may be repeated");
+  command
+      ->add_option("--far-poses", choice->far_poses,
+                   "Poses of generated scenes far from the origin, 1e-10 to 1e-5 of it large; 0: none")
+      ->capture_default_str();
+  micro::add_study_options(*command, *choice);
+  command->add_option("--poses-file", choice->poses_file, "Poses of this TUM file instead of random ones");
+  command
+      ->add_option("--truth-stride", choice->truth_stride,
+                   "Compare every so many frames of a path with exhaustive; 0: none")
+      ->capture_default_str();
+  command->callback([&chosen, choice, no_pairs] {
+    if (*no_pairs) choice->pairs.clear();
+    chosen = [choice] { return completeness::run(*choice); };
+  });
+}

@@ -1,0 +1,21 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <CLI/CLI.hpp>
+#include <micro/program.h>
+#include <study/studies.h>
+
+/// lmdbench-study: questions beyond one experiment. Markdown on standard output, numbers in a JSON file where --json
+/// names one; exit code 1 when a method breaks a promise.
+int main(int argc, char** argv) {
+  using namespace lmdbench;
+  CLI::App app("Studies of the methods: what they miss, what they cost, how costs grow", "lmdbench-study");
+  app.require_subcommand(1);
+  study::Run chosen;
+  study::add_recall(app, chosen);
+  study::add_completeness(app, chosen);
+  study::add_scaling(app, chosen);
+  study::add_builders(app, chosen);
+  study::add_compare(app, chosen);
+  study::add_integrators(app, chosen);
+  return micro::run_program(app, argc, argv, [&chosen] { return chosen(); });
+}

@@ -1,0 +1,107 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/methods/registry.h>
+
+#include <CLI/CLI.hpp>
+#include <fmt/core.h>
+#include <micro/poses.h>
+#include <micro/program.h>
+#include <nlohmann/json.hpp>
+#include <recall_study/variant.h>
+#include <study/studies.h>
+
+#include <algorithm>
+#include <memory>
+
+/// Recall and precision of the paper's algorithms against ground truth on random grazing poses,
+/// step by step. Markdown on standard output, JSON in a file. Exit code 1 when the cones alone lose
+/// an LMD: they must be conservative.
+namespace lmdbench::recall_study {
+namespace {
+
+std::vector<LmdSet> true_sets(Scene scene, double cutoff, const std::vector<Pose>& poses) {
+  scene.cutoff = cutoff;
+  const std::unique_ptr<Method> exhaustive = make_method("exhaustive", scene);
+  std::vector<LmdSet> truth(poses.size());
+  WorkCounters counters;
+  for (std::size_t i = 0; i < poses.size(); ++i) exhaustive->search(poses[i], truth[i], counters);
+  return truth;
+}
+
+void print_table(const std::string& title, const std::vector<VariantResult>& results) {
+  fmt::print("\n{}\n\n", title);
+  fmt::print(
+      "| variant | found of true | recall | precision | recall, adjacent | precision, adjacent | poses with "
+      "loss | nearest missed |\n");
+  fmt::print("|---|---|---|---|---|---|---|---|\n");
+  for (const VariantResult& result : results)
+    fmt::print("| {} | {} of {} | {:.4f} | {:.4f} | {:.4f} | {:.4f} | {} | {} |\n", result.variant.label,
+               result.same.found, result.same.true_lmds, result.same.recall(), result.same.precision(),
+               result.neighbours.recall(), result.neighbours.precision(), result.poses_with_loss,
+               result.minimum_missed);
+}
+
+nlohmann::json to_json(const VariantResult& result) {
+  return {{"variant", result.variant.label},
+          {"method", result.variant.method},
+          {"options", result.variant.options},
+          {"trackings", result.variant.trackings},
+          {"set", micro::error_json(result.same, result.neighbours)},
+          {"poses_with_loss", result.poses_with_loss},
+          {"minimum_missed", result.minimum_missed}};
+}
+
+std::vector<VariantResult> judge_all(const std::vector<Variant>& variants, const Scene& scene,
+                                     const std::vector<Pose>& poses, const std::vector<LmdSet>& truth) {
+  std::vector<VariantResult> results;
+  for (const Variant& variant : variants) results.push_back(judge(variant, scene, poses, truth));
+  return results;
+}
+
+int run(const micro::StudyChoice& choice) {
+  Scene scene = load_scene(choice.scene);
+  const double diagonal = choice.scene.diagonal;
+  const std::vector<Pose> poses = micro::grazing_poses(
+      *scene.moving, *scene.fixed.at(0), choice.scene.gap * diagonal, choice.poses, choice.seed);
+  fmt::print("## {} on {}\n\n{} random poses at gap {:g} % of the diagonal, seed {}\n", choice.scene.moving,
+             choice.scene.fixed, poses.size(), 100.0 * choice.scene.gap, choice.seed);
+
+  // An LMD does not depend on the cutoff, only whether it counts: the largest
+  // cutoff's truth holds the others'.
+  const double largest = *std::max_element(choice.cutoffs.begin(), choice.cutoffs.end());
+  const std::vector<LmdSet> all_truth = true_sets(scene, largest * diagonal, poses);
+
+  nlohmann::json report = {{"moving", choice.scene.moving}, {"fixed", choice.scene.fixed},
+                           {"diagonal_m", diagonal},        {"gap", choice.scene.gap},
+                           {"poses", poses.size()},         {"seed", choice.seed}};
+  bool cones_conservative = true;
+  for (const double cutoff : choice.cutoffs) {
+    scene.cutoff = cutoff * diagonal;
+    std::vector<LmdSet> truth;
+    for (const LmdSet& set : all_truth) truth.push_back(within_cutoff(set, scene.cutoff));
+    const std::vector<VariantResult> improved = judge_all(improved_variants(), scene, poses, truth);
+    const std::vector<VariantResult> original = judge_all(original_variants(), scene, poses, truth);
+    print_table(fmt::format("### Improved, cutoff {:g} % of the diagonal", 100.0 * cutoff), improved);
+    print_table(fmt::format("### Original, cutoff {:g} % of the diagonal", 100.0 * cutoff), original);
+    cones_conservative = cones_conservative && improved.front().same.missed() == 0;
+    nlohmann::json entry = {{"cutoff", cutoff}};
+    for (const VariantResult& result : improved) entry["improved"].push_back(to_json(result));
+    for (const VariantResult& result : original) entry["original"].push_back(to_json(result));
+    report["cutoffs"].push_back(entry);
+  }
+  micro::write_report(choice.json, report);
+  if (!cones_conservative) fmt::print(stderr, "error: the cone tests alone lost true LMDs\n");
+  return cones_conservative ? 0 : 1;
+}
+
+}  // namespace
+}  // namespace lmdbench::recall_study
+
+void lmdbench::study::add_recall(CLI::App& app, Run& chosen) {
+  CLI::App* command = app.add_subcommand("recall", "Where the paper's algorithms lose LMDs");
+  const auto choice = std::make_shared<micro::StudyChoice>();
+  choice->seed = 2;
+  micro::add_mesh_options(*command, choice->scene);
+  micro::add_study_options(*command, *choice);
+  command->callback([&chosen, choice] { chosen = [choice] { return recall_study::run(*choice); }; });
+}

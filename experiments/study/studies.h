@@ -1,0 +1,25 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <functional>
+
+namespace CLI {
+class App;
+}
+
+/// One file a subcommand of lmdbench-study.
+namespace lmdbench::study {
+
+/// What the chosen subcommand does once the command line is read; it returns the exit code.
+using Run = std::function<int()>;
+
+/// Each adds its subcommand to `app`, which sets `chosen` when it is named; `chosen` must outlive the parsing.
+void add_recall(CLI::App& app, Run& chosen);
+void add_completeness(CLI::App& app, Run& chosen);
+void add_scaling(CLI::App& app, Run& chosen);
+void add_builders(CLI::App& app, Run& chosen);
+void add_compare(CLI::App& app, Run& chosen);
+void add_integrators(CLI::App& app, Run& chosen);
+
+}  // namespace lmdbench::study
