@@ -47,17 +47,20 @@ void JsonDocument::rethrow(const Error& error) const {
   if (!message.starts_with(about_this_file)) throw_error(error.code(), "", "", message, "");
   const std::string rest = message.substr(about_this_file.size());
   const std::size_t end = rest.find(": ");
+  // Checks that serve several kinds of files throw usage errors; this file's kind knows better.
+  const ExitCode code = error.code() == ExitCode::USAGE ? code_ : error.code();
   const bool points =
       rest.starts_with("/") && end != std::string::npos && !rest.substr(0, end).ends_with(")");
-  if (!points) throw_error(code_, file_, "", rest, "");
-  throw_error(code_, file_, place(rest.substr(0, end)), rest.substr(end + 2), "");
+  if (!points) throw_error(code, file_, "", rest, "");
+  throw_error(code, file_, place(rest.substr(0, end)), rest.substr(end + 2), "");
 }
 
 std::string JsonDocument::place(const std::string& pointer) const {
   // What --set gave stands in no line; the user has just typed it.
   for (const std::string& entry : overrides_) {
     const std::string target = entry.substr(0, entry.find('='));
-    if (pointer == target || pointer.starts_with(target + "/")) return pointer;
+    if (pointer == target || pointer.starts_with(target + "/") || target.starts_with(pointer + "/"))
+      return pointer;
   }
   return fmt::format("{} (line {})", pointer, line_of(text_, pointer));
 }
