@@ -1,0 +1,45 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <lmdbench/crosscheck/fcl_crosscheck.h>
+#include <lmdbench/lmd/method.h>
+#include <lmdbench/lmd/scene.h>
+#include <lmdbench/methods/nearest/options.h>
+
+#include <cstdint>
+
+namespace lmdbench {
+
+const MethodDescription& nearest_method();
+
+/// What most programs do today: one contact a frame, the nearest pair of the meshes as FCL finds it (OBBRSS
+/// hierarchies, triangle by triangle), with a force while it is within the cutoff. Where the nearest pair
+/// changes its place, so does the whole force: that is what the multi-contact methods are measured against.
+///
+/// 1. FCL sees the meshes at a unit mean edge length, because its kernel skips faces under an absolute size
+///    (fcl_crosscheck.h). The search begins with the bound of the last frame's pair.
+/// 2. While the meshes are apart, distance and points are FCL's own, with its known errors on nearly parallel
+///    edges. In contact FCL's points mean nothing; there the triangles that it names are measured again.
+/// 3. FCL names triangles, an LMD names features: those of the exact distance of the two triangles.
+class Nearest : public Method {
+ public:
+  /// What it counts.
+  enum class Counter : std::uint8_t { FCL_QUERIES, TRIANGLE_DISTANCES };
+
+  /// @throws InputError for a mesh without triangles
+  explicit Nearest(Scene scene, const NearestOptions& options = {});
+
+  const MethodDescription& description() const override { return nearest_method(); }
+  void search(const Pose& X_WM, LmdSet& lmds, WorkCounters& counters) override;
+  void track(const Pose& X_WM, LmdSet& lmds, WorkCounters& counters) override {
+    search(X_WM, lmds, counters);
+  }
+
+ private:
+  Scene scene_;
+  bool warm_start_;
+  FclCrosscheck fcl_;
+};
+
+}  // namespace lmdbench
