@@ -66,8 +66,10 @@ TEST(Registry, MethodsCountWhatTheyDescribe) {
   std::mt19937_64 random(5);
   std::vector<Pose> grazing;
   for (int i = 0; i < 5; ++i) grazing.push_back(testing::grazing_pose(curved, 0.01, random));
-  Pose over;
-  over.translation = {0.01, 0.02, 0.24};
+  Pose over, tilted;
+  over.translation = tilted.translation = {0.01, 0.02, 0.24};
+  // So little that rounding decides, triangle by triangle.
+  tilted.rotation = Eigen::AngleAxisd(1e-9, Vec3::UnitX());
   for (const MethodDescription& description : method_descriptions()) {
     WorkCounters searched, tracked;
     const auto count = [&](const Scene& scene, const std::vector<Pose>& poses) {
@@ -81,7 +83,7 @@ TEST(Registry, MethodsCountWhatTheyDescribe) {
       }
     };
     count(curved, grazing);
-    count(flush, {over});
+    count(flush, {over, tilted});
     for (const CounterDescription& counter : description.counters) {
       const std::string about = description.name + " " + counter.name;
       EXPECT_TRUE(searched.values[counter.index] == 0 || counter.counted_by != CountedBy::TRACKING) << about;

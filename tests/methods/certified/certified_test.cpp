@@ -22,10 +22,12 @@ using testing::make_scene;
 
 std::string describe(const LmdSet& lmds) {
   std::ostringstream text;
+  text.precision(17);
   for (const Lmd& lmd : lmds) {
     text << "  " << lmd.distance << " " << to_string(lmd.feature_moving.kind) << " "
          << lmd.feature_moving.index << ", " << to_string(lmd.feature_fixed.kind) << " "
-         << lmd.feature_fixed.index << "\n";
+         << lmd.feature_fixed.index << ", triangles " << lmd.triangle_moving << " " << lmd.triangle_fixed
+         << ", points " << lmd.point_moving.transpose() << ", " << lmd.point_fixed.transpose() << "\n";
   }
   return text.str();
 }

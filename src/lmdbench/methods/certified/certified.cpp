@@ -134,17 +134,22 @@ bool strict_points(const PairFilter& filter, const FeatureId& on_moving, const F
          nearest.minimiser_dimension == 0;
 }
 
+const WideHierarchy& hierarchy_of(const Body& body, bool joins_flat) {
+  return joins_flat ? body.prepared<WideHierarchy>() : body.prepared<SingleFeatureHierarchy>().hierarchy;
+}
+
 }  // namespace
 
-Certified::Certified(Scene scene, const CertifiedOptions& options, WideKernel kernel)
+Certified::Certified(Scene scene, const CertifiedOptions& options, WideKernel kernel, FlatFeatures flat)
     : scene_(std::move(scene)),
-      hierarchy_moving_(scene_.moving->prepared<WideHierarchy>()),
+      joins_flat_(flat == FlatFeatures::JOINED),
+      hierarchy_moving_(hierarchy_of(*scene_.moving, joins_flat_)),
       flat_moving_(&scene_.moving->prepared<FlatMesh>()),
       coherent_(options.frame_coherence),
       kernel_(kernel) {
   double extent = hierarchy_moving_.radius;
   for (const auto& body : scene_.fixed) {
-    hierarchies_fixed_.push_back(&body->prepared<WideHierarchy>());
+    hierarchies_fixed_.push_back(&hierarchy_of(*body, joins_flat_));
     extent = std::max(extent, hierarchies_fixed_.back()->radius);
   }
   // Without a cutoff that means something there is nothing to save, and lever arms would be without bound.
@@ -212,8 +217,8 @@ void Certified::settle(const Frame& frame, const FeatureId& on_moving, const Fea
 Certificate Certified::decide_touching(const Frame& frame, const WidePair& candidate, double lever_arm,
                                        WorkCounters& counters) {
   const PairFilter& filter = frame.filter;
-  if (frame.flat_moving.mesh.is_joined(candidate.a.feature_id()) ||
-      frame.flat_fixed.mesh.is_joined(candidate.b.feature_id()))
+  if (joins_flat_ && (frame.flat_moving.mesh.is_joined(candidate.a.feature_id()) ||
+                      frame.flat_fixed.mesh.is_joined(candidate.b.feature_id())))
     return decide_touching_flat(frame, candidate, lever_arm, counters);
   const TrianglePair pair{candidate.a.feature_id().index, candidate.b.feature_id().index};
   const Triangle a = filter.X_WM.triangle(filter.moving.mesh.triangle(pair.moving));
@@ -294,6 +299,7 @@ void Certified::search(const Pose& X_WM, LmdSet& lmds, WorkCounters& counters) {
     touch_ = touch;
   }
 
+  bool in_doubt = false;
   static const RigidTransform identity;
   const FlatSide flat_moving{scene_.moving->surface(), *flat_moving_, transform, true};
   for (std::size_t i = 0; i < scene_.fixed.size(); ++i) {
@@ -307,8 +313,8 @@ void Certified::search(const Pose& X_WM, LmdSet& lmds, WorkCounters& counters) {
                             touch,
                             FILTER_MARGIN,
                             RELATIVE_TINY * coordinates,
-                            flat_moving.mesh.joins_features ? &flat_moving.mesh : nullptr,
-                            flat_fixed.mesh.joins_features ? &flat_fixed.mesh : nullptr};
+                            joins_flat_ && flat_moving.mesh.joins_features ? &flat_moving.mesh : nullptr,
+                            joins_flat_ && flat_fixed.mesh.joins_features ? &flat_fixed.mesh : nullptr};
     PairFilter single_filter = filter;
     single_filter.flat_moving = single_filter.flat_fixed = nullptr;
     const double tolerance = parallel_tolerance(filter.moving, filter.fixed);
@@ -318,7 +324,8 @@ void Certified::search(const Pose& X_WM, LmdSet& lmds, WorkCounters& counters) {
                       flat_moving,
                       flat_fixed,
                       tolerance,
-                      tolerance > 0.0 || flat_moving.mesh.joins_features || flat_fixed.mesh.joins_features};
+                      joins_flat_ && (tolerance > 0.0 || flat_moving.mesh.joins_features ||
+                                      flat_fixed.mesh.joins_features)};
     if (frame.is_flat) contacts_.start(body, scene_.cutoff, touch, coordinates, tolerance);
     const std::size_t first = minima_.size();
     const WideQuery query(moving, fixed, transform, scene_.cutoff, touch);
@@ -360,8 +367,19 @@ void Certified::search(const Pose& X_WM, LmdSet& lmds, WorkCounters& counters) {
       for (const WidePair& pair : scratch_.touch_pairs) decide_pair(pair, true, 1.0);
     }
     decide_pending(frame, counters);
-    if (frame.is_flat) take_contacts(frame, first);
+    if (frame.is_flat) {
+      contacts_.doubt_touching_contacts();
+      in_doubt = in_doubt || contacts_.is_in_doubt();
+      take_contacts(frame, first);
+    }
     add_traversal<Counter>(counters, work);
+  }
+  if (in_doubt) {
+    if (!by_single_features_)
+      by_single_features_ = std::make_unique<Certified>(
+          scene_, CertifiedOptions{.frame_coherence = coherent_}, kernel_, FlatFeatures::SINGLE);
+    by_single_features_->search(X_WM, lmds, counters);
+    return;
   }
   report(transform, coordinates, lmds);
 }

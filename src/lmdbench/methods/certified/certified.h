@@ -13,6 +13,7 @@
 #include <lmdbench/methods/certified/options.h>
 
 #include <cstdint>
+#include <memory>
 #include <utility>
 #include <vector>
 
@@ -37,7 +38,8 @@ const MethodDescription& certified_method();
 /// Flat contact: a region of faces in one plane and a line of edges are one feature each (flat_mesh.h), so
 /// that tessellation costs nothing. Two of them are parallel, and their sets of minimisers are found whole
 /// from the outlines (flat_contacts.h); or they have one candidate point, and the faces or edges there decide
-/// as above; or rounding decides, and then all their triangle pairs are evaluated.
+/// as above; or rounding decides, and then all their triangle pairs are evaluated. Where a tilt of less than 1e-8 decides, in a
+/// scene without a planar tolerance, the whole frame is searched by single faces and edges.
 ///
 /// The merging of plateaus is the truth's, and it sees the same minima.
 ///
@@ -62,9 +64,15 @@ class Certified : public Method {
     FIRST_ORDER_TESTS
   };
 
+  /// What a leaf of the hierarchies is where faces lie in one plane or edges on one line.
+  enum class FlatFeatures : std::uint8_t {
+    JOINED,  ///< The region, the straight edge.
+    SINGLE   ///< Each face, each edge: as slow as the tessellation is fine.
+  };
+
   /// @param kernel form of the node test where the frame is searched from scratch
   explicit Certified(Scene scene, const CertifiedOptions& options = {},
-                     WideKernel kernel = WideKernel::VECTOR);
+                     WideKernel kernel = WideKernel::VECTOR, FlatFeatures flat = FlatFeatures::JOINED);
 
   const MethodDescription& description() const override { return certified_method(); }
   void search(const Pose& X_WM, LmdSet& lmds, WorkCounters& counters) override;
@@ -119,6 +127,7 @@ class Certified : public Method {
   void report(const RigidTransform& X_WM, double coordinates, LmdSet& lmds);
 
   Scene scene_;
+  bool joins_flat_;
   const WideHierarchy& hierarchy_moving_;
   std::vector<const WideHierarchy*> hierarchies_fixed_;  ///< One a fixed body.
   const FlatMesh* flat_moving_;
@@ -129,8 +138,9 @@ class Certified : public Method {
   WideScratch scratch_;
   std::vector<TrianglePair> pending_;
   std::vector<LocalMinimum> minima_;
-  FlatContacts contacts_;  ///< Of one fixed body.
-  LmdSet plateaus_;        ///< The contacts of all.
+  FlatContacts contacts_;                          ///< Of one fixed body.
+  LmdSet plateaus_;                                ///< The contacts of all.
+  std::unique_ptr<Certified> by_single_features_;  ///< Made when the first frame needs it.
   std::vector<std::int32_t> single_, corners_;
 
   /// Of one fixed body; empty where nothing is kept.

@@ -1,14 +1,17 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/geometry/segment_distance.h>
 #include <lmdbench/geometry/tolerance.h>
 #include <lmdbench/lmd/first_order.h>
 #include <lmdbench/lmd/flat_pieces.h>
+#include <lmdbench/lmd/plateau.h>
 #include <lmdbench/methods/certified/flat/flat_contacts.h>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <span>
 
 namespace lmdbench {
 
@@ -17,6 +20,8 @@ namespace {
 /// Tilt beyond which the first-order test of no piece of a plateau passes (PLATEAU_PIECE_TOLERANCE and the
 /// rounding beside it), with room.
 constexpr double CLEAR_TILT = 1e-8;
+/// Contacts whose directions differ by more are never one set of minimisers.
+constexpr double DIRECTION_DOUBT = 1e-6;
 /// How far, relative to the coordinates, a minimum that a triangle pair found may be from the contact that it
 /// is a part of.
 constexpr double TOUCHING = 1e-9;
@@ -63,6 +68,10 @@ bool is_speck(const ConvexPolygon& polygon, double area, double width) {
   return !(area > width * longest);
 }
 
+bool is_segment(const FlatContacts::Contact& contact) {
+  return contact.flat_moving.kind == FeatureKind::EDGE || contact.flat_fixed.kind == FeatureKind::EDGE;
+}
+
 }  // namespace
 
 void FlatContacts::start(std::int32_t body, double cutoff, double touch, double coordinates,
@@ -72,19 +81,59 @@ void FlatContacts::start(std::int32_t body, double cutoff, double touch, double 
   touch_ = touch;
   coordinates_ = coordinates;
   tolerance_ = tolerance;
+  in_doubt_ = false;
   contacts_.clear();
   unsure_.clear();
   pieces_.clear();
   frames_.clear();
 }
 
-FlatVerdict FlatContacts::judge(const Range& distances, double tilt) const {
+FlatVerdict FlatContacts::judge(const Range& distances, double tilt) {
   // Faces that are in touch or cross have no direction: their triangles tell.
   if (distances.greatest < 0.0) return FlatVerdict::NONE;
   if (distances.least <= 2.0 * touch_) return FlatVerdict::UNSURE;
   if (distances.greatest - distances.least <= std::max(tolerance_, coincidence_length(coordinates_)))
     return FlatVerdict::FOUND;
-  return tilt <= CLEAR_TILT ? FlatVerdict::UNSURE : FlatVerdict::NONE;
+  return tilt <= CLEAR_TILT ? doubt() : FlatVerdict::NONE;
+}
+
+std::span<const ConvexPolygon> FlatContacts::pieces_of(const Contact& contact) const {
+  return std::span(pieces_).subspan(contact.first, contact.count);
+}
+
+bool FlatContacts::do_touch(std::size_t one, std::size_t other) const {
+  const Contact &a = contacts_[one], &b = contacts_[other];
+  if (is_segment(a) && is_segment(b))
+    return segment_distance({a.end0, a.end1}, {b.end0, b.end1}).squared_distance <= touch_ * touch_;
+  if (is_segment(b)) return do_touch(other, one);
+  const PlanarFrame& frame = frames_[other];
+  if (is_segment(a)) {
+    const Vec2 begin = frame.flat(a.end0), end = frame.flat(a.end1);
+    const Vec2 longer = (1.0 + touch_ / (end - begin).norm()) * (end - begin);
+    return std::ranges::any_of(pieces_of(b), [&](const ConvexPolygon& piece) {
+      const SegmentPart part = piece.part_of(end - longer, begin + longer);
+      return part.end > part.begin;
+    });
+  }
+  return std::ranges::any_of(pieces_of(a), [&](ConvexPolygon own) {
+    for (Vec2& corner : own.corners) corner = frame.flat(frames_[one].lifted(corner));
+    return std::ranges::any_of(pieces_of(b),
+                               [&](const ConvexPolygon& piece) { return touch(own, piece, touch_); });
+  });
+}
+
+void FlatContacts::doubt_touching_contacts() {
+  if (tolerance_ > 0.0) return;
+  for (std::size_t i = 0; i < contacts_.size(); ++i) {
+    for (std::size_t j = 0; j < i && !in_doubt_; ++j) {
+      const Contact &a = contacts_[i], &b = contacts_[j];
+      // The parts of one pair of flat features are known to be apart.
+      if (a.flat_moving == b.flat_moving && a.flat_fixed == b.flat_fixed) continue;
+      const double distance = std::max(a.lmd.distance, b.lmd.distance);
+      in_doubt_ = std::abs(a.lmd.distance - b.lmd.distance) <= PLATEAU_TOLERANCE * distance + touch_ &&
+                  (a.lmd.direction - b.lmd.direction).norm() <= DIRECTION_DOUBT && do_touch(i, j);
+    }
+  }
 }
 
 void FlatContacts::collect_pieces(const FlatSide& side, std::int32_t region, const PlanarFrame& frame_W,
@@ -257,6 +306,9 @@ FlatVerdict FlatContacts::add_edges(const FlatSide& moving, std::int32_t straigh
   const double end = std::min(end_a, std::max(begin_b, end_b));
   // Where they face each other in a point or less, their ends answer.
   if (!(end - begin > coincidence_length(coordinates_))) return FlatVerdict::UNSURE;
+  // Edges that cross at a tiny angle drift apart sideways long before their distance tells.
+  if (tolerance_ == 0.0 && tilt * std::min(length_u, length_v) > coincidence_length(coordinates_))
+    return doubt();
   const auto on_moving = [&](double s) { return Vec3(a0 + s / end_a * u); };
   const auto on_fixed = [&](double s) { return Vec3(b0 + (s - begin_b) / (end_b - begin_b) * v); };
   const double middle = 0.5 * (begin + end);

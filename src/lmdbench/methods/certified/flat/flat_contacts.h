@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -63,6 +64,12 @@ class FlatContacts {
   /// @param coordinates largest coordinate of the two meshes in the world
   void start(std::int32_t body, double cutoff, double touch, double coordinates, double tolerance);
   const std::vector<Contact>& contacts() const { return contacts_; }
+  /// Whether some features are tilted by more than rounding and less than CLEAR_TILT, without a planar tolerance: then
+  /// which pieces a plateau has is known only triangle by triangle, for all features alike.
+  bool is_in_doubt() const { return in_doubt_; }
+  /// To be called when all contacts are found: leaves in doubt what belongs to one set of minimisers, such as ridges that
+  /// meet in a corner at one height.
+  void doubt_touching_contacts();
 
   FlatVerdict add_faces(const FlatSide& moving, std::int32_t region_moving, const FlatSide& fixed,
                         std::int32_t region_fixed);
@@ -93,7 +100,13 @@ class FlatContacts {
       greatest = std::max(greatest, x);
     }
   };
-  FlatVerdict judge(const Range& distances, double tilt) const;
+  FlatVerdict judge(const Range& distances, double tilt);
+  std::span<const ConvexPolygon> pieces_of(const Contact& contact) const;
+  bool do_touch(std::size_t one, std::size_t other) const;
+  FlatVerdict doubt() {
+    in_doubt_ = in_doubt_ || tolerance_ == 0.0;
+    return FlatVerdict::UNSURE;
+  }
   /// Remembers a pair that is left to its triangles.
   FlatVerdict unsure(const FeatureId& flat_moving, const FeatureId& flat_fixed) {
     unsure_.push_back({flat_moving, flat_fixed});
@@ -108,6 +121,7 @@ class FlatContacts {
 
   std::int32_t body_ = 0;
   double cutoff_ = 0.0, touch_ = 0.0, coordinates_ = 0.0, tolerance_ = 0.0;
+  bool in_doubt_ = false;
   std::vector<Contact> contacts_;
   std::vector<std::pair<FeatureId, FeatureId>> unsure_;
   std::vector<ConvexPolygon> pieces_;  ///< In frames_ of their contact.

@@ -339,4 +339,8 @@ WideHierarchy WideHierarchy::of(const Body& body) {
   return build_wide_hierarchy(body.surface(), {}, &body.prepared<FlatMesh>());
 }
 
+SingleFeatureHierarchy SingleFeatureHierarchy::of(const Body& body) {
+  return {build_wide_hierarchy(body.surface())};
+}
+
 }  // namespace lmdbench

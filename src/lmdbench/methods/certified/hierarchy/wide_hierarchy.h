@@ -128,6 +128,12 @@ struct WideHierarchy {
   static WideHierarchy of(const Body& body);
 };
 
+/// The same over single faces and edges: for frames in which rounding decides about flat features.
+struct SingleFeatureHierarchy {
+  WideHierarchy hierarchy;
+  static SingleFeatureHierarchy of(const Body& body);
+};
+
 /// Deterministic, whatever the number of threads.
 /// @param flat where given, regions and straight edges are features in place of their faces and edges
 WideHierarchy build_wide_hierarchy(const Surface& surface, const WideBuildOptions& options = {},
