@@ -175,7 +175,11 @@ Ledger arbitrate(const std::filesystem::path& result, const std::filesystem::pat
   Ledger ledger;
   ledger.experiment = experiment.name;
   ledger.scale = court.scale();
-  ledger.tolerance = file.real_attribute("/crosscheck/fcl", "tolerance_relative");
+  const std::optional<double> tolerance = file.real_attribute("/crosscheck/fcl", "tolerance_relative");
+  if (!tolerance)
+    throw InputError(result.string(), "/crosscheck/fcl", "attribute tolerance_relative is missing",
+                     "run the experiment again");
+  ledger.tolerance = *tolerance;
   const std::vector<std::int64_t> frames = file.integers("/crosscheck/fcl/frame");
   const std::vector<double> fcl = file.reals("/crosscheck/fcl/distance");
   const std::vector<double> own = file.reals("/crosscheck/fcl/lmdbench_distance");

@@ -49,7 +49,9 @@ TEST(WithinDistance, IsWhetherTheNearestPairIs) {
     };
     EXPECT_TRUE(within(nearest));
     EXPECT_TRUE(within(1.5 * nearest + 1e-3));
-    if (nearest > 0.0) EXPECT_FALSE(within(nearest * (1.0 - 1e-12)));
+    if (nearest > 0.0) {
+      EXPECT_FALSE(within(nearest * (1.0 - 1e-12)));
+    }
   }
 }
 

@@ -66,7 +66,7 @@ TEST(Measure, FindsCertifiedRightAndCountsItsWork) {
   choice.gap = 0.01;
   const auto poses = micro::grazing_poses(*scene.moving, *scene.fixed[0], choice.gap, 4, 5);
   const Measurement measurement = measure(scene, poses, choice);
-  ASSERT_EQ(measurement.series.size(), 7u);
+  ASSERT_GE(measurement.series.size(), 7u);
   for (const Series& series : measurement.series) {
     EXPECT_EQ(series.objection, "") << series.name;
     EXPECT_EQ(series.seconds.size(), poses.size());

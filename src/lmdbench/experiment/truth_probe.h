@@ -26,7 +26,7 @@ inline constexpr std::size_t FORCE_LAW_COUNT = 2;
 struct TruthFrame {
   std::int64_t frame = 0;
   LmdSet lmds;
-  std::array<Vec3, FORCE_LAW_COUNT> force;           ///< Rendered, under each law [N].
+  std::array<Vec3, FORCE_LAW_COUNT> force{Vec3::Zero(), Vec3::Zero()};  ///< Rendered, under each law [N].
   std::array<double, FORCE_LAW_COUNT> force_jump{};  ///< |force at the next frame - force| [N].
 };
 

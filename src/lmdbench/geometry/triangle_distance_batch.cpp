@@ -36,7 +36,7 @@
 HWY_BEFORE_NAMESPACE();
 namespace lmdbench::HWY_NAMESPACE {
 
-const char* target_name() {
+const char* batch_target_name() {
   return hwy::TargetName(HWY_TARGET);
 }
 
@@ -50,7 +50,7 @@ namespace lmdbench {
 HWY_EXPORT(first_step);
 HWY_EXPORT(all_candidates);
 HWY_EXPORT(crossing);
-HWY_EXPORT(target_name);
+HWY_EXPORT(batch_target_name);
 
 namespace {
 
@@ -194,7 +194,7 @@ void triangle_distance_batch(std::span<const Triangle> a, std::span<const Triang
 }
 
 std::string triangle_distance_batch_target() {
-  return HWY_DYNAMIC_DISPATCH(target_name)();
+  return HWY_DYNAMIC_DISPATCH(batch_target_name)();
 }
 
 }  // namespace lmdbench

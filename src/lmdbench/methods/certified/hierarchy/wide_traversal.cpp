@@ -185,7 +185,7 @@ void test_vector(const WideNode& node, const WideProbe& probe, const WideLimits&
   masks = VectorTest{}(node, probe, limits);
 }
 
-const char* target_name() {
+const char* traversal_target_name() {
   return hwy::TargetName(HWY_TARGET);
 }
 
@@ -199,7 +199,7 @@ namespace lmdbench {
 HWY_EXPORT(descend_vector);
 HWY_EXPORT(descend_scalar);
 HWY_EXPORT(test_vector);
-HWY_EXPORT(target_name);
+HWY_EXPORT(traversal_target_name);
 
 WideQuery::WideQuery(const WideHierarchy& a, const WideHierarchy& b, const RigidTransform& X_BA,
                      double cutoff, double touch) {
@@ -238,7 +238,7 @@ WideMasks test_lanes_vector(const WideNode& node, const WideProbe& probe, const 
 }
 
 std::string_view wide_kernel_target() {
-  return HWY_DYNAMIC_DISPATCH(target_name)();
+  return HWY_DYNAMIC_DISPATCH(traversal_target_name)();
 }
 
 }  // namespace lmdbench
