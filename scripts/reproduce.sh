@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-FileCopyrightText: The lmdbench authors
 # SPDX-License-Identifier: BSD-3-Clause
-# From a fresh clone to the paper's Figure 7: packages, build, meshes, the hard and the soft experiment, figures, summary.
-# Leaves results/bunny-hard.h5, results/bunny-soft.h5 and results/figures/. The summary goes to standard output, all
+# From a fresh clone to the paper's Figure 7: packages, build, meshes, the hard and the soft experiment, figures, page, summary.
+# Leaves results/bunny-hard.h5, results/bunny-soft.h5, results/figures/ and results/report/index.html. The summary goes to standard output, all
 # else to standard error.
 set -euo pipefail
 # shellcheck source=scripts/lib.sh
@@ -13,6 +13,7 @@ cd "$ROOT"
 EXPERIMENTS=(bunny-hard bunny-soft)
 LMDBENCH=build/release/lmdbench
 FIGURES=results/figures
+REPORT=results/report
 started=$EPOCHREALTIME
 
 # Every step stops the script when it fails; what was timed until then is still told.
@@ -51,8 +52,10 @@ figures() {
     "$PYTHON" scripts/figures/claims.py "$HARD" "$SOFT" --out "$FIGURES" >&2
 }
 
+page() { "$LMDBENCH" report "$HARD" "$SOFT" --out "$REPORT" --study results/reference/*.md >&2; }
+
 step "Packages" scripts/setup.sh
-PYTHON="$(find_python h5py matplotlib numpy)"
+PYTHON="$(find_python h5py jinja2 markdown matplotlib numpy)"
 HARD=results/bunny-hard.h5
 SOFT=results/bunny-soft.h5
 
@@ -62,4 +65,5 @@ for experiment in "${EXPERIMENTS[@]}"; do
   step "Experiment $experiment" run_experiment "$experiment"
 done
 step "Figures" figures
-step "Summary" "$PYTHON" scripts/figures/summary.py "$HARD" "$SOFT" --files "$FIGURES"/*
+step "Page" page
+step "Summary" "$PYTHON" scripts/figures/summary.py "$HARD" "$SOFT" --files "$FIGURES"/* "$REPORT/index.html"
