@@ -68,6 +68,7 @@ void write_times(ResultWriter& writer, const SyntheticResult& result, const std:
 void write_method(ResultWriter& writer, const SyntheticResult& result, const std::string& method) {
   const std::string group = "/methods/" + method;
   const bool searches = method == "original";
+  writer.attribute(group, "method_order", std::int64_t{searches ? 0 : 1});
   std::vector<double> force, distance;
   for (int f = 0; f < FRAMES; ++f) {
     double z = 0.1 * (f + 1);

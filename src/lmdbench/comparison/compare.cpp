@@ -11,7 +11,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstdint>
 #include <iterator>
+#include <limits>
 #include <map>
 
 namespace lmdbench {
@@ -136,13 +138,14 @@ std::vector<Sample> ratio_samples(const Comparison& comparison, const std::vecto
   return samples;
 }
 
-/// Labels that both sides time: the methods of the paper first, in its order, then others by name.
-std::vector<std::string> common_methods(const Comparison& comparison) {
+/// Labels that both sides time, in the order of reports that a result of theirs carries.
+std::vector<std::string> common_methods(const Comparison& comparison, const ResultReader& result) {
   std::vector<std::string> methods;
   for (const auto& [method, times] : comparison.base.front())
     if (comparison.candidate.front().contains(method)) methods.push_back(method);
-  const auto rank = [](const std::string& label) {
-    return label == "original" ? 0 : label == "improved" ? 1 : 2;
+  const auto rank = [&](const std::string& label) {
+    return result.integer_attribute("/methods/" + label, "method_order")
+        .value_or(std::numeric_limits<std::int64_t>::max());
   };
   std::stable_sort(methods.begin(), methods.end(),
                    [&](const std::string& a, const std::string& b) { return rank(a) < rank(b); });
@@ -160,7 +163,8 @@ void compare_times(const Files& base, const Files& candidate, const CompareOptio
 
   const bool absolute = comparison.machine.comparable;
   const std::vector<Sample> samples =
-      absolute ? stage_samples(comparison) : ratio_samples(comparison, common_methods(comparison));
+      absolute ? stage_samples(comparison)
+               : ratio_samples(comparison, common_methods(comparison, base.front()));
   const double least_effect =
       absolute ? options.least_effect : std::max(options.least_effect, CROSS_MACHINE_EFFECT);
   // Bonferroni: the chance of a false alarm is shared out among the stages.
