@@ -27,8 +27,7 @@ constexpr const char* SCRIPTS_VARIABLE = "LMDBENCH_SCRIPTS";
 
 fs::path report_script() {
   const char* folder = std::getenv(SCRIPTS_VARIABLE);
-  const fs::path script =
-      fs::path(folder != nullptr ? folder : LMDBENCH_SCRIPTS_FOLDER) / "report" / "report.py";
+  fs::path script = fs::path(folder != nullptr ? folder : LMDBENCH_SCRIPTS_FOLDER) / "report" / "report.py";
   if (!fs::exists(script))
     throw EnvironmentError(script.string(), "", "is missing: it makes the page",
                            fmt::format("set {} to the folder scripts/ of lmdbench", SCRIPTS_VARIABLE));
