@@ -43,7 +43,8 @@ class PlateauTest : public ::testing::Test {
   }
   LmdSet merged(std::vector<LocalMinimum> minima) const {
     LmdSet lmds;
-    merge_plateaus(scene_, RigidTransform(), minima, lmds);
+    std::vector<Intersection> intersections;
+    merge_plateaus(scene_, RigidTransform(), minima, intersections, lmds);
     return lmds;
   }
 

@@ -41,8 +41,6 @@ bool feature_pair_less(const Lmd& a, const Lmd& b) {
 /// here, or one plateau would be reported corner by corner.
 /// @param tolerance of rounded meshes [m]
 bool same_plane_of_contact(const Lmd& a, const Lmd& b, double tolerance) {
-  if (a.intersecting != b.intersecting) return false;
-  if (a.intersecting) return true;
   const double coordinates =
       std::max(a.point_moving.cwiseAbs().maxCoeff(), a.point_fixed.cwiseAbs().maxCoeff());
   const double rounding = tolerance + 64.0 * std::numeric_limits<double>::epsilon() * coordinates +
@@ -102,7 +100,7 @@ bool is_apart(const std::vector<Vec2>& a, const std::vector<Vec2>& b, const Vec2
 bool sets_touch(const Scene& scene, const RigidTransform& X_WM, const LocalMinimum& a, const LocalMinimum& b,
                 double tolerance) {
   // Points and segments may be all that a tilt of rounding leaves of one set.
-  if (std::min(a.dimension, b.dimension) < 2 || a.lmd.intersecting) return true;
+  if (std::min(a.dimension, b.dimension) < 2) return true;
   const PlanarFrame frame(a.lmd.point_moving, a.lmd.direction);
   const std::vector<Vec2> of_a = corners_of(scene, X_WM, a, frame), of_b = corners_of(scene, X_WM, b, frame);
   const double coordinates =
@@ -171,8 +169,7 @@ Lmd representative(const Scene& scene, const RigidTransform& X_WM, std::span<con
   if (plateau.size() == 1) {
     const LocalMinimum& only = minima[plateau.front()];
     Lmd lmd = only.lmd;
-    if (only.dimension > 0 && !lmd.intersecting)
-      name_plateau(scene, X_WM, minima, plateau, only.dimension, lmd);
+    if (only.dimension > 0) name_plateau(scene, X_WM, minima, plateau, only.dimension, lmd);
     return lmd;
   }
   int dimension = 0;
@@ -202,12 +199,10 @@ Lmd representative(const Scene& scene, const RigidTransform& X_WM, std::span<con
   Lmd lmd = nearest->lmd;
   lmd.point_moving = centroid_moving;
   lmd.point_fixed = centroid_fixed;
-  if (!lmd.intersecting) {
-    const Vec3 d = centroid_fixed - centroid_moving;
-    lmd.distance = d.norm();
-    lmd.direction = d / lmd.distance;
-    if (dimension > 0) name_plateau(scene, X_WM, minima, plateau, dimension, lmd);
-  }
+  const Vec3 d = centroid_fixed - centroid_moving;
+  lmd.distance = d.norm();
+  lmd.direction = d / lmd.distance;
+  if (dimension > 0) name_plateau(scene, X_WM, minima, plateau, dimension, lmd);
   return lmd;
 }
 
@@ -234,9 +229,19 @@ void keep_one_a_feature_pair(std::vector<LocalMinimum>& minima) {
 }
 
 void merge_plateaus(const Scene& scene, const RigidTransform& X_WM, std::vector<LocalMinimum>& minima,
-                    LmdSet& lmds) {
+                    std::vector<Intersection>& intersections, LmdSet& lmds) {
   lmds.clear();
   keep_one_a_feature_pair(minima);
+  for (const LocalMinimum& minimum : minima) {
+    const Lmd& lmd = minimum.lmd;
+    if (lmd.intersecting)
+      intersections.push_back({lmd.feature_moving, lmd.feature_fixed, lmd.triangle_moving, lmd.triangle_fixed,
+                               lmd.fixed_body, minimum.dimension, minimum.measure, lmd.point_moving});
+  }
+  append_contacts(scene, intersections, lmds);
+  minima.erase(std::remove_if(minima.begin(), minima.end(),
+                              [](const LocalMinimum& minimum) { return minimum.lmd.intersecting; }),
+               minima.end());
 
   std::vector<Touch> touches;
   for (std::size_t i = 0; i < minima.size(); ++i) {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <lmdbench/geometry/pose.h>
+#include <lmdbench/lmd/intersections.h>
 #include <lmdbench/lmd/lmd.h>
 #include <lmdbench/lmd/scene.h>
 
@@ -40,7 +41,10 @@ void keep_one_a_feature_pair(std::vector<LocalMinimum>& minima);
 /// several pairs of regions or straight edges the first. Minima that meet in one point, and triangles that
 /// intersect, are named after the piece nearest to the centroid. The result depends on the set alone, never
 /// on the order of `minima`; it is sorted by `lmd_less`.
+///
+/// Minima of triangles that intersect are contacts of their own (intersections.h).
+/// @param intersections more of those, found without being minima first; they go before minima of equal features
 void merge_plateaus(const Scene& scene, const RigidTransform& X_WM, std::vector<LocalMinimum>& minima,
-                    LmdSet& lmds);
+                    std::vector<Intersection>& intersections, LmdSet& lmds);
 
 }  // namespace lmdbench

@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/geometry/clear_crossing.h>
 #include <lmdbench/geometry/point_triangle.h>
 #include <lmdbench/geometry/segment_distance.h>
 #include <lmdbench/geometry/triangle_distance.h>
@@ -11,8 +12,10 @@
 #include <lmdbench/methods/certified/touch.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
+#include <span>
 
 namespace lmdbench {
 
@@ -23,6 +26,8 @@ namespace {
 constexpr double RELATIVE_TOUCH = 1e-9;
 /// PairFilter::margin: above the error of a direction at half the touch distance (4 * 2.2e-16 / 5e-10).
 constexpr double FILTER_MARGIN = 1e-5;
+/// Pairs of triangles that are looked at together, in vectors.
+constexpr std::size_t CROSSINGS_AT_A_TIME = 64;
 /// PairFilter::tiny relative to the coordinates: roundings of such a length's ends are well under the margin.
 constexpr double RELATIVE_TINY = 1e-8;
 /// Motions of a frame that are larger than this many cutoffs are jumps: next to nothing would be kept.
@@ -214,13 +219,59 @@ void Certified::settle(const Frame& frame, const FeatureId& on_moving, const Fea
     for (const std::int32_t t_fixed : triangles_fixed) pending_.push_back({t_moving, t_fixed});
 }
 
-Certificate Certified::decide_touching(const Frame& frame, const WidePair& candidate, double lever_arm,
-                                       WorkCounters& counters) {
+/// Decides the pairs of `touching_`, and calls plan(place, certificate) for each; lever arms are the caller's.
+template <class Plan>
+void Certified::decide_touching(const Frame& frame, WorkCounters& counters, Plan&& plan) {
   const PairFilter& filter = frame.filter;
-  if (joins_flat_ && (frame.flat_moving.mesh.is_joined(candidate.a.feature_id()) ||
-                      frame.flat_fixed.mesh.is_joined(candidate.b.feature_id())))
-    return decide_touching_flat(frame, candidate, lever_arm, counters);
-  const TrianglePair pair{candidate.a.feature_id().index, candidate.b.feature_id().index};
+  const bool knows_flat =
+      joins_flat_ && (frame.flat_moving.mesh.joins_features || frame.flat_fixed.mesh.joins_features);
+  counters[Counter::LEAF_PAIRS] += touching_.size();
+  // Some at a time: most of what comes again in every frame crosses clearly.
+  std::array<Triangle, CROSSINGS_AT_A_TIME> moving, fixed;
+  std::array<ClearCrossing, CROSSINGS_AT_A_TIME> crossings;
+  std::array<std::pair<TrianglePair, std::uint32_t>, CROSSINGS_AT_A_TIME> pairs;
+  std::size_t count = 0;
+  const auto decide_waiting = [&] {
+    find_clear_crossings(std::span(moving).first(count), std::span(fixed).first(count),
+                         std::span(crossings).first(count));
+    for (std::size_t k = 0; k < count; ++k) {
+      const auto& [pair, place] = pairs[k];
+      if (crossings[k].length > 0.0) {
+        ++counters[Counter::TRIANGLE_DISTANCES];
+        crossings_.push_back({{FeatureKind::FACE, pair.moving},
+                              {FeatureKind::FACE, pair.fixed},
+                              pair.moving,
+                              pair.fixed,
+                              frame.body,
+                              1,
+                              crossings[k].length,
+                              crossings[k].middle});
+        plan(place, Certificate{});
+      } else {
+        plan(place, decide_touching_pair(frame, pair, counters));
+      }
+    }
+    count = 0;
+  };
+  for (const auto& [candidate, place] : touching_) {
+    const FeatureId on_moving = candidate.a.feature_id(), on_fixed = candidate.b.feature_id();
+    if (knows_flat &&
+        (frame.flat_moving.mesh.is_joined(on_moving) || frame.flat_fixed.mesh.is_joined(on_fixed))) {
+      plan(place, decide_touching_flat(frame, candidate, counters));
+      continue;
+    }
+    moving[count] = filter.X_WM.triangle(filter.moving.mesh.triangle(on_moving.index));
+    fixed[count] = filter.fixed.mesh.triangle(on_fixed.index);
+    pairs[count++] = {{on_moving.index, on_fixed.index}, place};
+    if (count == CROSSINGS_AT_A_TIME) decide_waiting();
+  }
+  if (count > 0) decide_waiting();
+}
+
+/// Of a pair that does not cross clearly.
+Certificate Certified::decide_touching_pair(const Frame& frame, const TrianglePair& pair,
+                                            WorkCounters& counters) {
+  const PairFilter& filter = frame.filter;
   const Triangle a = filter.X_WM.triangle(filter.moving.mesh.triangle(pair.moving));
   const Triangle b = filter.fixed.mesh.triangle(pair.fixed);
   const Vec3 normal_a =
@@ -228,10 +279,10 @@ Certificate Certified::decide_touching(const Frame& frame, const WidePair& candi
   const Vec3& normal_b = filter.fixed.face_normals[static_cast<std::size_t>(pair.fixed)];
   const double margin = 2.0 * filter.touch;
   const ClearGap clear = clear_gap(a, normal_a, b, normal_b, margin);
-  if (clear.gap > 0.0) return {clear.gap - margin, clear.axis, 0.0, lever_arm};
+  if (clear.gap > 0.0) return {clear.gap - margin, clear.axis};
   LocalMinimum minimum;
   if (evaluate(frame, pair, minimum, counters)) minima_.push_back(minimum);
-  return {minimum.lmd.distance - margin, minimum.lmd.direction, 0.0, lever_arm};
+  return {minimum.lmd.distance - margin, minimum.lmd.direction};
 }
 
 void Certified::decide_pending(const Frame& frame, WorkCounters& counters) {
@@ -248,18 +299,19 @@ void Certified::report(const RigidTransform& X_WM, double coordinates, LmdSet& l
   for (const auto& body : scene_.fixed)
     tolerance = std::max(tolerance, parallel_tolerance(scene_.moving->surface(), body->surface()));
   const auto merge = [&] {
-    merge_plateaus(scene_, X_WM, minima_, lmds);
+    merge_plateaus(scene_, X_WM, minima_, crossings_, lmds);
     lmds.insert(lmds.end(), plateaus_.begin(), plateaus_.end());
     std::sort(lmds.begin(), lmds.end(), lmd_less);
   };
+  // Plateaus are rare: they have a size, or several pairs of equal distances.
+  if (!crossings_.empty() ||
+      std::any_of(minima_.begin(), minima_.end(), [](const LocalMinimum& m) { return m.dimension > 0; })) {
+    merge();
+    return;
+  }
   // A pair may come from its own candidate and from that of a neighbour that was close to a tie.
   keep_one_a_feature_pair(minima_);
-  // Plateaus are rare: they have a size, or several pairs of equal distances.
   for (std::size_t i = 0; i < minima_.size(); ++i) {
-    if (minima_[i].dimension > 0) {
-      merge();
-      return;
-    }
     for (std::size_t j = i + 1; j < minima_.size(); ++j) {
       const double a = minima_[i].lmd.distance, b = minima_[j].lmd.distance;
       if (std::abs(a - b) > APART * std::max(a, b) + RELATIVE_TOUCH * coordinates + tolerance) continue;
@@ -278,6 +330,7 @@ void Certified::search(const Pose& X_WM, LmdSet& lmds, WorkCounters& counters) {
   const RigidTransform transform(X_WM);
   const WideHierarchy& moving = hierarchy_moving_;
   minima_.clear();
+  crossings_.clear();
   plateaus_.clear();
   double coordinates = transform.point(moving.origin).cwiseAbs().maxCoeff() + moving.radius;
   for (const WideHierarchy* fixed : hierarchies_fixed_)
@@ -330,11 +383,11 @@ void Certified::search(const Pose& X_WM, LmdSet& lmds, WorkCounters& counters) {
     const std::size_t first = minima_.size();
     const WideQuery query(moving, fixed, transform, scene_.cutoff, touch);
     WideCounters work;
-    const auto decide_pair = [&](const WidePair& pair, bool touches, double lever_arm) {
+    const auto decide_pair = [&](const WidePair& pair, bool, double lever_arm) {
       ++counters[Counter::LEAF_PAIRS];
-      return touches ? decide_touching(frame, pair, lever_arm, counters)
-                     : decide(frame, pair, lever_arm, counters);
+      return decide(frame, pair, lever_arm, counters);
     };
+    touching_.clear();
     const int ranks = frame.is_flat ? RANKS : 1;
     TraversalFront& front = kept_[i].front;
     if (keep && query.possible && kept_[i].policy.keep()) {
@@ -346,8 +399,15 @@ void Certified::search(const Pose& X_WM, LmdSet& lmds, WorkCounters& counters) {
       }
       front.collect_due(motion_);
       for (int rank = 0; rank < ranks; ++rank)
-        front.for_each_due(moving, motion_, longest, decide_pair,
-                           [&](const WidePair& pair) { return ranks == 1 || rank_of(pair) == rank; });
+        front.for_each_due(moving, motion_, longest, decide_pair, [&](const WidePair& pair, bool touches) {
+          return !touches && (ranks == 1 || rank_of(pair) == rank);
+        });
+      front.for_each_due_touching(
+          [&](std::uint32_t leaf, const WidePair& pair) { touching_.emplace_back(pair, leaf); });
+      decide_touching(frame, counters, [&](std::uint32_t leaf, Certificate certificate) {
+        if (certificate.slack > 0.0) certificate.lever_arm = front.lever_arm_of(moving, leaf, longest);
+        front.plan_leaf(moving, motion_, leaf, certificate);
+      });
     } else {
       front.clear();
       find_wide_pairs(moving, fixed, query, kernel_, scratch_, work);
@@ -364,7 +424,8 @@ void Certified::search(const Pose& X_WM, LmdSet& lmds, WorkCounters& counters) {
       for (int rank = 1; rank < ranks; ++rank)
         for (const WidePair& pair : scratch_.lmd_pairs)
           if (rank_of(pair) == rank) decide_pair(pair, false, 1.0);
-      for (const WidePair& pair : scratch_.touch_pairs) decide_pair(pair, true, 1.0);
+      for (const WidePair& pair : scratch_.touch_pairs) touching_.emplace_back(pair, 0u);
+      decide_touching(frame, counters, [](std::uint32_t, const Certificate&) {});
     }
     decide_pending(frame, counters);
     if (frame.is_flat) {

@@ -41,6 +41,9 @@ const MethodDescription& certified_method();
 /// as above; or rounding decides, and then all their triangle pairs are evaluated. Where a tilt of less than 1e-8 decides, in a
 /// scene without a planar tolerance, the whole frame is searched by single faces and edges.
 ///
+/// Deep contact: triangles that cross are looked at in vectors (clear_crossing.h); a frame's work there is
+/// proportional to the length of the curve in which the meshes intersect.
+///
 /// The merging of plateaus is the truth's, and it sees the same minima.
 ///
 /// Frame coherence: where the pose moves by little, step 1 is not made anew. Every test of the last
@@ -101,8 +104,9 @@ class Certified : public Method {
   Certificate decide(const Frame& frame, const WidePair& candidate, double lever_arm, WorkCounters& counters);
   void settle(const Frame& frame, const FeatureId& on_moving, const FeatureId& on_fixed,
               const PairAnswer& answer, WorkCounters& counters);
-  Certificate decide_touching(const Frame& frame, const WidePair& candidate, double lever_arm,
-                              WorkCounters& counters);
+  template <class Plan>
+  void decide_touching(const Frame& frame, WorkCounters& counters, Plan&& plan);
+  Certificate decide_touching_pair(const Frame& frame, const TrianglePair& pair, WorkCounters& counters);
   void decide_pending(const Frame& frame, WorkCounters& counters);
   bool evaluate(const Frame& frame, const TrianglePair& pair, LocalMinimum& minimum,
                 WorkCounters& counters) const;
@@ -120,8 +124,7 @@ class Certified : public Method {
   void expand_edge_face(const Frame& frame, const FlatSide& of_edge, std::int32_t straight,
                         const FlatSide& of_face, std::int32_t region);
   void expand_edges(const Frame& frame, std::int32_t straight_moving, std::int32_t straight_fixed);
-  Certificate decide_touching_flat(const Frame& frame, const WidePair& candidate, double lever_arm,
-                                   WorkCounters& counters);
+  Certificate decide_touching_flat(const Frame& frame, const WidePair& candidate, WorkCounters& counters);
   void take_contacts(const Frame& frame, std::size_t first);
 
   void report(const RigidTransform& X_WM, double coordinates, LmdSet& lmds);
@@ -138,10 +141,13 @@ class Certified : public Method {
   WideScratch scratch_;
   std::vector<TrianglePair> pending_;
   std::vector<LocalMinimum> minima_;
+  std::vector<Intersection> crossings_;            ///< Of triangles that clearly cross.
   FlatContacts contacts_;                          ///< Of one fixed body.
   LmdSet plateaus_;                                ///< The contacts of all.
   std::unique_ptr<Certified> by_single_features_;  ///< Made when the first frame needs it.
   std::vector<std::int32_t> single_, corners_;
+  /// Pairs of faces that may touch, and their places in the traversal that is kept.
+  std::vector<std::pair<WidePair, std::uint32_t>> touching_;
 
   /// Of one fixed body; empty where nothing is kept.
   struct Kept {

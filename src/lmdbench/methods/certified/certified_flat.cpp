@@ -243,7 +243,7 @@ void Certified::expand_edges(const Frame& frame, std::int32_t straight_moving, s
     }
 }
 
-Certificate Certified::decide_touching_flat(const Frame& frame, const WidePair& candidate, double lever_arm,
+Certificate Certified::decide_touching_flat(const Frame& frame, const WidePair& candidate,
                                             WorkCounters& counters) {
   const FeatureId on_moving = candidate.a.feature_id(), on_fixed = candidate.b.feature_id();
   const std::int32_t region_m = region_of(frame.flat_moving, on_moving);
@@ -254,13 +254,13 @@ Certificate Certified::decide_touching_flat(const Frame& frame, const WidePair& 
   frame.flat_moving.mesh.append_corners(frame.filter.moving, on_moving, corners_);
   if (region_f >= 0) {
     const ClearGap gap = gap_to(frame.flat_fixed.plane(region_f), frame.flat_moving, corners_);
-    if (gap.gap > margin) return {gap.gap - margin, gap.axis, 0.0, lever_arm};
+    if (gap.gap > margin) return {gap.gap - margin, gap.axis};
   }
   corners_.clear();
   frame.flat_fixed.mesh.append_corners(frame.filter.fixed, on_fixed, corners_);
   if (region_m >= 0) {
     const ClearGap gap = gap_to(frame.flat_moving.plane(region_m), frame.flat_fixed, corners_);
-    if (gap.gap > margin) return {gap.gap - margin, -gap.axis, 0.0, lever_arm};
+    if (gap.gap > margin) return {gap.gap - margin, -gap.axis};
   }
   const auto decide_triangles = [&](std::int32_t t_moving, std::int32_t t_fixed) {
     const Triangle a = frame.filter.X_WM.triangle(frame.filter.moving.mesh.triangle(t_moving));

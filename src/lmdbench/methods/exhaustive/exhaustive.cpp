@@ -18,6 +18,7 @@ void Exhaustive::search(const Pose& X_WM, LmdSet& lmds, WorkCounters& counters) 
   const Surface& moving = scene_.moving->surface();
   const double squared_cutoff = scene_.cutoff * scene_.cutoff;
   minima_.clear();
+  intersections_.clear();
   flat_pieces_.clear();
 
   const auto triangle_count = static_cast<std::int32_t>(moving.mesh.triangles.size());
@@ -43,7 +44,7 @@ void Exhaustive::search(const Pose& X_WM, LmdSet& lmds, WorkCounters& counters) 
     }
   }
   flat_pieces_.append_parallel(minima_);
-  merge_plateaus(scene_, transform, minima_, lmds);
+  merge_plateaus(scene_, transform, minima_, intersections_, lmds);
 }
 
 }  // namespace lmdbench

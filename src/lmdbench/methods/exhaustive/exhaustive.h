@@ -36,6 +36,7 @@ class Exhaustive : public Method {
   Scene scene_;
   std::vector<TriangleGrid> grids_;  ///< One a fixed body.
   std::vector<LocalMinimum> minima_;
+  std::vector<Intersection> intersections_;
   FlatPieces flat_pieces_;
 };
 

@@ -22,6 +22,8 @@ void CertificateQueue::clear() {
   budgets_.clear();
   free_.clear();
   by_frame_.clear();
+  next_.clear();
+  place_in_next_.clear();
   by_epoch_.clear();
   least_budgets_.fill(UNLIMITED);
 }
@@ -31,6 +33,7 @@ std::uint32_t CertificateQueue::add() {
     budgets_.push_back(UNLIMITED);
     by_frame_.add();
     by_epoch_.add();
+    place_in_next_.push_back(NONE);
     return static_cast<std::uint32_t>(budgets_.size() - 1);
   }
   const std::uint32_t index = free_.back();
@@ -41,14 +44,18 @@ std::uint32_t CertificateQueue::add() {
 void CertificateQueue::drop(std::uint32_t index) {
   by_frame_.remove(index);
   by_epoch_.remove(index);
+  if (place_in_next_[index] != NONE) next_[place_in_next_[index]] = NONE;
+  place_in_next_[index] = NONE;
   free_.push_back(index);
 }
 
 void CertificateQueue::plan(std::uint32_t index, double frames, double deviation_budget,
                             const MotionForecast& forecast) {
   const double whole = std::clamp(frames * (1.0 - FRAME_ROUNDING), 0.0, forecast.longest_plan());
-  // What is due in the next frame anyhow needs no deviation budget.
-  if (whole < 1.0) deviation_budget = UNLIMITED;
+  if (whole < 1.0) {
+    plan_next(index);
+    return;
+  }
   by_frame_.move_to(index, (forecast.frame() + 1 + static_cast<std::uint32_t>(whole)) % FRAMES);
   const std::size_t epoch = forecast.epoch();
   by_epoch_.move_to(index, static_cast<std::uint32_t>(epoch));
@@ -73,6 +80,12 @@ void CertificateQueue::collect(const MotionForecast& forecast, std::vector<std::
     least_budgets_[epoch] = least;
   }
   due.clear();
+  for (const std::uint32_t index : next_) {
+    if (index == NONE) continue;
+    place_in_next_[index] = NONE;
+    due.push_back(index);
+  }
+  next_.clear();
   by_frame_.for_each(forecast.frame() % FRAMES, [&](std::uint32_t index) {
     by_frame_.remove(index);
     by_epoch_.remove(index);

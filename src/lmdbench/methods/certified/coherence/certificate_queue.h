@@ -32,6 +32,13 @@ class CertificateQueue {
     by_frame_.move_to(index, forecast.frame() % FRAMES);
   }
 
+  /// In the next frame, whatever the motion.
+  /// @pre not planned yet, or collected or dropped since
+  void plan_next(std::uint32_t index) {
+    place_in_next_[index] = static_cast<std::uint32_t>(next_.size());
+    next_.push_back(index);
+  }
+
   /// What is due at the forecast's frame. Every frame must be collected.
   void collect(const MotionForecast& forecast, std::vector<std::uint32_t>& due);
 
@@ -39,10 +46,14 @@ class CertificateQueue {
   /// More than the longest plan, and a power of two.
   static constexpr std::uint32_t FRAMES = 64;
   static_assert(MotionForecast::LONGEST_PLAN + 1 < FRAMES);
+  static constexpr std::uint32_t NONE = 0xFFFFFFFFU;
 
   std::vector<float> budgets_;  ///< Deviations from their epoch's forecast that plans stand [m].
   std::vector<std::uint32_t> free_;
   IndexLists by_frame_{FRAMES};
+  /// Due in the next frame whatever the motion: in deep contact thousands are, frame after frame, and lists that
+  /// lose any of their links at any time would cost more than the decisions.
+  std::vector<std::uint32_t> next_, place_in_next_;
   IndexLists by_epoch_{static_cast<std::uint32_t>(MotionForecast::EPOCHS)};
   std::array<float, MotionForecast::EPOCHS> least_budgets_{};  ///< Over the plans of an epoch, or less.
 };

@@ -52,7 +52,8 @@ std::uint32_t TraversalFront::add_leaf(const Work& work, std::uint32_t slot_a, c
   return index;
 }
 
-double TraversalFront::lever_arm_of(const WideHierarchy& a, const Leaf& leaf, double cutoff) {
+double TraversalFront::lever_arm_of(const WideHierarchy& a, std::uint32_t index, double cutoff) const {
+  const Leaf& leaf = leaves_[index];
   return static_cast<double>(a.nodes[leaf.slot_a / WIDE_WIDTH].radius[leaf.slot_a % WIDE_WIDTH]) +
          2.0 * cutoff;
 }
@@ -60,7 +61,7 @@ double TraversalFront::lever_arm_of(const WideHierarchy& a, const Leaf& leaf, do
 void TraversalFront::plan_leaf(const WideHierarchy& a, const MotionForecast& motion, std::uint32_t index,
                                const Certificate& certificate) {
   if (!(certificate.slack > 0.0 && certificate.turn > 0.0)) {
-    leaf_queue_.plan(index, 0.0, 0.0, motion);
+    leaf_queue_.plan_next(index);
     return;
   }
   const Leaf& leaf = leaves_[index];

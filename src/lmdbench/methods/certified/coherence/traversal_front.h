@@ -37,7 +37,7 @@ class TraversalFront {
 
   /// Finds the pairs that are due, once a frame.
   void collect_due(const MotionForecast& motion) { leaf_queue_.collect(motion, due_); }
-  /// Calls decide(pair, touches, lever_arm) for every pair that is due and chosen(pair); `touches` tells
+  /// Calls decide(pair, touches, lever_arm) for every pair that is due and chosen(pair, touches); `touches` tells
   /// pairs of faces that may touch from pairs that may be LMDs. It returns the Certificate of its decision.
   /// Every pair must be chosen in one call a frame.
   template <class Decide, class Chosen>
@@ -45,16 +45,29 @@ class TraversalFront {
                     Chosen&& chosen) {
     for (const std::uint32_t i : due_) {
       const Leaf& leaf = leaves_[i];
-      if (!chosen(leaf.pair)) continue;
-      plan_leaf(a, motion, i, decide(leaf.pair, leaf.touches, lever_arm_of(a, leaf, cutoff)));
+      if (!chosen(leaf.pair, leaf.touches)) continue;
+      plan_leaf(a, motion, i, decide(leaf.pair, leaf.touches, lever_arm_of(a, i, cutoff)));
     }
   }
 
-  /// The same for all pairs that are due, found here.
+  /// Calls visit(leaf, pair) for every pair of faces that may touch and is due, instead of `decide`: each must be
+  /// given its plan by plan_leaf in this frame.
+  template <class Visit>
+  void for_each_due_touching(Visit&& visit) const {
+    for (const std::uint32_t i : due_)
+      if (leaves_[i].touches) visit(i, leaves_[i].pair);
+  }
+  /// Keeps a decision about a pair that was due.
+  void plan_leaf(const WideHierarchy& a, const MotionForecast& motion, std::uint32_t leaf,
+                 const Certificate& certificate);
+  /// Of a pair's moving feature, for certificates [m].
+  double lever_arm_of(const WideHierarchy& a, std::uint32_t leaf, double cutoff) const;
+
+  /// The same as for_each_due for all pairs that are due, found here.
   template <class Decide>
   void for_each_due(const WideHierarchy& a, const MotionForecast& motion, double cutoff, Decide&& decide) {
     collect_due(motion);
-    for_each_due(a, motion, cutoff, decide, [](const WidePair&) { return true; });
+    for_each_due(a, motion, cutoff, decide, [](const WidePair&, bool) { return true; });
   }
 
   std::size_t test_count() const { return test_queue_.count(); }
@@ -90,10 +103,6 @@ class TraversalFront {
   void drop_record(std::uint32_t record);
   void make_requested_tests(const Work& work);
   void apply(const Work& work, const WideKeptTest& test);
-
-  static double lever_arm_of(const WideHierarchy& a, const Leaf& leaf, double cutoff);
-  void plan_leaf(const WideHierarchy& a, const MotionForecast& motion, std::uint32_t index,
-                 const Certificate& certificate);
 
   std::vector<WideKeptPair> pairs_;
   std::vector<Record> records_;  ///< What the test of each pair let through.

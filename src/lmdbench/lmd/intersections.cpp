@@ -1,0 +1,119 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/lmd/corner_groups.h>
+#include <lmdbench/lmd/intersections.h>
+#include <lmdbench/mesh/feature_corners.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <limits>
+#include <span>
+#include <tuple>
+
+namespace lmdbench {
+
+namespace {
+
+/// Pieces whose squared distances from the centroid differ by less than this part are equally near: rounding must
+/// not choose the name of a symmetric contact.
+constexpr double EQUALLY_NEAR = 1e-9;
+
+std::uint64_t number(const FeatureId& feature) {
+  return static_cast<std::uint64_t>(feature.kind) << 32 | static_cast<std::uint32_t>(feature.index);
+}
+
+/// Sorts by body and features, by way of short keys, and leaves the first of those with equal ones.
+void sort_by_features(std::vector<Intersection>& intersections) {
+  struct Key {
+    std::uint64_t moving, fixed;
+    std::size_t index;
+    bool operator<(const Key& other) const {
+      if (moving != other.moving) return moving < other.moving;
+      return fixed != other.fixed ? fixed < other.fixed : index < other.index;
+    }
+    bool same_features(const Key& other) const { return moving == other.moving && fixed == other.fixed; }
+  };
+  std::vector<Key> keys;
+  keys.reserve(intersections.size());
+  for (std::size_t i = 0; i < intersections.size(); ++i) {
+    const Intersection& piece = intersections[i];
+    keys.push_back({static_cast<std::uint64_t>(piece.fixed_body) << 40 | number(piece.on_moving),
+                    number(piece.on_fixed), i});
+  }
+  std::sort(keys.begin(), keys.end());
+  std::vector<Intersection> sorted;
+  sorted.reserve(intersections.size());
+  for (std::size_t i = 0; i < keys.size(); ++i)
+    if (i == 0 || !keys[i].same_features(keys[i - 1])) sorted.push_back(intersections[keys[i].index]);
+  intersections.swap(sorted);
+}
+
+struct Contact {
+  int dimension = 0;
+  double measure = 0.0;  ///< Of the pieces of that dimension; of points, their number.
+  Vec3 centroid = Vec3::Zero();
+  double squared_distance = std::numeric_limits<double>::infinity();  ///< Of the nearest piece.
+  const Intersection* nearest = nullptr;
+
+  double weight_of(const Intersection& piece) const { return dimension == 0 ? 1.0 : piece.measure; }
+  void add(const Intersection& piece) {
+    if (piece.dimension < dimension) return;
+    if (piece.dimension > dimension) *this = {.dimension = piece.dimension};
+    measure += weight_of(piece);
+    centroid += weight_of(piece) * piece.point;
+  }
+  void name(const Intersection& piece) {
+    if (piece.dimension < dimension) return;
+    const double squared = (piece.point - centroid).squaredNorm();
+    if (!(squared < squared_distance * (1.0 - EQUALLY_NEAR))) return;
+    squared_distance = squared;
+    nearest = &piece;
+  }
+};
+
+}  // namespace
+
+void append_contacts(const Scene& scene, std::vector<Intersection>& intersections, LmdSet& lmds) {
+  if (intersections.empty()) return;
+  sort_by_features(intersections);
+  CornerGroups groups(intersections.size());
+  const Surface& moving = scene.moving->surface();
+  for (std::size_t i = 0; i < intersections.size(); ++i) {
+    const Intersection& piece = intersections[i];
+    if (i > 0 && piece.fixed_body != intersections[i - 1].fixed_body) groups.forget_corners();
+    const Surface& fixed = scene.fixed[static_cast<std::size_t>(piece.fixed_body)]->surface();
+    groups.add(i, FeatureCorners(moving, piece.on_moving).view(),
+               FeatureCorners(fixed, piece.on_fixed).view());
+  }
+  // A group is named by its first piece, so that its contact exists before the others come.
+  std::vector<std::uint32_t> contact_of(intersections.size());
+  std::vector<Contact> contacts;
+  for (std::size_t i = 0; i < intersections.size(); ++i) {
+    const std::size_t group = groups.group_of(i);
+    if (group == i) {
+      contact_of[i] = static_cast<std::uint32_t>(contacts.size());
+      contacts.emplace_back();
+    } else {
+      contact_of[i] = contact_of[group];
+    }
+    contacts[contact_of[i]].add(intersections[i]);
+  }
+  for (Contact& contact : contacts) contact.centroid /= contact.measure;
+  for (std::size_t i = 0; i < intersections.size(); ++i) contacts[contact_of[i]].name(intersections[i]);
+
+  for (const Contact& contact : contacts) {
+    const Intersection& piece = *contact.nearest;
+    Lmd lmd;
+    lmd.distance = 0.0;
+    lmd.point_moving = lmd.point_fixed = contact.centroid;
+    lmd.feature_moving = piece.on_moving;
+    lmd.feature_fixed = piece.on_fixed;
+    lmd.triangle_moving = piece.triangle_moving;
+    lmd.triangle_fixed = piece.triangle_fixed;
+    lmd.fixed_body = piece.fixed_body;
+    lmd.intersecting = true;
+    lmds.push_back(lmd);
+  }
+}
+
+}  // namespace lmdbench
