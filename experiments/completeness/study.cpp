@@ -75,10 +75,10 @@ PathResult judge_path(const std::filesystem::path& experiment_file, const std::f
   Experiment experiment = load_experiment(experiment_file);
   experiment.mesh_folder = meshes;
   const PreparedRun prepared = prepare(experiment);
-  const double diagonal = bounding_box_diagonal(prepared.scene.moving->surface().mesh);
-  const std::unique_ptr<Method> exhaustive = make_method("exhaustive", prepared.scene);
-  const std::unique_ptr<Method> scratch = make_certified<false, WideKernel::VECTOR>(prepared.scene);
-  const std::unique_ptr<Method> coherent = make_certified<true, WideKernel::VECTOR>(prepared.scene);
+  const double diagonal = bounding_box_diagonal(prepared.scene().moving->surface().mesh);
+  const std::unique_ptr<Method> exhaustive = make_method("exhaustive", prepared.scene());
+  const std::unique_ptr<Method> scratch = make_certified<false, WideKernel::VECTOR>(prepared.scene());
+  const std::unique_ptr<Method> coherent = make_certified<true, WideKernel::VECTOR>(prepared.scene());
   PathResult result;
   result.experiment = experiment.name;
   LmdSet truth, from_scratch, from_coherent;
@@ -94,11 +94,11 @@ PathResult judge_path(const std::filesystem::path& experiment_file, const std::f
     scratch->search(pose, from_scratch, result.scratch_work);
     coherent->search(pose, from_coherent, result.coherent_work);
     ++result.frames;
-    result.against_scratch += judge(from_scratch, from_coherent, prepared.scene, diagonal, objection);
+    result.against_scratch += judge(from_scratch, from_coherent, prepared.scene(), diagonal, objection);
     complain_at(i, "coherent against from scratch");
     if (truth_stride == 0 || i % truth_stride != 0) continue;
     exhaustive->search(pose, truth, counters);
-    result.against_truth += judge(truth, from_coherent, prepared.scene, diagonal, objection);
+    result.against_truth += judge(truth, from_coherent, prepared.scene(), diagonal, objection);
     complain_at(i, "coherent against exhaustive");
   }
   return result;

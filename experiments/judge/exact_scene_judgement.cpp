@@ -54,19 +54,19 @@ std::vector<Judgement> judge_experiment(const std::filesystem::path& experiment_
   for (const MethodDescription& description : method_descriptions()) {
     if (description.promise != Promise::COMPLETE_SET) continue;
     judgements.push_back({experiment.name, description.name});
-    methods.push_back(make_method(description.name, run.scene));
+    methods.push_back(make_method(description.name, run.scene()));
   }
   for (std::int64_t i = 0; i < samples; ++i) {
     const std::int64_t frame = samples == 1 ? 0 : i * (frames - 1) / (samples - 1);
     const Pose& X_WM = run.input.poses[static_cast<std::size_t>(frame)];
-    const std::vector<ExactLmd> truth = exact_lmds(run.scene, X_WM);
-    const bool touching = exactly_touching(run.scene, X_WM);
+    const std::vector<ExactLmd> truth = exact_lmds(run.scene(), X_WM);
+    const bool touching = exactly_touching(run.scene(), X_WM);
     for (std::size_t m = 0; m < methods.size(); ++m) {
       LmdSet lmds;
       WorkCounters counters;
       methods[m]->search(X_WM, lmds, counters);
       const std::string place = fmt::format("{}, frame {}: ", judgements[m].method, frame);
-      judge_frame(run.scene, X_WM, truth, touching, lmds, place, judgements[m]);
+      judge_frame(run.scene(), X_WM, truth, touching, lmds, place, judgements[m]);
     }
   }
   return judgements;

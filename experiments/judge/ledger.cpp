@@ -38,7 +38,7 @@ struct NearestExact {
 class Court {
  public:
   explicit Court(const PreparedRun& run) : run_(run) {
-    for (const auto& body : run.scene.fixed) {
+    for (const auto& body : run.scene().fixed) {
       surfaces_.push_back(&body->surface());
       fixed_boxes_.push_back(
           testing::feature_boxes(body->surface(), body->surface().mesh.vertices, FeatureKind::FACE));
@@ -47,7 +47,7 @@ class Court {
     unscaled_.emplace(moving(), surfaces_, FclScaling::NONE);
   }
 
-  const Surface& moving() const { return run_.scene.moving->surface(); }
+  const Surface& moving() const { return run_.scene().moving->surface(); }
   const Surface& fixed(std::int32_t body) const { return *surfaces_[static_cast<std::size_t>(body)]; }
   double scale() const { return scaled_->scale(); }
   FclResult fcl(const Pose& X_WM) const { return scaled_->distance(X_WM); }
@@ -98,8 +98,8 @@ class Court {
     const RigidTransform transform(X_WM);
     NearestExact best;
     for (std::size_t body = 0; body < surfaces_.size(); ++body) {
-      const Body& fixed = *run_.scene.fixed[body];
-      const NearestPair pair = nearest_pair(moving(), run_.scene.moving->prepared<Hierarchy>(),
+      const Body& fixed = *run_.scene().fixed[body];
+      const NearestPair pair = nearest_pair(moving(), run_.scene().moving->prepared<Hierarchy>(),
                                             fixed.surface(), fixed.prepared<Hierarchy>(), X_WM);
       const double distance =
           testing::exact_distance(transform.triangle(moving().mesh.triangle(pair.triangle_moving)),

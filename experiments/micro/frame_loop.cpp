@@ -33,11 +33,11 @@ RecordedPath load_path(const PathChoice& choice) {
   poses = std::vector<Pose>(first, first + static_cast<std::ptrdiff_t>(choice.frame_count));
   std::vector<LockstepMethod> methods = lockstep_methods(experiment, prepared);
   RecordedPath path{.name = experiment.name,
-                    .scene = std::move(prepared.scene),
+                    .scene = prepared.scene(),
                     .input = std::move(prepared.input),
                     .driver = experiment.driver,
                     .methods = std::move(methods),
-                    .profile = prepared.profile};
+                    .profile = prepared.profiles.front().force};
   find_truth(path, choice.check_stride);
   return path;
 }

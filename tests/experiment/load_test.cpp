@@ -48,7 +48,7 @@ TEST(LoadExperiment, FillsDefaultsFromTheSchema) {
   EXPECT_EQ(experiment.frame_rate_hz, 1000.0);
   EXPECT_FALSE(experiment.frames.has_value());
   EXPECT_EQ(experiment.device, "phantom-desktop");
-  EXPECT_EQ(experiment.force.sharpness, 4.0);
+  EXPECT_EQ(experiment.profiles[0].sharpness, 4.0);
   EXPECT_EQ(experiment.driver.repetitions, 5);
   EXPECT_EQ(experiment.driver.block_frames, 200);
   EXPECT_EQ(experiment.truth_stride_frames, 100);
@@ -186,10 +186,10 @@ TEST(LoadExperiment, ForceConstantsMustFitTogether) {
 TEST(LoadExperiment, ForceDistancesScaleWithTheDiagonal) {
   const Experiment experiment = parse(
       MINIMAL, {R"(/force={"cutoff_diagonal": 0.05, "saturation_cutoff": 0.25, "maximum_force_n": 1})"});
-  EXPECT_DOUBLE_EQ(experiment.force.cutoff(2.0), 0.1);
-  EXPECT_DOUBLE_EQ(experiment.force.saturation(2.0), 0.025);
-  EXPECT_DOUBLE_EQ(parse(MINIMAL).force.cutoff(2.0), 0.01);
-  EXPECT_EQ(parse(MINIMAL).force.saturation(2.0), 0.0);
+  EXPECT_DOUBLE_EQ(experiment.profiles[0].cutoff(2.0), 0.1);
+  EXPECT_DOUBLE_EQ(experiment.profiles[0].saturation(2.0), 0.025);
+  EXPECT_DOUBLE_EQ(parse(MINIMAL).profiles[0].cutoff(2.0), 0.01);
+  EXPECT_EQ(parse(MINIMAL).profiles[0].saturation(2.0), 0.0);
 }
 
 TEST(LoadExperiment, UnknownMethodsAndRepeatedLabelsAreRefused) {

@@ -78,13 +78,11 @@ TEST(LoopChoice, MistakesNamePlaceAndRemedy) {
   EXPECT_THAT(message({"/loop/damping_n_s_per_m=-1"}), HasSubstr("/loop/damping_n_s_per_m"));
   EXPECT_THAT(message({"/loop/delay_frames=1.5"}), HasSubstr("/loop/delay_frames"));
   EXPECT_THAT(message({"/loop/push_n=[1, 2]"}), HasSubstr("/loop/push_n"));
-  EXPECT_THAT(message({"/loop/kind=closed", "/probes/fcl/stride_frames=1"}),
-              HasSubstr("/probes/fcl/stride_frames"));
 }
 
 TEST(ForceClip, IsTheDevicesUnlessAskedFor) {
-  EXPECT_FALSE(parse({}).force.clip_at_maximum);
-  EXPECT_TRUE(parse({"/force/clip=maximum"}).force.clip_at_maximum);
+  EXPECT_FALSE(parse({}).profiles[0].clip_at_maximum);
+  EXPECT_TRUE(parse({"/force/clip=maximum"}).profiles[0].clip_at_maximum);
   EXPECT_THAT(message({"/force/clip=none"}), HasSubstr("/force/clip"));
 }
 

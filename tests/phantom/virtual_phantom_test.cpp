@@ -70,10 +70,9 @@ TEST(VirtualPhantom, ClippingDependsOnTheDevice) {
 }
 
 TEST(VirtualPhantom, LowerLimitThanTheDevicesCanBeSet) {
-  const VirtualPhantom gentle(device_named("phantom-desktop"), 3.0);
-  EXPECT_NEAR(gentle.render(command(Vec3(0.0, 4.0, 3.0))).force.norm(), 3.0, 1e-15);
-  EXPECT_TRUE(gentle.render(command(Vec3(0.0, 4.0, 3.0))).clipped);
-  EXPECT_EQ(VirtualPhantom(device_named("phantom-desktop"), 100.0).limit(), 7.9) << "the device's own stays";
+  EXPECT_NEAR(DESKTOP.render(command(Vec3(0.0, 4.0, 3.0)), 3.0).force.norm(), 3.0, 1e-15);
+  EXPECT_TRUE(DESKTOP.render(command(Vec3(0.0, 4.0, 3.0)), 3.0).clipped);
+  EXPECT_EQ(DESKTOP.limit(100.0), 7.9) << "the device's own stays";
 }
 
 }  // namespace

@@ -22,7 +22,7 @@ void Rendered::step(std::size_t frame) {
   std::stable_sort(lmds_.begin(), lmds_.end(), lmd_less);
   memory_.complete(lmds_);
   const Vec3 reference_W = RigidTransform(path_.poses()[frame]).point(path_.input.reference_M);
-  force_ = path_.input.device.render(sum_forces(lmds_, profile_, reference_W)).force;
+  force_ = path_.input.device.render(sum_forces(lmds_, profile_, reference_W), profile_.largest_sum).force;
 }
 
 FrameImplementation rendered_search(const SearchImplementation& search) {

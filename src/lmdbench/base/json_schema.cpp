@@ -121,7 +121,7 @@ Json schema_at(const std::vector<std::string>& place, const Json& root, const Js
   for (const std::string& step : place) {
     const Json* next = nullptr;
     for (const Json* here : schemas_for(*value, *schema, root)) {
-      if (here->contains("items"))
+      if (value->is_array() && here->contains("items"))
         next = &(*here)["items"];
       else if (here->contains("properties") && (*here)["properties"].contains(step))
         next = &(*here)["properties"][step];

@@ -54,8 +54,9 @@ void run(const RunOptions& options, const std::vector<std::string>& argv) {
     bar.wipe();
     const RunSummary summary = summarise(experiment, result);
     for (const std::string& warning : summary.warnings) spdlog::warn("{}", warning);
-    if (result.fcl) {
-      for (const FclException& e : result.fcl->exceptions)
+    for (const Track& track : result.tracks) {
+      if (!track.fcl) continue;
+      for (const FclException& e : track.fcl->exceptions)
         spdlog::debug(
             "frame {}: {} {:.17g} m, FCL {:.17g} m, exact {:.17g} m; position {:.17g} {:.17g} {:.17g}, "
             "orientation xyzw {:.17g} {:.17g} {:.17g} {:.17g}; FCL's triangles {} and {} of fixed mesh {}",

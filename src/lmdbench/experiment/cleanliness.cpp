@@ -13,29 +13,6 @@
 namespace lmdbench {
 namespace {
 
-/// Butterworth high pass of second order by the bilinear transform.
-std::vector<Vec3> high_pass(const std::vector<Vec3>& signal, double period) {
-  const double w = std::tan(std::numbers::pi * HIGH_PASS_HZ * period);
-  const double scale = 1.0 / (1.0 + std::numbers::sqrt2 * w + w * w);
-  const double a1 = 2.0 * (w * w - 1.0) * scale;
-  const double a2 = (1.0 - std::numbers::sqrt2 * w + w * w) * scale;
-  std::vector<Vec3> result;
-  result.reserve(signal.size());
-  Vec3 x1 = Vec3::Zero();
-  Vec3 x2 = Vec3::Zero();
-  Vec3 y1 = Vec3::Zero();
-  Vec3 y2 = Vec3::Zero();
-  for (const Vec3& x : signal) {
-    const Vec3 y = scale * (x - 2.0 * x1 + x2) - a1 * y1 - a2 * y2;
-    x2 = x1;
-    x1 = x;
-    y2 = y1;
-    y1 = y;
-    result.push_back(y);
-  }
-  return result;
-}
-
 /// Hann-weighted root mean square, about the weighted mean or about zero.
 double weighted_rms(std::span<const Vec3> values, bool about_mean) {
   const double step = 2.0 * std::numbers::pi / static_cast<double>(values.size());
@@ -73,6 +50,29 @@ double frequency(std::span<const Vec3> velocity, double period) {
 
 }  // namespace
 
+std::vector<Vec3> above_30_hz(const std::vector<Vec3>& signal, double period_s) {
+  // Bilinear transform.
+  const double w = std::tan(std::numbers::pi * HIGH_PASS_HZ * period_s);
+  const double scale = 1.0 / (1.0 + std::numbers::sqrt2 * w + w * w);
+  const double a1 = 2.0 * (w * w - 1.0) * scale;
+  const double a2 = (1.0 - std::numbers::sqrt2 * w + w * w) * scale;
+  std::vector<Vec3> result;
+  result.reserve(signal.size());
+  Vec3 x1 = Vec3::Zero();
+  Vec3 x2 = Vec3::Zero();
+  Vec3 y1 = Vec3::Zero();
+  Vec3 y2 = Vec3::Zero();
+  for (const Vec3& x : signal) {
+    const Vec3 y = scale * (x - 2.0 * x1 + x2) - a1 * y1 - a2 * y2;
+    x2 = x1;
+    x1 = x;
+    y2 = y1;
+    y1 = y;
+    result.push_back(y);
+  }
+  return result;
+}
+
 std::string_view to_string(CleanMeasure measure) {
   switch (measure) {
     case CleanMeasure::AMPLITUDE:
@@ -103,7 +103,7 @@ Cleanliness judge(const Swing& swing) {
   grown(CleanMeasure::AMPLITUDE, amplitude);
   grown(CleanMeasure::ENERGY, windows(swing.velocity_W, false));
   if (2.0 * HIGH_PASS_HZ * swing.period_s < 1.0)
-    grown(CleanMeasure::FORCE_ABOVE_30_HZ, windows(high_pass(swing.force_W, swing.period_s), false));
+    grown(CleanMeasure::FORCE_ABOVE_30_HZ, windows(above_30_hz(swing.force_W, swing.period_s), false));
 
   Cleanliness result;
   result.growth = growths.front();

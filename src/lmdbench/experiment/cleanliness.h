@@ -22,6 +22,9 @@ inline constexpr int SKIPPED_CYCLES = 5;
 inline constexpr int WINDOW_CYCLES = 20;
 inline constexpr double HIGH_PASS_HZ = 30.0;
 
+/// The signal behind the high pass, sample by sample; its start counts as a step from zero.
+std::vector<Vec3> above_30_hz(const std::vector<Vec3>& signal, double period_s);
+
 /// A swing, frame by frame from the tap on.
 struct Swing {
   double period_s = 1e-3;

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/base/statistics.h>
+#include <lmdbench/experiment/cleanliness.h>
 #include <lmdbench/experiment/errors.h>
 
 #include <algorithm>
@@ -58,6 +59,40 @@ void summarise_jumps(MethodSummary& summary, const MethodRecord& record, const R
   if (in_contact > 0)
     summary.jumps_per_second =
         static_cast<double>(jumps) * frames.frame_rate_hz / static_cast<double>(in_contact);
+}
+
+void summarise_rendering(MethodSummary& summary, const MethodRecord& record, const RunFrames& frames) {
+  std::vector<double> force, stiffness;
+  std::vector<Vec3> all;
+  std::size_t clipped = 0, dropouts = 0;
+  for (std::size_t i = 0; i < record.frames.size(); ++i) {
+    const FrameRecord& frame = record.frames[i];
+    all.push_back(frame.force);
+    if (!frames.in_contact[i]) continue;
+    force.push_back(frame.force.norm());
+    stiffness.push_back(frame.effective_stiffness);
+    if (frame.force_clipped) ++clipped;
+    if (i > 0 && frame.force.isZero(0.0) && !record.frames[i - 1].force.isZero(0.0)) ++dropouts;
+  }
+  if (2.0 * HIGH_PASS_HZ < frames.frame_rate_hz) {
+    double sum = 0.0;
+    for (const Vec3& high : above_30_hz(all, 1.0 / frames.frame_rate_hz)) sum += high.squaredNorm();
+    summary.force_above_30_hz_n = std::sqrt(sum / static_cast<double>(all.size()));
+  }
+  if (!record.loop.empty()) {
+    double most = 0.0;
+    for (const LoopFrame& frame : record.loop) most = std::max(most, frame.energy.rendered);
+    summary.energy_created_j = most;
+    summary.energy_balance_error = record.loop.back().energy.balance_error();
+  }
+  if (force.empty()) return;
+  summary.rendered_force_median_n = median(force);
+  summary.rendered_force_p99_n = quantile(force, P99);
+  summary.rendered_force_maximum_n = maximum(force);
+  summary.effective_stiffness_p99_n_per_m = quantile(stiffness, P99);
+  summary.force_clipped_share = static_cast<double>(clipped) / static_cast<double>(force.size());
+  summary.dropouts_per_second =
+      static_cast<double>(dropouts) * frames.frame_rate_hz / static_cast<double>(force.size());
 }
 
 void summarise_errors(MethodSummary& summary, ForceLaw law, const std::vector<TruthFrame>& truth,

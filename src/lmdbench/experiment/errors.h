@@ -29,6 +29,10 @@ void summarise_counts(MethodSummary& summary, const MethodRecord& record, const 
 /// frames.
 void summarise_jumps(MethodSummary& summary, const MethodRecord& record, const RunFrames& frames);
 
+/// What was rendered: quantiles of force and of K_eff and the share of clipped frames over the frames in contact; what a hand
+/// feels as buzzing (cleanliness.h; NaN below 60 Hz, which cannot render it) over all frames; in a closed loop the energies.
+void summarise_rendering(MethodSummary& summary, const MethodRecord& record, const RunFrames& frames);
+
 /// Errors over the probed frames:
 /// - recall and precision are pooled (lmd/agreement.h) over all of them;
 /// - force errors and the angle count the frames in contact, so that free flight does not flatter them, and

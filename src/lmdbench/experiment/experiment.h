@@ -10,6 +10,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <optional>
@@ -30,6 +31,7 @@ struct MeshChoice {
 /// Constants of the force profile (decision E8: the paper states none of them). Some are relative to the
 /// moving mesh, so the profile exists only once that mesh is loaded.
 struct ForceChoice {
+  std::string name;                         ///< Of a profile among several; empty for one alone.
   std::optional<double> cutoff_m;           ///< Exactly one of the two cutoffs is set.
   std::optional<double> cutoff_diagonal;    ///< Share of the moving mesh's diagonal.
   std::optional<double> saturation_m;       ///< At most one of the two saturations is set.
@@ -49,7 +51,9 @@ struct ForceChoice {
 struct MethodChoice {
   std::string name;   ///< Name in the registry.
   std::string label;  ///< Unique; group of the result.
+  std::string entry;  ///< Label of its entry in the file: `label` without the profile.
   ForceLaw force_law = ForceLaw::EXPONENTIAL;
+  std::size_t profile = 0;                            ///< Index in the experiment's profiles.
   nlohmann::json options = nlohmann::json::object();  ///< Every option of the method.
   std::string options_json;                           ///< The method's entry of the resolved experiment.
 };
@@ -74,7 +78,8 @@ struct Experiment {
   Interpolation interpolation = Interpolation::CUBIC;
   double frame_rate_hz = 0.0;
   std::optional<std::int64_t> frames;  ///< Run only this many frames from the start.
-  ForceChoice force;
+  std::vector<ForceChoice> profiles;   ///< At least one.
+  /// With named profiles each method is there once a profile, under the label METHOD-PROFILE.
   std::vector<MethodChoice> methods;
   DriverChoice driver;
   std::string device;

@@ -50,8 +50,9 @@ Pose pose_of(const Json& entry, const std::string& place, const std::string& fil
   return pose;
 }
 
-ForceChoice force_choice(const Json& entry, const std::string& file) {
+ForceChoice force_choice(const Json& entry, const std::string& place, const std::string& file) {
   ForceChoice force;
+  force.name = entry.value("name", "");
   force.cutoff_m = optional_value<double>(entry, "cutoff_m");
   force.cutoff_diagonal = optional_value<double>(entry, "cutoff_diagonal");
   force.saturation_m = optional_value<double>(entry, "saturation_m");
@@ -60,23 +61,44 @@ ForceChoice force_choice(const Json& entry, const std::string& file) {
   force.sharpness = entry["sharpness"].get<double>();
   force.clip_at_maximum = entry["clip"] == "maximum";
   if (force.cutoff_m.has_value() == force.cutoff_diagonal.has_value())
-    throw UsageError(file, "/force", force.cutoff_m ? "two cutoffs" : "no cutoff",
+    throw UsageError(file, place, force.cutoff_m ? "two cutoffs" : "no cutoff",
                      "give exactly one of cutoff_m and cutoff_diagonal");
   if (force.saturation_m && force.saturation_cutoff)
-    throw UsageError(file, "/force", "two saturation distances",
+    throw UsageError(file, place, "two saturation distances",
                      "give at most one of saturation_m and saturation_cutoff");
   if (force.saturation_m && force.cutoff_m && *force.saturation_m >= *force.cutoff_m)
-    throw UsageError(file, "/force/saturation_m",
+    throw UsageError(file, place + "/saturation_m",
                      fmt::format("saturation at {} m is not below the cutoff of {} m", *force.saturation_m,
                                  *force.cutoff_m),
                      "saturate nearer than the cutoff");
   return force;
 }
 
+/// `/force`: one profile, or a list of named ones.
+std::vector<ForceChoice> force_choices(const Json& entry, const std::string& file) {
+  if (entry.is_object()) return {force_choice(entry, "/force", file)};
+  std::vector<ForceChoice> profiles;
+  std::set<std::string> names;
+  for (std::size_t i = 0; i < entry.size(); ++i) {
+    const std::string place = fmt::format("/force/{}", i);
+    if (!entry[i].is_object())
+      throw UsageError(file, place, "a list within the list of profiles", "give the profile itself");
+    profiles.push_back(force_choice(entry[i], place, file));
+    if (profiles.back().name.empty())
+      throw UsageError(file, place, "a profile without a name among several",
+                       R"(name it, as in "name": "hard")");
+    if (!names.insert(profiles.back().name).second)
+      throw UsageError(file, place + "/name",
+                       fmt::format("two profiles are called \"{}\"", profiles.back().name),
+                       "give one of them another name");
+  }
+  return profiles;
+}
+
 MethodChoice method_choice(const Json& entry) {
   MethodChoice choice;
   choice.name = entry["name"].get<std::string>();
-  choice.label = entry["label"].get<std::string>();
+  choice.entry = choice.label = entry["label"].get<std::string>();
   choice.force_law = entry["force_law"] == "linear" ? ForceLaw::LINEAR : ForceLaw::EXPONENTIAL;
   choice.options_json = entry.dump();
   for (const auto& option : method_description(choice.name).options.items())
@@ -93,11 +115,12 @@ void check_method_names(const Json& document, const std::string& file) {
       method_description(methods[i]["name"].get<std::string>(), file, fmt::format("/methods/{}/name", i));
 }
 
-void check_labels(const std::vector<MethodChoice>& methods, const std::string& file) {
+/// @param entries of the file; each is there once a profile
+void check_labels(const std::vector<MethodChoice>& methods, std::size_t entries, const std::string& file) {
   std::set<std::string> labels;
   for (std::size_t i = 0; i < methods.size(); ++i) {
     if (!labels.insert(methods[i].label).second)
-      throw UsageError(file, fmt::format("/methods/{}/label", i),
+      throw UsageError(file, fmt::format("/methods/{}/label", i % entries),
                        fmt::format("two methods are called \"{}\"", methods[i].label),
                        "give one of them another \"label\"");
   }
@@ -126,9 +149,16 @@ Experiment from_json(Json document, const std::filesystem::path& path) {
       document["path"]["interpolation"] == "linear" ? Interpolation::LINEAR : Interpolation::CUBIC;
   experiment.frame_rate_hz = document["frame_rate_hz"].get<double>();
   experiment.frames = optional_value<std::int64_t>(document, "frames");
-  experiment.force = force_choice(document["force"], file);
-  for (const Json& method : document["methods"]) experiment.methods.push_back(method_choice(method));
-  check_labels(experiment.methods, file);
+  experiment.profiles = force_choices(document["force"], file);
+  for (std::size_t profile = 0; profile < experiment.profiles.size(); ++profile) {
+    for (const Json& method : document["methods"]) {
+      MethodChoice choice = method_choice(method);
+      choice.profile = profile;
+      if (document["force"].is_array()) choice.label += "-" + experiment.profiles[profile].name;
+      experiment.methods.push_back(std::move(choice));
+    }
+  }
+  check_labels(experiment.methods, document["methods"].size(), file);
   const Json& driver = document["driver"];
   experiment.driver = {driver["search_every_frames"].get<std::int64_t>(),
                        driver["search_latency_frames"].get<std::int64_t>(),
@@ -146,11 +176,6 @@ Experiment from_json(Json document, const std::filesystem::path& path) {
   experiment.truth_stride_frames = probes["truth"]["stride_frames"].get<std::int64_t>();
   experiment.fcl_stride_frames = probes["fcl"]["stride_frames"].get<std::int64_t>();
   experiment.fcl_tolerance_relative = probes["fcl"]["tolerance_relative"].get<double>();
-  if (experiment.loop.closed && experiment.fcl_stride_frames > 0)
-    throw UsageError(
-        file, "/probes/fcl/stride_frames",
-        "FCL is compared at the poses of a path, and in a closed loop every method makes its own",
-        "set it to 0, or record the path and run it in an open loop");
   experiment.record_lmds = document["record"]["lmds"].get<bool>();
   experiment.resolved_json = document.dump(2);
   return experiment;

@@ -132,7 +132,7 @@ class MethodRun {
     result.contact_without_direction = memory_.complete(lmds);
     const Vec3 reference_W = RigidTransform(pose()).point(input_.reference_M);
     const Wrench wrench = sum_forces(lmds, profile_, reference_W);
-    const RenderedForce rendered = input_.device.render(wrench);
+    const RenderedForce rendered = input_.device.render(wrench, profile_.largest_sum);
     result.force = rendered.force;
     result.force_clipped = rendered.clipped;
     result.force_above_continuous = rendered.exceeds_continuous_force;

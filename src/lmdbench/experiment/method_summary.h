@@ -16,6 +16,8 @@ namespace lmdbench {
 struct MethodSummary {
   std::string label;
   std::string result_hash;
+  std::string entry;    ///< The label without the profile.
+  std::string profile;  ///< Name of its force profile; empty for one alone.
 
   double frames_touching = UNSET;
   double lmd_count_median = UNSET;
@@ -24,6 +26,16 @@ struct MethodSummary {
   double candidates_median = UNSET;
   double reduction_ratio = UNSET;
   double reduction_ratio_maximum = UNSET;
+
+  double rendered_force_median_n = UNSET;
+  double rendered_force_p99_n = UNSET;
+  double rendered_force_maximum_n = UNSET;
+  double force_clipped_share = UNSET;
+  double force_above_30_hz_n = UNSET;
+  double effective_stiffness_p99_n_per_m = UNSET;
+  double dropouts_per_second = UNSET;
+  double energy_created_j = UNSET;
+  double energy_balance_error = UNSET;
 
   double recall = UNSET;
   double recall_adjacent = UNSET;

@@ -60,15 +60,17 @@ Path load_frames(const Experiment& experiment, std::vector<InputFile>& files) {
   return resample(path, experiment.frame_rate_hz, wanted);
 }
 
-ForceProfile profile_for(const Experiment& experiment, double moving_diagonal) {
+ForceProfile profile_for(const ForceChoice& force, double moving_diagonal, const std::string& place,
+                         const Experiment& experiment) {
   ForceProfile profile;
-  profile.cutoff = experiment.force.cutoff(moving_diagonal);
-  profile.saturation_distance = experiment.force.saturation(moving_diagonal);
-  profile.maximum_force = experiment.force.maximum_force_n;
-  profile.sharpness = experiment.force.sharpness;
+  profile.cutoff = force.cutoff(moving_diagonal);
+  profile.saturation_distance = force.saturation(moving_diagonal);
+  profile.maximum_force = force.maximum_force_n;
+  profile.sharpness = force.sharpness;
+  if (force.clip_at_maximum) profile.largest_sum = force.maximum_force_n;
   // Loading could only compare two lengths; here a share of the mesh's diagonal has become one.
   if (!(profile.saturation_distance < profile.cutoff))
-    throw UsageError(experiment.file.string(), "/force/saturation_m",
+    throw UsageError(experiment.file.string(), place + "/saturation_m",
                      fmt::format("saturation at {} m is not below the cutoff of {} m",
                                  profile.saturation_distance, profile.cutoff),
                      "saturate nearer than the cutoff");
@@ -101,27 +103,30 @@ PreparedRun prepare(const Experiment& experiment) {
   const Path frames = load_frames(experiment, files);
 
   std::vector<MeshNote> notes;
-  Scene scene = load_scene(experiment, notes);
-  const ForceProfile profile = profile_for(experiment, notes.front().report.diagonal);
-  scene.cutoff = profile.cutoff;
+  const Scene scene = load_scene(experiment, notes);
+  std::vector<PreparedProfile> profiles;
+  for (std::size_t i = 0; i < experiment.profiles.size(); ++i) {
+    const ForceChoice& choice = experiment.profiles[i];
+    const std::string place = choice.name.empty() ? "/force" : fmt::format("/force/{}", i);
+    profiles.push_back(
+        {choice.name, profile_for(choice, notes.front().report.diagonal, place, experiment), scene});
+    profiles.back().scene.cutoff = profiles.back().force.cutoff;
+  }
 
-  PreparedRun prepared{
-      .scene = std::move(scene),
-      .input = {.poses = {},
-                .frame_rate_hz = experiment.frame_rate_hz,
-                .make_poses = {},
-                .frames = std::nullopt,
-                .reference_M = Vec3::Zero(),
-                .device = experiment.force.clip_at_maximum ? VirtualPhantom(device, profile.maximum_force)
-                                                           : VirtualPhantom(device),
-                .keep_lmds = {}},
-      .times = {},
-      .profile = profile,
-      .meshes = std::move(notes),
-      .files = std::move(files),
-      .starts_touching = false,
-      .warnings = {}};
-  prepared.input.reference_M = bounding_box_centre(prepared.scene.moving->surface().mesh);
+  PreparedRun prepared{.profiles = std::move(profiles),
+                       .input = {.poses = {},
+                                 .frame_rate_hz = experiment.frame_rate_hz,
+                                 .make_poses = {},
+                                 .frames = std::nullopt,
+                                 .reference_M = Vec3::Zero(),
+                                 .device = VirtualPhantom(device),
+                                 .keep_lmds = {}},
+                       .times = {},
+                       .meshes = std::move(notes),
+                       .files = std::move(files),
+                       .starts_touching = false,
+                       .warnings = {}};
+  prepared.input.reference_M = bounding_box_centre(prepared.scene().moving->surface().mesh);
   for (const TimedPose& frame : frames) {
     prepared.input.poses.push_back(frame.pose);
     prepared.times.push_back(frame.time);
@@ -143,7 +148,7 @@ PreparedRun prepare(const Experiment& experiment) {
                                  period = 1.0 / experiment.frame_rate_hz] {
       return std::make_unique<DevicePoses>(loop, path, period);
     };
-  prepared.starts_touching = touches(prepared.scene, prepared.input.poses.front());
+  prepared.starts_touching = touches(prepared.scene(), prepared.input.poses.front());
   if (prepared.starts_touching)
     prepared.warnings.push_back(
         "the meshes touch in the first frame: LMDs at distance 0 have no direction there and exert no force "
@@ -168,13 +173,14 @@ std::vector<std::filesystem::path> input_files(const Experiment& experiment) {
 std::vector<LockstepMethod> lockstep_methods(const Experiment& experiment, const PreparedRun& prepared) {
   std::vector<LockstepMethod> methods;
   for (const MethodChoice& choice : experiment.methods) {
-    ForceProfile profile = prepared.profile;
-    profile.law = choice.force_law;
+    const PreparedProfile& profile = prepared.profiles[choice.profile];
+    ForceProfile force = profile.force;
+    force.law = choice.force_law;
     methods.push_back({choice.label,
-                       [name = choice.name, options = choice.options, scene = prepared.scene] {
+                       [name = choice.name, options = choice.options, scene = profile.scene] {
                          return make_method(name, scene, options);
                        },
-                       profile});
+                       force});
   }
   return methods;
 }

@@ -28,16 +28,25 @@ struct MeshNote {
   FlatteningReport flattening;  ///< In metres of the scene.
 };
 
+/// A force profile with the scene that it reaches into: the meshes under its cutoff, which all profiles share.
+struct PreparedProfile {
+  std::string name;    ///< Empty for one alone.
+  ForceProfile force;  ///< Its law is each method's own.
+  Scene scene;
+};
+
 /// An experiment's inputs, loaded: all that a run works on.
 struct PreparedRun {
-  Scene scene;
+  std::vector<PreparedProfile> profiles;  ///< The experiment's, at least one.
   LockstepInput input;
   std::vector<double> times;  ///< Of the frames, from the start of the path [s].
-  ForceProfile profile;       ///< Its law is each method's own.
   std::vector<MeshNote> meshes;
   std::vector<InputFile> files;       ///< For the provenance.
   bool starts_touching = false;       ///< Triangles touch in the first frame.
   std::vector<std::string> warnings;  ///< What was done to the meshes and flaws that methods can live with.
+
+  /// The meshes under the first profile's cutoff.
+  const Scene& scene() const { return profiles.front().scene; }
 };
 
 /// The meshes of the scene at their places; the cutoff is left to the caller.

@@ -36,15 +36,32 @@ void note_findings(const Experiment& experiment, RunResult& result) {
   }
   if (experiment.driver.repetitions == 1)
     result.warnings.push_back("a single repetition: its times include the warm-up");
-  if (result.fcl) {
+  for (const Track& track : result.tracks) {
+    if (!track.fcl) continue;
     std::map<std::string, std::int64_t> exceptions;
-    for (const FclException& exception : result.fcl->exceptions) ++exceptions[exception.who];
+    for (const FclException& exception : track.fcl->exceptions) ++exceptions[exception.who];
     for (const auto& [who, count] : exceptions)
       result.warnings.push_back(
           fmt::format("{}: minimum distance differs from FCL's in {} of {} frames, listed in "
-                      "/crosscheck/fcl/exceptions",
-                      who, count, result.fcl->frames.size()));
+                      "{}/crosscheck/fcl/exceptions",
+                      who, count, track.fcl->frames.size(),
+                      result.one_track ? "" : "/methods/" + result.records[track.methods.front()].label));
   }
+}
+
+/// Which methods share poses and profile.
+void make_tracks(const Experiment& experiment, RunResult& result) {
+  const bool shared = !experiment.loop.closed;
+  if (shared) result.tracks.resize(experiment.profiles.size());
+  for (std::size_t i = 0; i < experiment.methods.size(); ++i) {
+    const std::size_t profile = experiment.methods[i].profile;
+    const std::size_t track = shared ? profile : i;
+    if (!shared) result.tracks.emplace_back();
+    result.tracks[track].profile = profile;
+    result.tracks[track].methods.push_back(i);
+    result.track_of_method.push_back(track);
+  }
+  result.one_track = shared && result.tracks.size() == 1;
 }
 
 }  // namespace
@@ -54,9 +71,9 @@ RunResult run_experiment(const Experiment& experiment, const RunProgress& progre
     if (!progress) return {};
     return [&progress, name](std::int64_t done, std::int64_t total) { return progress(name, done, total); };
   };
-  RunResult result{make_plan(experiment), prepare(experiment), {}, {}, {}, {}, {}, {}, std::nullopt, {}};
+  RunResult result{make_plan(experiment), prepare(experiment), {}, {}, {}, {}, false, {}, {}};
+  make_tracks(experiment, result);
   PreparedRun& prepared = result.prepared;
-  result.in_contact = frames_in_contact(prepared.scene, prepared.input.poses);
   result.warnings = prepared.warnings;
   const auto frame_count = static_cast<std::int64_t>(prepared.input.poses.size());
   const std::vector<LockstepMethod> methods = lockstep_methods(experiment, prepared);
@@ -70,31 +87,31 @@ RunResult run_experiment(const Experiment& experiment, const RunProgress& progre
     prepared.input.keep_lmds = [kept](std::int64_t frame) { return kept.count(frame) > 0; };
   }
   result.records = run_lockstep(methods, prepared.input, experiment.driver, phase("run"));
-  if (experiment.loop.closed)
-    for (const MethodRecord& record : result.records)
-      result.in_contact_of_device.push_back(frames_in_contact(prepared.scene, record.poses));
 
-  if (result.plan.needs(Part::TRUTH_PROBE)) {
-    if (experiment.loop.closed) {
-      for (const MethodRecord& record : result.records) {
-        LockstepInput replay = prepared.input;
-        replay.poses = record.poses;
-        replay.make_poses = nullptr;
-        result.truth_of_device.push_back(
-            probe_truth(prepared.scene, replay, prepared.profile, truth_frames, phase("truth")));
-      }
-    } else {
-      result.truth =
-          probe_truth(prepared.scene, prepared.input, prepared.profile, truth_frames, phase("truth"));
+  result.in_contact = frames_in_contact(prepared.scene(), prepared.input.poses);
+  for (Track& track : result.tracks) {
+    const PreparedProfile& profile = prepared.profiles[track.profile];
+    LockstepInput input = prepared.input;
+    input.make_poses = nullptr;
+    if (experiment.loop.closed) input.poses = result.records[track.methods.front()].poses;
+    track.in_contact = result.one_track ? result.in_contact : frames_in_contact(profile.scene, input.poses);
+    if (result.plan.needs(Part::TRUTH_PROBE))
+      track.truth = probe_truth(profile.scene, input, profile.force, truth_frames, phase("truth"));
+    if (result.plan.needs(Part::FCL)) {
+      std::vector<LockstepMethod> along;
+      for (const std::size_t i : track.methods) along.push_back(methods[i]);
+      track.fcl =
+          probe_fcl(profile.scene, input, along, probed_frames(frame_count, experiment.fcl_stride_frames),
+                    experiment.fcl_tolerance_relative, phase("fcl"));
     }
-    for (std::size_t i = 0; i < methods.size(); ++i)
-      result.comparisons.push_back(
-          compare_with_truth(result.truth_of(i), result.records[i], methods[i].profile.law, prepared.scene));
   }
-  if (result.plan.needs(Part::FCL))
-    result.fcl = probe_fcl(prepared.scene, prepared.input, methods,
-                           probed_frames(frame_count, experiment.fcl_stride_frames),
-                           experiment.fcl_tolerance_relative, phase("fcl"));
+  if (result.plan.needs(Part::TRUTH_PROBE)) {
+    for (std::size_t i = 0; i < methods.size(); ++i) {
+      const Track& track = result.track_of(i);
+      result.comparisons.push_back(compare_with_truth(track.truth, result.records[i], methods[i].profile.law,
+                                                      prepared.profiles[track.profile].scene));
+    }
+  }
   note_findings(experiment, result);
   return result;
 }

@@ -18,29 +18,29 @@
 
 namespace lmdbench {
 
+/// Poses under one force profile, with what is known of them beside any method's opinion. In an open loop the methods of a
+/// profile share one; in a closed one each has its own, since its device takes its own path.
+struct Track {
+  std::size_t profile = 0;           ///< Of the experiment.
+  std::vector<std::size_t> methods;  ///< Which of the experiment's methods went along it.
+  std::vector<bool> in_contact;      ///< One a frame (contact.h).
+  std::vector<TruthFrame> truth;     ///< Empty where the plan leaves the probe out.
+  std::optional<FclCheck> fcl;       ///< Its columns are those of `methods`.
+};
+
 /// Everything that a run produced, in memory.
 struct RunResult {
   Plan plan;
   PreparedRun prepared;
-  std::vector<bool> in_contact;       ///< One a frame of the path (contact.h).
-  std::vector<MethodRecord> records;  ///< In the order of the experiment's methods, like the next but one.
-  std::vector<TruthFrame> truth;      ///< Empty where the plan leaves the probe out, and in a closed loop.
-  /// Closed loop: truth at the poses that each method's device took, one list a method.
-  std::vector<std::vector<TruthFrame>> truth_of_device;
-  std::vector<std::vector<bool>>
-      in_contact_of_device;  ///< Closed loop: one list a method, one entry a frame.
+  std::vector<MethodRecord> records;  ///< In the order of the experiment's methods, like the next two.
+  std::vector<std::size_t> track_of_method;
   std::vector<std::vector<TruthComparison>> comparisons;  ///< One list a method, one entry a TruthFrame.
-  std::optional<FclCheck> fcl;
+  std::vector<Track> tracks;
+  bool one_track = false;             ///< All methods see the poses of the path under one profile.
+  std::vector<bool> in_contact;       ///< One a frame of the path, under the first profile's cutoff.
   std::vector<std::string> warnings;  ///< What a reader of the result must know, in plain words.
 
-  /// Truth that a method was compared with; empty where the plan leaves the probe out.
-  const std::vector<TruthFrame>& truth_of(std::size_t method) const {
-    return truth_of_device.empty() ? truth : truth_of_device[method];
-  }
-  /// Frames in which the meshes are in contact at the method's poses.
-  const std::vector<bool>& in_contact_of(std::size_t method) const {
-    return in_contact_of_device.empty() ? in_contact : in_contact_of_device[method];
-  }
+  const Track& track_of(std::size_t method) const { return tracks[track_of_method[method]]; }
 };
 
 /// What a run reports while it goes on: the phase ("run", "truth", "fcl"), what is done and what there is to

@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -48,6 +49,19 @@ std::string error_text(const MethodSummary& m) {
              shown(m.true_force_jump_p99_n, 1, " N"));
 }
 
+std::string rendered_text(const MethodSummary& m) {
+  std::string text = fmt::format(
+      "  force  rendered {} median, {} 99 %; clipped in {} of the frames in contact; {} above 30 Hz; K_eff "
+      "{} 99 %",
+      shown(m.rendered_force_median_n, 1, " N"), shown(m.rendered_force_p99_n, 1, " N"),
+      shown(m.force_clipped_share, 100, " %"), shown(m.force_above_30_hz_n, 1, " N"),
+      shown(m.effective_stiffness_p99_n_per_m, 1, " N/m"));
+  if (!std::isnan(m.energy_created_j))
+    text += fmt::format("; energy created {}, balance left over {}", shown(m.energy_created_j, 1e3, " mJ"),
+                        shown(m.energy_balance_error, 1, ""));
+  return text + "\n";
+}
+
 std::string method_text(const MethodSummary& m, bool probed) {
   std::string text = fmt::format("{} (hash {})\n", m.label, m.result_hash);
   text += fmt::format("  LMDs   {} in the median frame in contact, {} at most",
@@ -57,7 +71,7 @@ std::string method_text(const MethodSummary& m, bool probed) {
   if (!std::isnan(m.reduction_ratio))
     text += fmt::format("; reduced {} to 1 (all candidates / all kept), {} to 1 at most",
                         shown(m.reduction_ratio, 1, ""), shown(m.reduction_ratio_maximum, 1, ""));
-  text += "\n";
+  text += "\n" + rendered_text(m);
   text += probed
               ? error_text(m)
               : "  error  not measured: the truth probe is off, so the times below stand without what they "
@@ -72,6 +86,70 @@ std::string method_text(const MethodSummary& m, bool probed) {
   return text + "\n";
 }
 
+/// The numbers that tell profiles apart, with their column and unit in the table.
+struct Column {
+  const char* title;
+  double MethodSummary::*value;
+  double scale;
+};
+constexpr std::array PROFILE_COLUMNS = {
+    Column{"force [N]", &MethodSummary::rendered_force_median_n, 1.0},
+    Column{"99 % [N]", &MethodSummary::rendered_force_p99_n, 1.0},
+    Column{"clipped [%]", &MethodSummary::force_clipped_share, 100.0},
+    Column{">30 Hz [N]", &MethodSummary::force_above_30_hz_n, 1.0},
+    Column{"jumps [1/s]", &MethodSummary::jumps_per_second, 1.0},
+    Column{"drops [1/s]", &MethodSummary::dropouts_per_second, 1.0},
+    Column{"K_eff [N/m]", &MethodSummary::effective_stiffness_p99_n_per_m, 1.0},
+    Column{"error [N]", &MethodSummary::force_error_rms_n, 1.0},
+    Column{"made [mJ]", &MethodSummary::energy_created_j, 1e3},
+};
+
+/// One line a method and profile, and below it what the profile changes.
+std::string profile_table(const RunSummary& summary) {
+  std::string text = fmt::format("{:<24} {:<10}", "profiles", "");
+  for (const Column& column : PROFILE_COLUMNS) text += fmt::format(" {:>11}", column.title);
+  text += "\n";
+  const auto line = [&](const std::string& method, const std::string& profile, auto&& value_of) {
+    text += fmt::format("{:<24} {:<10}", method, profile);
+    for (const Column& column : PROFILE_COLUMNS)
+      text += fmt::format(" {:>11}", shown(value_of(column), column.scale, ""));
+  };
+  std::string before;
+  for (const ProfileDifference& difference : summary.profiles) {
+    const MethodSummary& first = summary.methods[difference.first];
+    const MethodSummary& here = summary.methods[difference.method];
+    const auto of = [](const MethodSummary& m) { return [&m](const Column& c) { return m.*c.value; }; };
+    if (first.entry != before) {
+      line(first.entry, first.profile, of(first));
+      text += "\n";
+      before = first.entry;
+    }
+    line("", here.profile, of(here));
+    text += "\n";
+    line("", "  change", [&](const Column& c) { return here.*c.value - first.*c.value; });
+    if (!std::isnan(difference.force_difference_rms_n))
+      text += fmt::format("  same poses: forces differ by {} RMS, {} at most",
+                          shown(difference.force_difference_rms_n, 1, " N"),
+                          shown(difference.force_difference_maximum_n, 1, " N"));
+    text += "\n";
+  }
+  return text;
+}
+
+nlohmann::ordered_json profile_json(const RunSummary& summary, const ProfileDifference& difference) {
+  const MethodSummary& first = summary.methods[difference.first];
+  const MethodSummary& here = summary.methods[difference.method];
+  nlohmann::ordered_json json{{"method", here.entry},
+                              {"profile", here.profile},
+                              {"against", first.profile},
+                              {"force_difference_rms_n", difference.force_difference_rms_n},
+                              {"force_difference_maximum_n", difference.force_difference_maximum_n},
+                              {"differences", nlohmann::ordered_json::object()}};
+  for (const SummaryNumber& number : summary_numbers())
+    json["differences"][std::string(number.name)] = here.*number.value - first.*number.value;
+  return json;
+}
+
 nlohmann::ordered_json method_json(const MethodSummary& m) {
   nlohmann::ordered_json json{{"label", m.label}, {"result_hash", m.result_hash}};
   for (const SummaryNumber& number : summary_numbers()) json[std::string(number.name)] = m.*number.value;
@@ -80,12 +158,37 @@ nlohmann::ordered_json method_json(const MethodSummary& m) {
 
 void summarise_truth(RunSummary& summary, const RunResult& result) {
   std::vector<double> counts, in_contact;
-  for (const TruthFrame& frame : result.truth_of(0)) {
+  for (const TruthFrame& frame : result.track_of(0).truth) {
     counts.push_back(static_cast<double>(frame.lmds.size()));
-    if (result.in_contact_of(0)[static_cast<std::size_t>(frame.frame)]) in_contact.push_back(counts.back());
+    if (result.track_of(0).in_contact[static_cast<std::size_t>(frame.frame)])
+      in_contact.push_back(counts.back());
   }
   summary.true_lmd_count_median = median(in_contact);
   summary.true_lmd_count_maximum = maximum(counts);
+}
+
+/// Every method under a later profile against itself under the first one; the methods of a profile stand together.
+void summarise_profiles(RunSummary& summary, const Experiment& experiment, const RunResult& result) {
+  const std::size_t entries = experiment.methods.size() / experiment.profiles.size();
+  for (std::size_t first = 0; first < entries; ++first) {
+    for (std::size_t i = first + entries; i < experiment.methods.size(); i += entries) {
+      ProfileDifference difference{.method = i, .first = first};
+      if (!experiment.loop.closed) {
+        std::vector<double> lengths;
+        const auto in_contact = [&](std::size_t method, std::size_t frame) {
+          return result.track_of(method).in_contact[frame];
+        };
+        for (std::size_t frame = 0; frame < result.records[i].frames.size(); ++frame)
+          if (in_contact(i, frame) || in_contact(first, frame))
+            lengths.push_back(
+                (result.records[i].frames[frame].force - result.records[first].frames[frame].force).norm());
+        difference.force_difference_maximum_n = maximum(lengths);
+        for (double& length : lengths) length *= length;
+        difference.force_difference_rms_n = std::sqrt(mean(lengths));
+      }
+      summary.profiles.push_back(difference);
+    }
+  }
 }
 
 }  // namespace
@@ -94,32 +197,38 @@ RunSummary summarise(const Experiment& experiment, const RunResult& result) {
   RunSummary summary;
   summary.name = experiment.name;
   summary.frames = static_cast<std::int64_t>(result.prepared.times.size());
-  const std::vector<bool>& in_contact = result.in_contact_of(0);
+  const std::vector<bool>& in_contact = result.track_of(0).in_contact;
   summary.frames_in_contact = std::count(in_contact.begin(), in_contact.end(), true);
-  summary.frames_probed = static_cast<std::int64_t>(result.truth_of(0).size());
+  summary.frames_probed = static_cast<std::int64_t>(result.track_of(0).truth.size());
   summarise_truth(summary, result);
   summary.measured_repetitions = std::max<std::int64_t>(experiment.driver.repetitions - 1, 1);
-  summary.cutoff_m = result.prepared.scene.cutoff;
+  summary.cutoff_m = result.prepared.scene().cutoff;
   summary.warnings = result.warnings;
   for (std::size_t i = 0; i < result.records.size(); ++i) {
     const MethodRecord& record = result.records[i];
     MethodSummary method;
     method.label = record.label;
     method.result_hash = fmt::format("{:016x}", record.result_hash);
-    const RunFrames frames{result.in_contact_of(i), experiment.frame_rate_hz,
-                           result.prepared.profile.maximum_force};
+    method.entry = experiment.methods[i].entry;
+    const Track& track = result.track_of(i);
+    const PreparedProfile& profile = result.prepared.profiles[track.profile];
+    method.profile = profile.name;
+    const RunFrames frames{track.in_contact, experiment.frame_rate_hz, profile.force.maximum_force};
     summarise_counts(method, record, frames);
+    summarise_rendering(method, record, frames);
     summarise_jumps(method, record, frames);
-    if (const std::vector<TruthFrame>& truth = result.truth_of(i); !truth.empty())
-      summarise_errors(method, experiment.methods[i].force_law, truth, result.comparisons[i], frames);
-    summarise_times(method, record, result.in_contact_of(i));
+    if (!track.truth.empty())
+      summarise_errors(method, experiment.methods[i].force_law, track.truth, result.comparisons[i], frames);
+    summarise_times(method, record, track.in_contact);
     summary.methods.push_back(std::move(method));
   }
-  if (result.fcl) {
+  summarise_profiles(summary, experiment, result);
+  for (const Track& track : result.tracks) {
+    if (!track.fcl) continue;
     summary.fcl_tolerance_relative = experiment.fcl_tolerance_relative;
-    summary.fcl_frames = static_cast<std::int64_t>(result.fcl->frames.size());
-    for (const FclException& exception : result.fcl->exceptions) ++summary.fcl_exceptions[exception.who];
-    for (const FclFrame& frame : result.fcl->frames) {
+    summary.fcl_frames += static_cast<std::int64_t>(track.fcl->frames.size());
+    for (const FclException& exception : track.fcl->exceptions) ++summary.fcl_exceptions[exception.who];
+    for (const FclFrame& frame : track.fcl->frames) {
       summary.fcl_separated += frame.separated ? 1 : 0;
       summary.fcl_agreeing += frame.agrees ? 1 : 0;
     }
@@ -135,6 +244,7 @@ std::string summary_text(const RunSummary& summary) {
           ? std::string("1 measured repetition")
           : fmt::format("{} measured repetitions", summary.measured_repetitions));
   for (const MethodSummary& method : summary.methods) text += method_text(method, summary.frames_probed > 0);
+  if (!summary.profiles.empty()) text += profile_table(summary);
   if (summary.fcl_frames > 0) {
     text += fmt::format("FCL: {} frames, {} separated; exact minimum distance agrees within {:g} in {}\n",
                         summary.fcl_frames, summary.fcl_separated, summary.fcl_tolerance_relative,
@@ -157,6 +267,11 @@ std::string summary_json(const RunSummary& summary) {
                               {"true_lmd_count_maximum", summary.true_lmd_count_maximum}};
   json["methods"] = nlohmann::ordered_json::array();
   for (const MethodSummary& method : summary.methods) json["methods"].push_back(method_json(method));
+  if (!summary.profiles.empty()) {
+    json["profiles"] = nlohmann::ordered_json::array();
+    for (const ProfileDifference& difference : summary.profiles)
+      json["profiles"].push_back(profile_json(summary, difference));
+  }
   json["fcl"] = nullptr;
   if (summary.fcl_frames > 0)
     json["fcl"] = {{"frames", summary.fcl_frames},

@@ -13,6 +13,16 @@
 
 namespace lmdbench {
 
+/// A method under one of several profiles, beside itself under the first one.
+struct ProfileDifference {
+  std::size_t method = 0;  ///< Index in the summary's methods.
+  std::size_t first = 0;   ///< The same method under the first profile.
+  /// Length of the difference of the two rendered forces over the frames in which either is in contact, at the same poses:
+  /// NaN in a closed loop, where the poses differ.
+  double force_difference_rms_n = UNSET;
+  double force_difference_maximum_n = UNSET;
+};
+
 /// The numbers of a run. Times leave the warm-up out and are never shown without the errors beside them.
 struct RunSummary {
   std::string name;
@@ -24,7 +34,8 @@ struct RunSummary {
   double true_lmd_count_median = UNSET;   ///< Over the probed frames in contact.
   double true_lmd_count_maximum = UNSET;  ///< Over the probed frames.
   std::vector<MethodSummary> methods;
-  std::int64_t fcl_frames = 0;  ///< Cross-checked frames; 0: not asked for.
+  std::vector<ProfileDifference> profiles;  ///< Empty with one profile.
+  std::int64_t fcl_frames = 0;              ///< Cross-checked frames; 0: not asked for.
   std::int64_t fcl_separated = 0;
   std::int64_t fcl_agreeing = 0;                       ///< Separated or not.
   std::map<std::string, std::int64_t> fcl_exceptions;  ///< By who was out of tolerance.
@@ -36,9 +47,12 @@ struct RunSummary {
 RunSummary summarise(const Experiment& experiment, const RunResult& result);
 
 /// For people.
+/// With several profiles a table sets them beside each other, method by method.
 std::string summary_text(const RunSummary& summary);
 
-/// JSON text with the same numbers under the names of `summary_numbers`, null for NaN.
+/// JSON text with the same numbers under the names of `summary_numbers`, null for NaN. With several profiles, "profiles":
+/// [{"method", "profile", "against", "force_difference_rms_n", "force_difference_maximum_n",
+/// "differences": {NUMBER: value - value under the first profile}}].
 std::string summary_json(const RunSummary& summary);
 
 /// `/summary` and `/methods/LABEL/summary` of the result file: a dataset of one value a number.

@@ -37,7 +37,7 @@ std::vector<TruthFrame> probe_truth(const Scene& scene, const LockstepInput& inp
     with_law.law = law;
     const Vec3 reference_W =
         RigidTransform(input.poses[static_cast<std::size_t>(frame)]).point(input.reference_M);
-    return input.device.render(sum_forces(lmds, with_law, reference_W)).force;
+    return input.device.render(sum_forces(lmds, with_law, reference_W), profile.largest_sum).force;
   };
   std::vector<TruthFrame> truth;
   LmdSet next;

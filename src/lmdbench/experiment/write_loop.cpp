@@ -21,11 +21,7 @@ void write_vectors(ResultWriter& writer, const DatasetInfo& info, const std::vec
 
 }  // namespace
 
-void write_loop(ResultWriter& writer, const std::string& group, const std::vector<LoopFrame>& frames,
-                const std::vector<bool>& in_contact) {
-  const std::vector<std::uint8_t> flags(in_contact.begin(), in_contact.end());
-  writer.write({group + "/in_contact", "1", "1 where the meshes are within the cutoff at the device's pose"},
-               std::span<const std::uint8_t>(flags), {flags.size()});
+void write_loop(ResultWriter& writer, const std::string& group, const std::vector<LoopFrame>& frames) {
   write_vectors(writer, {group + "/position", "m", "true position of the device, world frame"}, frames,
                 &LoopFrame::position);
   write_vectors(writer, {group + "/velocity", "m/s", "velocity of the device, world frame"}, frames,
@@ -47,6 +43,7 @@ void write_loop(ResultWriter& writer, const std::string& group, const std::vecto
   energy("hand", "work of the person who moves the hand since the start", &EnergyAccount::hand);
   energy("damped", "energy lost in dampers since the start", &EnergyAccount::damped);
   energy("friction", "energy lost to Coulomb friction since the start", &EnergyAccount::friction);
+  energy("moved", "sum of the lengths of all energies that flowed since the start", &EnergyAccount::moved);
 }
 
 }  // namespace lmdbench

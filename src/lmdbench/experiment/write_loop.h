@@ -11,8 +11,6 @@
 namespace lmdbench {
 
 /// Writes what a closed loop adds to one method's group: the device's motion, the force that it held, its energies.
-/// @param in_contact one a frame, at the device's poses (contact.h)
-void write_loop(ResultWriter& writer, const std::string& group, const std::vector<LoopFrame>& frames,
-                const std::vector<bool>& in_contact);
+void write_loop(ResultWriter& writer, const std::string& group, const std::vector<LoopFrame>& frames);
 
 }  // namespace lmdbench

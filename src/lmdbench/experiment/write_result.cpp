@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <string>
 #include <type_traits>
@@ -214,46 +215,13 @@ void write_poses(ResultWriter& writer, const std::string& group, const std::vect
                std::span<const double>(orientations), {poses.size(), 4});
 }
 
-void write_method(ResultWriter& writer, const Experiment& experiment, const RunResult& result,
-                  std::size_t index) {
-  const MethodChoice& choice = experiment.methods[index];
-  const MethodRecord& record = result.records[index];
-  const std::string group = "/methods/" + choice.label;
-  const MethodDescription& method = method_description(choice.name);
-  writer.attribute(group, "method", choice.name);
-  writer.attribute(group, "method_order", static_cast<std::int64_t>(method_order(choice.name)));
-  writer.attribute(group, "about", method.summary);
-  writer.attribute(group, "promise", std::string(to_string(method.promise)));
-  writer.attribute(group, "tracks_locally", std::int64_t{method.tracks_locally});
-  writer.attribute(group, "trackings_after_search", std::int64_t{method.trackings_after_search});
-  writer.attribute(group, "force_law",
-                   std::string(choice.force_law == ForceLaw::LINEAR ? "linear" : "exponential"));
-  writer.attribute(group, "options", choice.options_json);
-  writer.attribute(group, "result_hash", fmt::format("{:016x}", record.result_hash));
-  write_frames(writer, group, method, record);
-  if (method.tracks_locally) write_searches(writer, group, method, record);
-  if (const std::vector<TruthFrame>& truth = result.truth_of(index); !truth.empty())
-    write_truth(writer, group + "/truth", truth, result.comparisons[index]);
-  if (experiment.loop.closed) {
-    write_poses(writer, group + "/path", record.poses);
-    write_loop(writer, group + "/loop", record.loop, result.in_contact_of(index));
-    if (!result.truth_of(index).empty())
-      write_reference(writer, group + "/reference", result.truth_of(index));
-  }
-  if (experiment.record_lmds) write_lmd_lists(writer, group + "/lmds", record);
-  if (result.fcl) {
-    write_column(writer, {group + "/fcl/frame", "1", "frame that was compared with FCL"}, result.fcl->frames,
-                 [](const FclFrame& f) { return f.frame; });
-    write_column(
-        writer,
-        {group + "/fcl/minimum_distance_difference_relative", "1",
-         "a fresh search's minimum distance minus FCL's, divided by FCL's; infinite where it found no pair"},
-        result.fcl->frames, [&](const FclFrame& f) { return f.method_difference[index]; });
-  }
+void write_in_contact(ResultWriter& writer, const std::string& group, const std::vector<bool>& in_contact) {
+  const std::vector<std::uint8_t> flags(in_contact.begin(), in_contact.end());
+  writer.write({group + "/in_contact", "1", "1 where the meshes are within the cutoff of each other"},
+               std::span<const std::uint8_t>(flags), {flags.size()});
 }
 
-void write_fcl(ResultWriter& writer, const FclCheck& check, double tolerance) {
-  const std::string group = "/crosscheck/fcl";
+void write_fcl(ResultWriter& writer, const std::string& group, const FclCheck& check, double tolerance) {
   writer.attribute(group, "tolerance_relative", tolerance);
   const auto column = [&](const std::string& name, const std::string& units, const std::string& long_name,
                           auto project) {
@@ -293,6 +261,53 @@ void write_fcl(ResultWriter& writer, const FclCheck& check, double tolerance) {
   exception("fixed_body", "1", "fixed mesh of FCL's nearest pair", [](Row e) { return e.fixed_body; });
 }
 
+void write_method(ResultWriter& writer, const Experiment& experiment, const RunResult& result,
+                  std::size_t index) {
+  const MethodChoice& choice = experiment.methods[index];
+  const MethodRecord& record = result.records[index];
+  const std::string group = "/methods/" + choice.label;
+  const MethodDescription& method = method_description(choice.name);
+  writer.attribute(group, "method", choice.name);
+  writer.attribute(group, "method_order", static_cast<std::int64_t>(method_order(choice.name)));
+  writer.attribute(group, "about", method.summary);
+  writer.attribute(group, "promise", std::string(to_string(method.promise)));
+  writer.attribute(group, "tracks_locally", std::int64_t{method.tracks_locally});
+  writer.attribute(group, "trackings_after_search", std::int64_t{method.trackings_after_search});
+  writer.attribute(group, "force_law",
+                   std::string(choice.force_law == ForceLaw::LINEAR ? "linear" : "exponential"));
+  writer.attribute(group, "options", choice.options_json);
+  writer.attribute(group, "result_hash", fmt::format("{:016x}", record.result_hash));
+  const Track& track = result.track_of(index);
+  const PreparedProfile& profile = result.prepared.profiles[track.profile];
+  writer.attribute(group, "profile", profile.name);
+  write_profile(writer, group, profile, result.prepared.input.device);
+  write_frames(writer, group, method, record);
+  if (method.tracks_locally) write_searches(writer, group, method, record);
+  if (!track.truth.empty()) write_truth(writer, group + "/truth", track.truth, result.comparisons[index]);
+  if (experiment.loop.closed) {
+    write_poses(writer, group + "/path", record.poses);
+    write_loop(writer, group + "/loop", record.loop);
+  }
+  if (!result.one_track) {
+    write_in_contact(writer, experiment.loop.closed ? group + "/loop" : group, track.in_contact);
+    if (!track.truth.empty()) write_reference(writer, group + "/reference", track.truth);
+    if (track.fcl)
+      write_fcl(writer, group + "/crosscheck/fcl", *track.fcl, experiment.fcl_tolerance_relative);
+  }
+  if (experiment.record_lmds) write_lmd_lists(writer, group + "/lmds", record);
+  if (track.fcl) {
+    const auto column = static_cast<std::size_t>(
+        std::find(track.methods.begin(), track.methods.end(), index) - track.methods.begin());
+    write_column(writer, {group + "/fcl/frame", "1", "frame that was compared with FCL"}, track.fcl->frames,
+                 [](const FclFrame& f) { return f.frame; });
+    write_column(
+        writer,
+        {group + "/fcl/minimum_distance_difference_relative", "1",
+         "a fresh search's minimum distance minus FCL's, divided by FCL's; infinite where it found no pair"},
+        track.fcl->frames, [&](const FclFrame& f) { return f.method_difference[column]; });
+  }
+}
+
 }  // namespace
 
 void write_result(ResultWriter& writer, const Experiment& experiment, const RunResult& result) {
@@ -301,17 +316,18 @@ void write_result(ResultWriter& writer, const Experiment& experiment, const RunR
                {prepared.times.size()});
   write_poses(writer, "/path", prepared.input.poses);
   write_scene(writer, result);
-  const std::vector<std::uint8_t> in_contact(result.in_contact.begin(), result.in_contact.end());
-  writer.write({"/scene/in_contact", "1", "1 where the meshes are within the cutoff of each other"},
-               std::span<const std::uint8_t>(in_contact), {in_contact.size()});
+  write_in_contact(writer, "/scene", result.in_contact);
   // With a single repetition nothing would be left after the warm-up, so it then counts, with a warning.
   writer.attribute("/methods", "warm_up_repetitions",
                    std::int64_t{experiment.driver.repetitions > 1 ? 1 : 0});
   writer.attribute("/methods", "search_every_frames", experiment.driver.search_every_frames);
   writer.attribute("/methods", "search_latency_frames", experiment.driver.search_latency_frames);
   for (std::size_t i = 0; i < experiment.methods.size(); ++i) write_method(writer, experiment, result, i);
-  if (!result.truth.empty()) write_reference(writer, "/reference", result.truth);
-  if (result.fcl) write_fcl(writer, *result.fcl, experiment.fcl_tolerance_relative);
+  if (result.one_track) {
+    const Track& track = result.tracks.front();
+    if (!track.truth.empty()) write_reference(writer, "/reference", track.truth);
+    if (track.fcl) write_fcl(writer, "/crosscheck/fcl", *track.fcl, experiment.fcl_tolerance_relative);
+  }
   write_summary(writer, summarise(experiment, result));
 }
 

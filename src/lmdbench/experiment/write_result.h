@@ -11,7 +11,11 @@ namespace lmdbench {
 /// provenance is not part of it. Does not commit.
 void write_result(ResultWriter& writer, const Experiment& experiment, const RunResult& result);
 
-/// The group /scene: force profile, device, meshes and warnings.
+/// Attributes of a group: the profile's constants in use, and what its sum is clipped to on the device.
+void write_profile(ResultWriter& writer, const std::string& group, const PreparedProfile& profile,
+                   const VirtualPhantom& device);
+
+/// The group /scene: first force profile, device, meshes and warnings.
 void write_scene(ResultWriter& writer, const RunResult& result);
 
 }  // namespace lmdbench

@@ -8,17 +8,22 @@
 
 namespace lmdbench {
 
+void write_profile(ResultWriter& writer, const std::string& group, const PreparedProfile& profile,
+                   const VirtualPhantom& device) {
+  writer.attribute(group, "cutoff_m", profile.force.cutoff);
+  writer.attribute(group, "saturation_m", profile.force.saturation_distance);
+  writer.attribute(group, "maximum_force_n", profile.force.maximum_force);
+  writer.attribute(group, "sharpness", profile.force.sharpness);
+  writer.attribute(group, "force_limit_n", device.limit(profile.force.largest_sum));
+}
+
 void write_scene(ResultWriter& writer, const RunResult& result) {
   const PreparedRun& prepared = result.prepared;
   writer.attribute("/scene", "frame_rate_hz", prepared.input.frame_rate_hz);
-  writer.attribute("/scene", "cutoff_m", prepared.scene.cutoff);
-  writer.attribute("/scene", "saturation_m", prepared.profile.saturation_distance);
-  writer.attribute("/scene", "maximum_force_n", prepared.profile.maximum_force);
-  writer.attribute("/scene", "sharpness", prepared.profile.sharpness);
+  write_profile(writer, "/scene", prepared.profiles.front(), prepared.input.device);
   const Device& device = prepared.input.device.device();
   writer.attribute("/scene", "device", std::string(device.name));
   writer.attribute("/scene", "device_maximum_force_n", device.maximum_force.value);
-  writer.attribute("/scene", "force_limit_n", prepared.input.device.limit());
   writer.attribute("/scene", "device_continuous_force_n", device.continuous_force.value);
   for (const MeshNote& mesh : prepared.meshes) {
     const std::string group = "/scene/" + mesh.role;

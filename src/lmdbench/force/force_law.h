@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <string>
 
 namespace lmdbench {
@@ -21,6 +22,8 @@ struct ForceProfile {
   double saturation_distance = 0.0;  ///< Full force at or below this distance [m], below the cutoff.
   double maximum_force = 0.0;        ///< F_max of one LMD [N].
   double sharpness = 4.0;            ///< k of the exponential law; k -> 0 is linear. Dimensionless.
+  /// The length of the summed force is clipped to this [N], where the device does not clip it to less.
+  double largest_sum = std::numeric_limits<double>::infinity();
 };
 
 /// Checks that a profile can be evaluated: 0 <= saturation_distance < cutoff, maximum_force > 0, sharpness >=

@@ -70,6 +70,7 @@ EnergyAccount SimulatedDevice::energy() const {
   account.hand = at(flows_, EnergyFlow::HAND);
   account.damped = at(flows_, EnergyFlow::DAMPED);
   account.friction = at(flows_, EnergyFlow::FRICTION);
+  account.moved = moved_;
   return account;
 }
 

@@ -6,6 +6,7 @@
 #include <lmdbench/phantom/axis_integrator.h>
 
 #include <array>
+#include <cmath>
 #include <memory>
 
 namespace lmdbench {
@@ -19,10 +20,14 @@ struct EnergyAccount {
   double hand = 0.0;      ///< Work of the person who moves the hand.
   double damped = 0.0;    ///< Lost in dampers.
   double friction = 0.0;  ///< Lost to Coulomb friction.
+  double moved = 0.0;     ///< Sum of the lengths of all energies that flowed in any tick.
 
   /// What the equations leave over: 0 but for rounding. Kinetic and spring energy are 0 at the start, where
   /// the device rests on the meant path.
   double residual() const { return rendered + push + hand - damped - friction - kinetic - spring; }
+
+  /// Length of the residual as a share of the energy that moved; 0 where none has.
+  double balance_error() const { return moved > 0.0 ? std::abs(residual()) / moved : 0.0; }
 };
 
 /// The device that hand, push and rendered force move between servo ticks: three equal, independent axes
@@ -46,8 +51,6 @@ class SimulatedDevice {
   Vec3 velocity() const;         ///< [m/s]
   Vec3 sensed_position() const;  ///< What the encoders tell: each axis rounded to the resolution [m].
   EnergyAccount energy() const;
-  /// Sum of the lengths of all energies that flowed in any tick [J]: what a residual is measured against.
-  double energy_moved() const { return moved_; }
 
   /// A blow: changes the velocity at once, as work of the push.
   void strike(const Vec3& velocity_change_W);

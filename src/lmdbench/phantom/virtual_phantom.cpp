@@ -4,10 +4,10 @@
 
 namespace lmdbench {
 
-RenderedForce VirtualPhantom::render(const Wrench& command) const {
+RenderedForce VirtualPhantom::render(const Wrench& command, double largest_sum) const {
   RenderedForce rendered;
   const double commanded_length = command.force.stableNorm();
-  const double largest = limit_;
+  const double largest = limit(largest_sum);
   rendered.clipped = commanded_length > largest;
   rendered.force = rendered.clipped ? Vec3((command.force / commanded_length) * largest) : command.force;
   rendered.exceeds_continuous_force =

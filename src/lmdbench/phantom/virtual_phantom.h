@@ -7,6 +7,7 @@
 #include <lmdbench/phantom/device.h>
 
 #include <algorithm>
+#include <limits>
 
 namespace lmdbench {
 
@@ -22,23 +23,22 @@ struct RenderedForce {
 /// actuated degrees of freedom (paper, section 5).
 class VirtualPhantom {
  public:
-  explicit VirtualPhantom(const Device& device) : VirtualPhantom(device, device.maximum_force.value) {}
-
-  /// @param clip limit of the rendered force [N] where it is below the device's own
-  VirtualPhantom(const Device& device, double clip)
-      : device_(device), limit_(std::min(clip, device.maximum_force.value)) {}
+  explicit VirtualPhantom(const Device& device) : device_(device) {}
 
   const Device& device() const { return device_; }
-  double limit() const { return limit_; }  ///< Largest rendered force [N].
+
+  /// Largest rendered force [N] of a sum that the profile clips to `largest_sum`.
+  double limit(double largest_sum) const { return std::min(largest_sum, device_.maximum_force.value); }
 
   /// Clips the length of the summed force to the limit, keeping its direction (paper,
   /// section 4.5; decision E10, ours: the length of the sum is clipped, not the components and not the single
   /// LMDs). NaN stays NaN.
-  RenderedForce render(const Wrench& command) const;
+  /// @param largest_sum the force profile's own limit [N]
+  RenderedForce render(const Wrench& command,
+                       double largest_sum = std::numeric_limits<double>::infinity()) const;
 
  private:
   Device device_;
-  double limit_;
 };
 
 }  // namespace lmdbench
