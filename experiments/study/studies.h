@@ -20,6 +20,7 @@ void add_completeness(CLI::App& app, Run& chosen);
 void add_scaling(CLI::App& app, Run& chosen);
 void add_builders(CLI::App& app, Run& chosen);
 void add_compare(CLI::App& app, Run& chosen);
+void add_depth(CLI::App& app, Run& chosen);
 void add_integrators(CLI::App& app, Run& chosen);
 
 }  // namespace lmdbench::study

@@ -1,14 +1,11 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include <lmdbench/geometry/clear_crossing.h>
-#include <lmdbench/geometry/tolerance.h>
 #include <lmdbench/geometry/triangle_distance_batch.h>
 
 #include "geometry/every_family.h"
 #include <gtest/gtest.h>
 #include <hwy/targets.h>
 
-#include <algorithm>
 #include <cmath>
 #include <string>
 #include <vector>
@@ -105,31 +102,6 @@ TEST(TriangleDistanceBatch, LeavesGeneralPairsToVectors) {
   EXPECT_GT(stages.first_step, 3000U);
   EXPECT_GT(stages.crossing, 2000U);
   EXPECT_LT(stages.scalar, 100U);
-}
-
-TEST(ClearCrossings, AreIntersectionsWithTheSegmentOfTheScalarKernel) {
-  std::size_t crossing = 0, missed = 0;
-  // 1,003: the last vectors are not full.
-  for (const testing::TriangleFamily& family : testing::triangle_families()) {
-    Pairs pairs(family, 305, 1003);
-    std::vector<ClearCrossing> found(pairs.a.size());
-    find_clear_crossings(pairs.a, pairs.b, found);
-    for (std::size_t i = 0; i < found.size(); ++i) {
-      const TrianglePairDistance truth = triangle_distance(pairs.a[i], pairs.b[i]);
-      if (found[i].length == 0.0) {
-        missed += truth.intersecting;
-        continue;
-      }
-      ++crossing;
-      const double size = std::max(largest_coordinate(pairs.a[i]), largest_coordinate(pairs.b[i]));
-      ASSERT_TRUE(truth.intersecting) << family.name << " pair " << i;
-      ASSERT_TRUE(is_face(truth.feature_a) && is_face(truth.feature_b)) << family.name << " pair " << i;
-      ASSERT_LE((found[i].middle - truth.point_a).norm(), 1e-12 * size) << family.name << " pair " << i;
-      ASSERT_NEAR(found[i].length, truth.minimiser_measure, 1e-12 * size) << family.name << " pair " << i;
-    }
-  }
-  EXPECT_GT(crossing, 500U);
-  EXPECT_GT(missed, 100U) << "touching, coplanar and thin triangles are left to the scalar kernel";
 }
 
 TEST(TriangleDistanceBatch, HandsOnWhatIsNotFinite) {

@@ -40,7 +40,7 @@ HWY_INLINE void cut(Real from, Real to, Real least_squared_fall, Real& begin, Re
 
 /// Lanes where the triangles cross clearly, with the middle of the segment that they share inside both: the
 /// chord that the plane of a cuts out of b, cut by the edges of a.
-std::uint32_t crossing(const LaneBlock& block, LaneResult& result) {
+inline std::uint32_t crossing(const LaneBlock& block, LaneResult& result) {
   const Real one = constant(1.0);
   std::uint32_t done = 0;
   for (std::size_t lane = 0; lane < MAX_LANES; lane += hn::Lanes(Lanes())) {

@@ -22,6 +22,7 @@ HWY_BEFORE_NAMESPACE();
 namespace lmdbench::HWY_NAMESPACE {
 
 using kernel::LaneBlock;
+using kernel::LaneGap;
 using kernel::LaneResult;
 using kernel::MAX_LANES;
 

@@ -1,6 +1,5 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include <lmdbench/geometry/clear_crossing.h>
 #include <lmdbench/geometry/tolerance.h>
 #include <lmdbench/geometry/triangle_distance_batch.h>
 
@@ -58,16 +57,6 @@ namespace {
 using kernel::LaneBlock;
 using kernel::LaneResult;
 using kernel::MAX_LANES;
-
-/// Copies pair `index` to a lane.
-void load(LaneBlock& block, std::size_t lane, const Triangle& a, const Triangle& b) {
-  for (int k = 0; k < 3; ++k) {
-    for (int axis = 0; axis < 3; ++axis) {
-      block.a[k][axis][lane] = a[k][axis];
-      block.b[k][axis][lane] = b[k][axis];
-    }
-  }
-}
 
 TriangleFeature feature_of(double carriers) {
   // By the bits of corners 2, 1 and 0; the empty set cannot be.
@@ -192,26 +181,6 @@ TriangleBatchStages triangle_distance_batch_stages(std::span<const Triangle> a, 
 void triangle_distance_batch(std::span<const Triangle> a, std::span<const Triangle> b,
                              std::span<TrianglePairDistance> results) {
   triangle_distance_batch_stages(a, b, results);
-}
-
-void find_clear_crossings(std::span<const Triangle> a, std::span<const Triangle> b,
-                          std::span<ClearCrossing> results) {
-  LaneBlock block;
-  LaneResult lanes;
-  for (std::size_t begin = 0; begin < results.size(); begin += MAX_LANES) {
-    const std::size_t count = std::min(MAX_LANES, results.size() - begin);
-    // The last pair fills lanes that have none.
-    for (std::size_t lane = 0; lane < MAX_LANES; ++lane) {
-      const std::size_t pair = begin + std::min(lane, count - 1);
-      load(block, lane, a[pair], b[pair]);
-    }
-    const std::uint32_t crosses = HWY_DYNAMIC_DISPATCH(crossing)(block, lanes);
-    for (std::size_t lane = 0; lane < count; ++lane) {
-      ClearCrossing& result = results[begin + lane];
-      result.middle = {lanes.point_a[0][lane], lanes.point_a[1][lane], lanes.point_a[2][lane]};
-      result.length = ((crosses >> lane) & 1U) != 0 ? lanes.shared_length[lane] : 0.0;
-    }
-  }
 }
 
 std::string triangle_distance_batch_target() {

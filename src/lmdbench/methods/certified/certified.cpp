@@ -1,15 +1,14 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include <lmdbench/geometry/clear_crossing.h>
 #include <lmdbench/geometry/point_triangle.h>
 #include <lmdbench/geometry/segment_distance.h>
+#include <lmdbench/geometry/triangle_contact_batch.h>
 #include <lmdbench/geometry/triangle_distance.h>
 #include <lmdbench/lmd/first_order.h>
 #include <lmdbench/lmd/flat_pieces.h>
 #include <lmdbench/lmd/search_counters.h>
 #include <lmdbench/lmd/triangle_pair.h>
 #include <lmdbench/methods/certified/certified.h>
-#include <lmdbench/methods/certified/touch.h>
 
 #include <algorithm>
 #include <array>
@@ -26,8 +25,6 @@ namespace {
 constexpr double RELATIVE_TOUCH = 1e-9;
 /// PairFilter::margin: above the error of a direction at half the touch distance (4 * 2.2e-16 / 5e-10).
 constexpr double FILTER_MARGIN = 1e-5;
-/// Pairs of triangles that are looked at together, in vectors.
-constexpr std::size_t CROSSINGS_AT_A_TIME = 64;
 /// PairFilter::tiny relative to the coordinates: roundings of such a length's ends are well under the margin.
 constexpr double RELATIVE_TINY = 1e-8;
 /// Motions of a frame that are larger than this many cutoffs are jumps: next to nothing would be kept.
@@ -219,23 +216,54 @@ void Certified::settle(const Frame& frame, const FeatureId& on_moving, const Fea
     for (const std::int32_t t_fixed : triangles_fixed) pending_.push_back({t_moving, t_fixed});
 }
 
+/// Pairs of faces that are looked at together, in vectors.
+struct Certified::TouchBatch {
+  static constexpr std::size_t SIZE = 64;
+  std::array<Triangle, SIZE> moving, fixed;
+  std::array<std::pair<TrianglePair, std::uint32_t>, SIZE> pairs;
+  std::size_t count = 0;
+
+  bool is_full() const { return count == SIZE; }
+  void push(const Triangle& of_moving_mesh, const Triangle& of_fixed_mesh, const TrianglePair& pair,
+            std::uint32_t place) {
+    moving[count] = of_moving_mesh;
+    fixed[count] = of_fixed_mesh;
+    pairs[count++] = {pair, place};
+  }
+  std::span<const Triangle> of_moving() const { return std::span(moving).first(count); }
+  std::span<const Triangle> of_fixed() const { return std::span(fixed).first(count); }
+};
+
 /// Decides the pairs of `touching_`, and calls plan(place, certificate) for each; lever arms are the caller's.
 template <class Plan>
 void Certified::decide_touching(const Frame& frame, WorkCounters& counters, Plan&& plan) {
   const PairFilter& filter = frame.filter;
+  const double margin = 2.0 * filter.touch;
   const bool knows_flat =
       joins_flat_ && (frame.flat_moving.mesh.joins_features || frame.flat_fixed.mesh.joins_features);
   counters[Counter::LEAF_PAIRS] += touching_.size();
-  // Some at a time: most of what comes again in every frame crosses clearly.
-  std::array<Triangle, CROSSINGS_AT_A_TIME> moving, fixed;
-  std::array<ClearCrossing, CROSSINGS_AT_A_TIME> crossings;
-  std::array<std::pair<TrianglePair, std::uint32_t>, CROSSINGS_AT_A_TIME> pairs;
-  std::size_t count = 0;
-  const auto decide_waiting = [&] {
-    find_clear_crossings(std::span(moving).first(count), std::span(fixed).first(count),
-                         std::span(crossings).first(count));
-    for (std::size_t k = 0; k < count; ++k) {
-      const auto& [pair, place] = pairs[k];
+  TouchBatch batch, not_crossing;
+  const auto decide_not_crossing = [&] {
+    std::array<ClearGap, TouchBatch::SIZE> gaps;
+    find_clear_gaps(not_crossing.of_moving(), not_crossing.of_fixed(),
+                    std::span(gaps).first(not_crossing.count));
+    for (std::size_t k = 0; k < not_crossing.count; ++k) {
+      const auto& [pair, place] = not_crossing.pairs[k];
+      if (gaps[k].gap > margin) {
+        plan(place, Certificate{gaps[k].gap - margin, gaps[k].axis});
+        continue;
+      }
+      LocalMinimum minimum;
+      if (evaluate(frame, pair, minimum, counters)) minima_.push_back(minimum);
+      plan(place, Certificate{minimum.lmd.distance - margin, minimum.lmd.direction});
+    }
+    not_crossing.count = 0;
+  };
+  const auto decide_batch = [&] {
+    std::array<ClearCrossing, TouchBatch::SIZE> crossings;
+    find_clear_crossings(batch.of_moving(), batch.of_fixed(), std::span(crossings).first(batch.count));
+    for (std::size_t k = 0; k < batch.count; ++k) {
+      const auto& [pair, place] = batch.pairs[k];
       if (crossings[k].length > 0.0) {
         ++counters[Counter::TRIANGLE_DISTANCES];
         crossings_.push_back({{FeatureKind::FACE, pair.moving},
@@ -248,10 +276,11 @@ void Certified::decide_touching(const Frame& frame, WorkCounters& counters, Plan
                               crossings[k].middle});
         plan(place, Certificate{});
       } else {
-        plan(place, decide_touching_pair(frame, pair, counters));
+        not_crossing.push(batch.moving[k], batch.fixed[k], pair, place);
+        if (not_crossing.is_full()) decide_not_crossing();
       }
     }
-    count = 0;
+    batch.count = 0;
   };
   for (const auto& [candidate, place] : touching_) {
     const FeatureId on_moving = candidate.a.feature_id(), on_fixed = candidate.b.feature_id();
@@ -260,29 +289,12 @@ void Certified::decide_touching(const Frame& frame, WorkCounters& counters, Plan
       plan(place, decide_touching_flat(frame, candidate, counters));
       continue;
     }
-    moving[count] = filter.X_WM.triangle(filter.moving.mesh.triangle(on_moving.index));
-    fixed[count] = filter.fixed.mesh.triangle(on_fixed.index);
-    pairs[count++] = {{on_moving.index, on_fixed.index}, place};
-    if (count == CROSSINGS_AT_A_TIME) decide_waiting();
+    batch.push(filter.X_WM.triangle(filter.moving.mesh.triangle(on_moving.index)),
+               filter.fixed.mesh.triangle(on_fixed.index), {on_moving.index, on_fixed.index}, place);
+    if (batch.is_full()) decide_batch();
   }
-  if (count > 0) decide_waiting();
-}
-
-/// Of a pair that does not cross clearly.
-Certificate Certified::decide_touching_pair(const Frame& frame, const TrianglePair& pair,
-                                            WorkCounters& counters) {
-  const PairFilter& filter = frame.filter;
-  const Triangle a = filter.X_WM.triangle(filter.moving.mesh.triangle(pair.moving));
-  const Triangle b = filter.fixed.mesh.triangle(pair.fixed);
-  const Vec3 normal_a =
-      filter.X_WM.direction(filter.moving.face_normals[static_cast<std::size_t>(pair.moving)]);
-  const Vec3& normal_b = filter.fixed.face_normals[static_cast<std::size_t>(pair.fixed)];
-  const double margin = 2.0 * filter.touch;
-  const ClearGap clear = clear_gap(a, normal_a, b, normal_b, margin);
-  if (clear.gap > 0.0) return {clear.gap - margin, clear.axis};
-  LocalMinimum minimum;
-  if (evaluate(frame, pair, minimum, counters)) minima_.push_back(minimum);
-  return {minimum.lmd.distance - margin, minimum.lmd.direction};
+  decide_batch();
+  decide_not_crossing();
 }
 
 void Certified::decide_pending(const Frame& frame, WorkCounters& counters) {

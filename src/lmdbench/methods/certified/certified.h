@@ -41,7 +41,7 @@ const MethodDescription& certified_method();
 /// as above; or rounding decides, and then all their triangle pairs are evaluated. Where a tilt of less than 1e-8 decides, in a
 /// scene without a planar tolerance, the whole frame is searched by single faces and edges.
 ///
-/// Deep contact: triangles that cross are looked at in vectors (clear_crossing.h); a frame's work there is
+/// Deep contact: triangles that cross are looked at in vectors (triangle_contact_batch.h); a frame's work there is
 /// proportional to the length of the curve in which the meshes intersect.
 ///
 /// The merging of plateaus is the truth's, and it sees the same minima.
@@ -104,9 +104,9 @@ class Certified : public Method {
   Certificate decide(const Frame& frame, const WidePair& candidate, double lever_arm, WorkCounters& counters);
   void settle(const Frame& frame, const FeatureId& on_moving, const FeatureId& on_fixed,
               const PairAnswer& answer, WorkCounters& counters);
+  struct TouchBatch;
   template <class Plan>
   void decide_touching(const Frame& frame, WorkCounters& counters, Plan&& plan);
-  Certificate decide_touching_pair(const Frame& frame, const TrianglePair& pair, WorkCounters& counters);
   void decide_pending(const Frame& frame, WorkCounters& counters);
   bool evaluate(const Frame& frame, const TrianglePair& pair, LocalMinimum& minimum,
                 WorkCounters& counters) const;

@@ -2,15 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <lmdbench/geometry/types.h>
+#include <lmdbench/geometry/triangle_contact_batch.h>
 
 namespace lmdbench {
-
-/// A lower bound of the triangles' distance: the gap along an axis.
-struct ClearGap {
-  double gap = 0.0;          ///< metres; 0: perhaps none
-  Vec3 axis = Vec3::Zero();  ///< Unit vector from a towards b along which the gap is.
-};
 
 /// The gap along the first axis that shows one above `margin`, out of both normals and the products of two
 /// sides (the separating axes of two convex bodies). Nothing relies on it but the saving of an exact
