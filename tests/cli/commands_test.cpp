@@ -8,11 +8,13 @@
 #include <fstream>
 #include <sstream>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace lmdbench::testing {
 namespace {
 
+using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::Not;
@@ -69,21 +71,37 @@ TEST(RunCommand, JsonSummaryIsOneDocument) {
   EXPECT_THAT(outcome.err, IsEmpty()) << "-q tells errors only";
 }
 
-TEST(RunCommand, InterruptionEndsBySignalAndKeepsTheEarlierResult) {
-  // The program handles the signal before it makes the .part file.
+class StopSignals : public ::testing::TestWithParam<std::pair<const char*, int>> {};
+
+TEST_P(StopSignals, EndTheRunByTheSignalKeepWhatWasMeasuredAndTheEarlierResult) {
+  const auto [name, number] = GetParam();
   const ScratchDirectory scratch;
   const std::string result = (scratch / "r.h5").string();
   ASSERT_EQ(lmdbench("run " + SHORT + "--out '" + result + "'").code, 0);
   const std::string earlier = read_text(result);
+  const std::string run = "run " + SHAPES + "--set /driver/repetitions=1000 --out '" + result + "'";
+  // The part grows from a few kilobytes to all its room when the first frame is about to run.
   const Outcome outcome =
-      lmdbench("run " + SHAPES + "--set /driver/repetitions=1000 --out '" + result + "' & pid=$!; " +
-               "until [ -e '" + result + ".part' ]; do kill -0 $pid || exit; sleep 0.05; done; " +
-               "kill -INT $pid; wait $pid; echo $?");
-  EXPECT_EQ(outcome.out, "130\n") << "a shell's number for the interrupt signal";
-  EXPECT_THAT(outcome.err, HasSubstr("interrupted: nothing was written"));
+      lmdbench(run + " & pid=$!; until [ -e '" + result + ".part' ] && [ $(stat -c %s '" + result +
+               ".part') -gt 100000 ]; do kill -0 $pid || exit; sleep 0.05; done; sleep 0.3; kill -" + name +
+               " $pid; wait $pid; echo $?");
+  EXPECT_EQ(outcome.out, std::to_string(128 + number) + "\n") << "a shell's number for the signal";
+  EXPECT_THAT(outcome.err, AllOf(HasSubstr("interrupted: "), HasSubstr("r.h5.part keeps what was measured"),
+                                 HasSubstr("--resume")));
   EXPECT_EQ(read_text(result), earlier);
-  EXPECT_FALSE(std::filesystem::exists(scratch / "r.h5.part"));
+  const std::string part = read_text(result + ".part");
+  const Outcome again = lmdbench(run);
+  EXPECT_EQ(again.code, 4);
+  EXPECT_THAT(again.err,
+              AllOf(HasSubstr("r.h5.part: holds what an interrupted run measured"), HasSubstr("--resume")));
+  EXPECT_EQ(read_text(result + ".part"), part) << "nothing measured is lost by mistake";
+  const Outcome compared = lmdbench("compare '" + result + ".part' '" + result + "'");
+  EXPECT_EQ(compared.code, 3);
+  EXPECT_THAT(compared.err, HasSubstr("--resume")) << "no reader takes a part for a result";
 }
+
+INSTANTIATE_TEST_SUITE_P(RunCommand, StopSignals,
+                         ::testing::Values(std::pair{"INT", 2}, std::pair{"TERM", 15}, std::pair{"HUP", 1}));
 
 TEST(PlanCommand, JsonAndText) {
   const Outcome text = lmdbench("plan " + SHAPES);

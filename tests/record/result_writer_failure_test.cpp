@@ -114,11 +114,11 @@ TEST(ResultWriterFailure, AFullDiskLeavesTheEarlierResult) {
     write_much(writer);
     const FullDisk full(64 * 1024);
     EXPECT_THAT(message_of([&] { writer.commit(); }),
-                AllOf(HasSubstr("a.h5.part"), HasSubstr("File too large"), HasSubstr("--out")));
+                AllOf(HasSubstr("a.h5"), HasSubstr("File too large"), HasSubstr("disk space")));
   }
   EXPECT_THAT(OpenResult(directory / "a.h5").doubles("/a"), ElementsAre(1.0));
-  EXPECT_EQ(std::filesystem::file_size(directory / "a.h5.part"), 0u)
-      << "a failed commit gives the space back";
+  for (const auto& entry : std::filesystem::directory_iterator(directory / ""))
+    EXPECT_LT(entry.file_size(), 64 * 1024) << entry.path() << ": a failed commit gives the space back";
 }
 
 TEST(ResultWriterFailure, CommitWorksOnceThereIsSpaceAgain) {

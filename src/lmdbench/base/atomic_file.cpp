@@ -30,7 +30,7 @@ class FreshFile {
     for (int i = 0; i < MOST_TRIES && !descriptor_.valid(); ++i) {
       name_ = beside.parent_path() / fmt::format(".{}.{}-{}.part", beside.filename().string(), ::getpid(), i);
       descriptor_ =
-          FileDescriptor(::open(name_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666));
+          FileDescriptor(::open(name_.c_str(), O_RDWR | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666));
       if (!descriptor_.valid() && errno != EEXIST) break;
     }
     if (!descriptor_.valid()) fail(name_, "opened for writing", errno);
@@ -49,8 +49,10 @@ class FreshFile {
       content.remove_prefix(static_cast<std::size_t>(written));
     }
     if (::fsync(descriptor_.get()) != 0) fail(name_, "flushed to disk", errno);
-    if (!descriptor_.close()) fail(name_, "written", errno);
   }
+
+  int descriptor() const { return descriptor_.get(); }
+  FileDescriptor take_descriptor() { return std::move(descriptor_); }
 
   void rename_to(const std::filesystem::path& file) {
     std::error_code error;
@@ -68,12 +70,20 @@ class FreshFile {
 }  // namespace
 
 void write_file_atomically(const std::filesystem::path& file, std::string_view content) {
+  FileDescriptor written = replace_file(file, content, {});
+  if (!written.close()) fail(file, "written", errno);
+}
+
+FileDescriptor replace_file(const std::filesystem::path& file, std::string_view content,
+                            const std::function<void(int descriptor)>& before_rename) {
   std::error_code error;
   if (file.has_parent_path()) std::filesystem::create_directories(file.parent_path(), error);
   if (error) fail(file.parent_path(), "made", error.value());
   FreshFile part(file);
   part.write(content);
+  if (before_rename) before_rename(part.descriptor());
   part.rename_to(file);
+  return part.take_descriptor();
 }
 
 }  // namespace lmdbench

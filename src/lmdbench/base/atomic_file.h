@@ -2,7 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <lmdbench/base/file_descriptor.h>
+
 #include <filesystem>
+#include <functional>
 #include <string_view>
 
 namespace lmdbench {
@@ -13,5 +16,10 @@ namespace lmdbench {
 /// is replaced, a symbolic link itself and not where it leads; `refuse_unsafe_output` comes before.
 /// @throws EnvironmentError when the disk or the permissions do not allow it; the part is then removed
 void write_file_atomically(const std::filesystem::path& file, std::string_view content);
+
+/// The same; the new file stays open for reading and writing.
+/// @param before_rename  is given the new file before it takes its name, for a lock
+FileDescriptor replace_file(const std::filesystem::path& file, std::string_view content,
+                            const std::function<void(int descriptor)>& before_rename);
 
 }  // namespace lmdbench

@@ -1,6 +1,8 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/base/atomic_file.h>
 #include <lmdbench/base/error.h>
+#include <lmdbench/base/file_descriptor.h>
 #include <lmdbench/base/output_guard.h>
 #include <lmdbench/base/part_file.h>
 
@@ -84,36 +86,29 @@ PartFile::PartFile(std::filesystem::path final_name) : final_name_(std::move(fin
   open_and_lock();
 }
 
-PartFile::~PartFile() {
-  if (descriptor_ >= 0) ::close(descriptor_);
-}
-
 void PartFile::open_and_lock() {
   // A run that commits between our open and our lock renames the file that we hold: then open the new one.
   while (true) {
     // New, or else what an earlier run left: never through a link, never into a file of somebody else.
-    descriptor_ = ::open(part_name_.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC | O_NOFOLLOW, 0666);
-    if (descriptor_ < 0 && errno == EEXIST) {
-      descriptor_ = ::open(part_name_.c_str(), O_RDWR | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK);
-      if (descriptor_ < 0 && errno == ENOENT) continue;  // its run ended just now
+    const auto open = [this](int flags) {
+      descriptor_ = FileDescriptor(::open(part_name_.c_str(), O_RDWR | O_CLOEXEC | O_NOFOLLOW | flags, 0666));
+    };
+    open(O_CREAT | O_EXCL);
+    if (!descriptor_.valid() && errno == EEXIST) {
+      open(O_NONBLOCK);
+      if (!descriptor_.valid() && errno == ENOENT) continue;  // its run ended just now
     }
-    if (descriptor_ < 0) fail(part_name_, "the result cannot be written", errno);
-    if (!lock_whole_file(descriptor_)) {
-      ::close(std::exchange(descriptor_, -1));
+    if (!descriptor_.valid()) fail(part_name_, "the result cannot be written", errno);
+    if (!lock_whole_file(descriptor_.get())) {
       throw EnvironmentError(part_name_.string(), "", "another run is writing this result",
                              "wait for it or choose another file with --out");
     }
     struct stat ours {};
     struct stat named {};
-    if (::fstat(descriptor_, &ours) != 0) {
-      const int error = errno;
-      ::close(std::exchange(descriptor_, -1));
-      fail(part_name_, "the result cannot be written", error);
-    }
+    if (::fstat(descriptor_.get(), &ours) != 0) fail(part_name_, "the result cannot be written", errno);
     const bool same = ::lstat(part_name_.c_str(), &named) == 0 && ours.st_ino == named.st_ino &&
                       ours.st_dev == named.st_dev;
     if (same && S_ISREG(ours.st_mode) && ours.st_nlink == 1 && looks_like_a_part(part_name_)) return;
-    ::close(std::exchange(descriptor_, -1));
     if (same)
       throw EnvironmentError(part_name_.string(), "",
                              "stands where the result is written at first, and is no file of lmdbench",
@@ -121,30 +116,25 @@ void PartFile::open_and_lock() {
   }
 }
 
-void PartFile::write(std::span<const std::byte> content) {
-  while (!content.empty()) {
-    const ssize_t written = ::write(descriptor_, content.data(), content.size());
-    if (written < 0 && errno == EINTR) continue;
-    if (written < 0) {
-      const int error = errno;
-      // What was written so far is of no use to anybody and fills the disk.
-      if (::ftruncate(descriptor_, 0) == 0) ::lseek(descriptor_, 0, SEEK_SET);
-      fail(part_name_, "the result cannot be written", error);
-    }
-    content = content.subspan(static_cast<std::size_t>(written));
-  }
+bool PartFile::is_empty() const {
+  struct stat status {};
+  return ::fstat(descriptor_.get(), &status) == 0 && status.st_size == 0;
 }
 
-void PartFile::publish(std::span<const std::byte> content) {
+void PartFile::write(std::string_view content) {
+  // Locked before it takes the name, so that the part is ours at any moment; the old one may go.
+  FileDescriptor replacement = replace_file(part_name_, content, [](int file) { lock_whole_file(file); });
+  descriptor_ = std::move(replacement);
+}
+
+void PartFile::remove() {
+  // Afterwards the name may be another run's.
+  if (!std::exchange(removed_, true)) ::unlink(part_name_.c_str());
+}
+
+void PartFile::publish(std::string_view content) {
   refuse_directory(final_name_);
-  if (::ftruncate(descriptor_, 0) != 0 || ::lseek(descriptor_, 0, SEEK_SET) != 0) {
-    fail(part_name_, "the result cannot be written", errno);
-  }
-  write(content);
-  if (::fsync(descriptor_) != 0) fail(part_name_, "the result cannot be brought to the disk", errno);
-  std::error_code error;
-  std::filesystem::rename(part_name_, final_name_, error);
-  if (error) fail(part_name_, "the result cannot be renamed to " + final_name_.string(), error.value());
+  write_file_atomically(final_name_, content);
   // The rename itself is durable only when its directory is on the disk. Some file systems refuse this; the
   // result is complete and named by then, so that is not an error.
   const int directory = ::open(directory_of(final_name_).c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
@@ -152,6 +142,7 @@ void PartFile::publish(std::span<const std::byte> content) {
     static_cast<void>(::fsync(directory));
     ::close(directory);
   }
+  remove();
 }
 
 }  // namespace lmdbench

@@ -12,6 +12,7 @@
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
+#include <array>
 #include <csignal>
 #include <cstdio>
 #include <filesystem>
@@ -24,9 +25,19 @@ namespace {
 
 volatile std::sig_atomic_t stop_requested = 0;
 
-void request_stop(int) {
-  stop_requested = 1;
-  std::signal(SIGINT, SIG_DFL);  // a second Ctrl-C ends the program at once
+void request_stop(int signal) {
+  stop_requested = signal;
+  std::signal(signal, SIG_DFL);  // a second Ctrl-C ends the program at once
+}
+
+/// What users, terminals and schedulers send to end a program.
+constexpr std::array<int, 3> STOP_SIGNALS{SIGINT, SIGTERM, SIGHUP};
+
+void heed_stop_signals() {
+  for (const int signal : STOP_SIGNALS) {
+    const auto before = std::signal(signal, request_stop);
+    if (signal == SIGHUP && before == SIG_IGN) std::signal(signal, SIG_IGN);  // nohup
+  }
 }
 
 struct RunOptions {
@@ -35,6 +46,7 @@ struct RunOptions {
   std::vector<std::string> overrides;
   std::string driver;
   bool json = false;
+  bool resume = false;
 };
 
 void run(const RunOptions& options, const std::vector<std::string>& argv) {
@@ -44,14 +56,18 @@ void run(const RunOptions& options, const std::vector<std::string>& argv) {
   const std::filesystem::path out = options.out.empty() ? "results/" + experiment.name + ".h5" : options.out;
 
   ProgressBar bar(progress_welcome());
-  std::signal(SIGINT, request_stop);
+  heed_stop_signals();
   try {
     const RunResult result = run_experiment_to_file(
-        experiment, out, argv, [&bar](const std::string& phase, std::int64_t done, std::int64_t total) {
+        experiment, out, argv,
+        [&bar](const std::string& phase, std::int64_t done, std::int64_t total) {
           bar.update(phase, done, total);
           return stop_requested == 0;
-        });
+        },
+        options.resume ? Leftover::RESUME : Leftover::REFUSE);
     bar.wipe();
+    if (result.resumed_frames > 0)
+      spdlog::info("the times of {} frames are those of the interrupted run", result.resumed_frames);
     const RunSummary summary = summarise(experiment, result);
     for (const std::string& warning : summary.warnings) spdlog::warn("{}", warning);
     for (const Track& track : result.tracks) {
@@ -69,9 +85,15 @@ void run(const RunOptions& options, const std::vector<std::string>& argv) {
     spdlog::info("wrote {}", out.string());
   } catch (const Interrupted&) {
     bar.wipe();
-    spdlog::error("interrupted: nothing was written, an earlier {} is as it was", out.string());
-    std::signal(SIGINT, SIG_DFL);
-    std::raise(SIGINT);  // so that a calling shell or script sees the interruption, too
+    const std::string part = out.string() + ".part";
+    spdlog::error("interrupted: {}; an earlier {} is as it was",
+                  std::filesystem::exists(part)
+                      ? part + " keeps what was measured (remedy: go on with --resume, or remove it)"
+                      : "nothing was measured yet",
+                  out.string());
+    const int signal = stop_requested;
+    std::signal(signal, SIG_DFL);
+    std::raise(signal);  // so that a calling shell or script sees the interruption, too
   }
 }
 
@@ -86,6 +108,8 @@ void add_run_command(CLI::App& app, const std::vector<std::string>& argv) {
       ->allow_extra_args(false);
   command->add_option("--driver", options->driver, "same as --set /driver/kind=...");
   command->add_flag("--json", options->json, "summary as JSON");
+  command->add_flag("--resume", options->resume,
+                    "go on with what an interrupted run of the same experiment left, if anything");
   command->footer(methods_help());
   command->callback([options, argv] { run(*options, argv); });
 }

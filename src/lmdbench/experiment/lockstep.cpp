@@ -4,6 +4,7 @@
 #include <lmdbench/experiment/direction_memory.h>
 #include <lmdbench/experiment/lockstep.h>
 #include <lmdbench/experiment/planted_slowdown.h>
+#include <lmdbench/experiment/run_keeper.h>
 #include <lmdbench/experiment/two_rate.h>
 #include <lmdbench/force/aggregate.h>
 #include <lmdbench/lmd/method_description.h>
@@ -91,6 +92,7 @@ class MethodRun {
 
   // As observer of the clock: times and counters of each stage.
   void search_starts(std::int64_t frame) {
+    search_changed_ = true;
     record_.searches.emplace_back().frame = frame;
     for (std::vector<double>* of_searches :
          {&times().global_search, &times().first_reduction, &times().second_tracking})
@@ -102,6 +104,7 @@ class MethodRun {
       times().local_update.push_back(timed([&] { work(*frame_counters_); }, planted_.share(stage)));
       return;
     }
+    search_changed_ = true;
     // A search arrives before the next one starts, so all other stages belong to the last one.
     std::vector<double>& column = stage == Stage::GLOBAL_SEARCH     ? times().global_search
                                   : stage == Stage::FIRST_REDUCTION ? times().first_reduction
@@ -111,6 +114,11 @@ class MethodRun {
   void search_ends(const TwoRate::Search& search) {
     record_.searches.back().candidates = search.candidates;
     record_.searches.back().kept_after_reduction = search.kept_after_reduction;
+  }
+
+  /// Keeps the last frame.
+  void keep(RunKeeper& keeper, std::int64_t repetition, std::size_t method) {
+    keeper.keep(repetition, method, record_, std::exchange(search_changed_, false));
   }
 
   MethodRecord take_record() {
@@ -167,6 +175,7 @@ class MethodRun {
   [[no_unique_address]] const PlantedSlowdown planted_;
   LmdSet found_;                            ///< Of `every_frame_`.
   WorkCounters* frame_counters_ = nullptr;  ///< Of the frame under way.
+  bool search_changed_ = false;             ///< Since the last frame that was kept.
   MethodRecord record_;
   Hash result_hash_;
   Hash work_hash_;
@@ -181,10 +190,32 @@ void merge_repetition(MethodRecord& first, MethodRecord&& again, std::int64_t re
   first.repetitions.push_back(std::move(again.repetitions.front()));
 }
 
+/// Tells progress after blocks and between slow frames, so that a run can be stopped before long.
+class Reporter {
+ public:
+  Reporter(const Progress& progress, std::int64_t total) : progress_(progress), total_(total) {}
+
+  /// @param certainly  whatever the clock says
+  void tell(std::int64_t done, bool certainly) {
+    constexpr std::chrono::milliseconds LONGEST_SILENCE{100};
+    if (!progress_) return;
+    const auto now = std::chrono::steady_clock::now();
+    if (!certainly && now - last_ < LONGEST_SILENCE) return;
+    last_ = now;
+    if (!progress_(done, total_)) throw Interrupted();
+  }
+
+ private:
+  const Progress& progress_;
+  std::int64_t total_;
+  std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
+};
+
 }  // namespace
 
 std::vector<MethodRecord> run_lockstep(const std::vector<LockstepMethod>& methods, const LockstepInput& input,
-                                       const DriverChoice& driver, const Progress& progress) {
+                                       const DriverChoice& driver, const Progress& progress,
+                                       RunKeeper* keeper) {
   const std::int64_t frame_count = input.frames.value_or(static_cast<std::int64_t>(input.poses.size()));
   const auto method_count = static_cast<std::int64_t>(methods.size());
   const std::int64_t total = frame_count * method_count * driver.repetitions;
@@ -193,7 +224,15 @@ std::vector<MethodRecord> run_lockstep(const std::vector<LockstepMethod>& method
   LockstepInput later_input =
       input;  // only the first repetition keeps LMD lists: the hash proves the others equal
   later_input.keep_lmds = nullptr;
+  Reporter reporter(progress, total);
   for (std::int64_t repetition = 0; repetition < driver.repetitions; ++repetition) {
+    // The first repetition is run in any case: what is no time comes from it.
+    if (keeper != nullptr && repetition > 0 && keeper->knows_repetition(repetition)) {
+      for (std::size_t i = 0; i < methods.size(); ++i)
+        records[i].repetitions.push_back(keeper->times(repetition, i, records[i].searches.size()));
+      done += frame_count * method_count;
+      continue;
+    }
     std::vector<MethodRun> runs;
     runs.reserve(methods.size());
     for (const LockstepMethod& method : methods)
@@ -203,10 +242,13 @@ std::vector<MethodRecord> run_lockstep(const std::vector<LockstepMethod>& method
       const std::int64_t end = std::min(begin + driver.block_frames, frame_count);
       for (std::int64_t turn = 0; turn < method_count; ++turn) {
         const bool reversed = (repetition + block) % 2 != 0;  // ABBA
-        MethodRun& run = runs[static_cast<std::size_t>(reversed ? method_count - 1 - turn : turn)];
-        for (std::int64_t frame = begin; frame < end; ++frame) run.step(frame);
+        const auto method = static_cast<std::size_t>(reversed ? method_count - 1 - turn : turn);
+        for (std::int64_t frame = begin; frame < end; ++frame) {
+          runs[method].step(frame);
+          if (keeper != nullptr) runs[method].keep(*keeper, repetition, method);
+          reporter.tell(done + frame + 1 - begin, frame + 1 == end);
+        }
         done += end - begin;
-        if (progress && !progress(done, total)) throw Interrupted();
       }
     }
     for (std::size_t i = 0; i < methods.size(); ++i) {

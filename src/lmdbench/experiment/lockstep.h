@@ -50,18 +50,22 @@ struct LockstepInput {
   std::function<bool(std::int64_t frame)> keep_lmds;  ///< Frames whose LMD sets are to be kept.
 };
 
-/// Called after every block with frames done and frames to do, over all methods and
+/// Called after every block, and between slow frames, with frames done and frames to do, over all methods and
 /// repetitions; false stops the run.
 using Progress = std::function<bool(std::int64_t done, std::int64_t total)>;
 
 /// Thrown when `Progress` asked to stop.
 class Interrupted {};
 
+class RunKeeper;
+
 /// Runs every method along all poses (in a closed loop: each on a device of its own), `repetitions` times. Methods take turns block by block, in alternating
 /// order, so that drifts of the machine's speed hit all alike; every repetition starts from fresh instances.
+/// @param keeper keeps every frame as it is measured and knows those of an interrupted run; may be nullptr
 /// @throws Error with ExitCode::INTERNAL when a repetition's forces, LMDs or counters differ from the
 ///         first one's
 std::vector<MethodRecord> run_lockstep(const std::vector<LockstepMethod>& methods, const LockstepInput& input,
-                                       const DriverChoice& driver, const Progress& progress);
+                                       const DriverChoice& driver, const Progress& progress,
+                                       RunKeeper* keeper = nullptr);
 
 }  // namespace lmdbench

@@ -1,9 +1,12 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/base/error.h>
+#include <lmdbench/base/file_hash.h>
 #include <lmdbench/base/output_guard.h>
 #include <lmdbench/experiment/contact.h>
 #include <lmdbench/experiment/run.h>
 #include <lmdbench/experiment/write_result.h>
+#include <lmdbench/record/machine_info.h>
 #include <lmdbench/record/own_result.h>
 #include <lmdbench/record/provenance.h>
 #include <lmdbench/record/result_writer.h>
@@ -12,9 +15,11 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <functional>
 #include <map>
+#include <memory>
 #include <set>
-#include <system_error>
+#include <string>
 #include <utility>
 
 namespace lmdbench {
@@ -64,14 +69,26 @@ void make_tracks(const Experiment& experiment, RunResult& result) {
   result.one_track = shared && result.tracks.size() == 1;
 }
 
-}  // namespace
+/// Identifies all that decides a run's results, and whose times they are.
+std::string fingerprint_of(const Experiment& experiment, const PreparedRun& prepared) {
+  std::string text = version_text() + "\n" + experiment.resolved_json;
+  for (const auto& [name, value] : machine_info())
+    if (name.starts_with("processor")) text += "\n" + value;
+  for (const InputFile& file : prepared.files) text += "\n" + file.sha256;
+  for (const MeshNote& mesh : prepared.meshes) text += "\n" + mesh.sha256;
+  return sha256_of_text(text);
+}
 
-RunResult run_experiment(const Experiment& experiment, const RunProgress& progress) {
+/// Makes what keeps the frames of a prepared run; nothing for a run in memory.
+using MakeKeeper = std::function<std::unique_ptr<RunKeeper>(const RunResult&, std::int64_t frames)>;
+
+RunResult run_and_keep(const Experiment& experiment, const RunProgress& progress,
+                       const MakeKeeper& make_keeper) {
   const auto phase = [&](const std::string& name) -> Progress {
     if (!progress) return {};
     return [&progress, name](std::int64_t done, std::int64_t total) { return progress(name, done, total); };
   };
-  RunResult result{make_plan(experiment), prepare(experiment), {}, {}, {}, {}, false, {}, {}};
+  RunResult result{make_plan(experiment), prepare(experiment), {}, {}, {}, {}, false, {}, {}, 0};
   make_tracks(experiment, result);
   PreparedRun& prepared = result.prepared;
   result.warnings = prepared.warnings;
@@ -86,7 +103,10 @@ RunResult run_experiment(const Experiment& experiment, const RunProgress& progre
     const std::set<std::int64_t> kept(truth_frames.begin(), truth_frames.end());
     prepared.input.keep_lmds = [kept](std::int64_t frame) { return kept.count(frame) > 0; };
   }
-  result.records = run_lockstep(methods, prepared.input, experiment.driver, phase("run"));
+  const std::unique_ptr<RunKeeper> keeper =
+      make_keeper ? make_keeper(result, prepared.input.frames.value_or(frame_count)) : nullptr;
+  result.records = run_lockstep(methods, prepared.input, experiment.driver, phase("run"), keeper.get());
+  if (keeper) result.resumed_frames = keeper->resumed_frames();
 
   result.in_contact = frames_in_contact(prepared.scene(), prepared.input.poses);
   for (Track& track : result.tracks) {
@@ -116,26 +136,51 @@ RunResult run_experiment(const Experiment& experiment, const RunProgress& progre
   return result;
 }
 
+}  // namespace
+
+RunResult run_experiment(const Experiment& experiment, const RunProgress& progress) {
+  return run_and_keep(experiment, progress, {});
+}
+
 RunResult run_experiment_to_file(const Experiment& experiment, const std::filesystem::path& file,
-                                 const std::vector<std::string>& argv, const RunProgress& progress) {
+                                 const std::vector<std::string>& argv, const RunProgress& progress,
+                                 Leftover leftover) {
   refuse_unsafe_output(file, {.what = "result file", .is_ours = &is_own_result}, input_files(experiment),
                        "--out");
   ResultWriter writer(file);
-  // The data goes to disk after the run, so what an aborted run leaves there holds nothing worth keeping.
-  // Declared after the writer: the file of another run with the same output, which the writer refuses, must
-  // not be removed.
-  struct RemovePart {
-    std::filesystem::path part;
-    ~RemovePart() {
-      std::error_code ignored;
-      std::filesystem::remove(part, ignored);
+  PartFile& part = writer.part();
+  if (leftover == Leftover::REFUSE && RunKeeper::measured_frames(part) > 0)
+    throw EnvironmentError(part.part_name().string(), "", "holds what an interrupted run measured",
+                           "go on with it by --resume, or remove the file to start again");
+  RunKeeper::prepare(part);
+  // A run that ends before it measured anything leaves nothing.
+  struct RemoveEmptyPart {
+    PartFile& part;
+    ~RemoveEmptyPart() {
+      try {
+        if (!part.is_removed() && RunKeeper::measured_frames(part) == 0) part.remove();
+      } catch (const Error&) {
+        // What cannot be read is left for the user to look at.
+      }
     }
-  } remove_part{file.string() + ".part"};
-  RunResult result = run_experiment(experiment, progress);
-  write_provenance(writer, argv, experiment.resolved_json, plan_json(result.plan, experiment),
-                   result.prepared.files);
-  // Relative names of the experiment are relative to its folder.
-  writer.attribute("/provenance", "experiment_file", experiment.file.string());
+  } remove_empty_part{part};
+  const auto write_head = [&](ResultWriter& to, const RunResult& result) {
+    write_provenance(to, argv, experiment.resolved_json, plan_json(result.plan, experiment),
+                     result.prepared.files);
+    // Relative names of the experiment are relative to its folder.
+    to.attribute("/provenance", "experiment_file", experiment.file.string());
+  };
+  const auto make_keeper = [&](const RunResult& result, std::int64_t frames) {
+    const auto write = [&](ResultWriter& to) {
+      write_head(to, result);
+      write_path(to, result);
+    };
+    return std::make_unique<RunKeeper>(part, experiment, frames, fingerprint_of(experiment, result.prepared),
+                                       write);
+  };
+  RunResult result = run_and_keep(experiment, progress, make_keeper);
+  write_head(writer, result);
+  writer.attribute("/provenance", "resumed_frames", result.resumed_frames);
   write_result(writer, experiment, result);
   writer.commit();
   return result;

@@ -8,6 +8,7 @@
 #include <lmdbench/experiment/plan.h>
 #include <lmdbench/experiment/prepare.h>
 #include <lmdbench/experiment/records.h>
+#include <lmdbench/experiment/run_keeper.h>
 #include <lmdbench/experiment/truth_probe.h>
 
 #include <filesystem>
@@ -39,6 +40,8 @@ struct RunResult {
   bool one_track = false;             ///< All methods see the poses of the path under one profile.
   std::vector<bool> in_contact;       ///< One a frame of the path, under the first profile's cutoff.
   std::vector<std::string> warnings;  ///< What a reader of the result must know, in plain words.
+  std::int64_t resumed_frames =
+      0;  ///< Whose times an interrupted run measured, over methods and repetitions.
 
   const Track& track_of(std::size_t method) const { return tracks[track_of_method[method]]; }
 };
@@ -52,8 +55,13 @@ using RunProgress = std::function<bool(const std::string& phase, std::int64_t do
 RunResult run_experiment(const Experiment& experiment, const RunProgress& progress = {});
 
 /// Runs it and leaves a result file, which takes its name only when it is complete: an earlier file of that
-/// name stays whole until then. A file that cannot be written is noticed before the run, not after it.
+/// name stays whole until then. A file that cannot be written is noticed before the run, not after it. While it
+/// runs, `<file>.part` holds every frame that was measured (RunKeeper): whatever ends the run, they stay there,
+/// and `Leftover::RESUME` goes on with them.
+/// @throws Interrupted when `progress` returned false
+/// @throws EnvironmentError when the part holds what an interrupted run measured and shall not be resumed
 RunResult run_experiment_to_file(const Experiment& experiment, const std::filesystem::path& file,
-                                 const std::vector<std::string>& argv, const RunProgress& progress = {});
+                                 const std::vector<std::string>& argv, const RunProgress& progress = {},
+                                 Leftover leftover = Leftover::REFUSE);
 
 }  // namespace lmdbench

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/experiment/columns.h>
 #include <lmdbench/experiment/summary.h>
-#include <lmdbench/experiment/write_loop.h>
 #include <lmdbench/experiment/write_result.h>
 #include <lmdbench/methods/registry.h>
 
@@ -11,6 +11,7 @@
 #include <cstdint>
 #include <string>
 #include <type_traits>
+#include <variant>
 #include <vector>
 
 namespace lmdbench {
@@ -40,15 +41,16 @@ void write_column(ResultWriter& writer, const DatasetInfo& info, const std::vect
   }
 }
 
-/// Counters of the rows, one dataset a counter that the method counts there.
+/// All columns of a table of records.
 template <typename Row>
-void write_counters(ResultWriter& writer, const std::string& group, const std::vector<Row>& rows,
-                    const std::vector<CounterDescription>& counters, const std::string& of) {
-  for (const CounterDescription& counter : counters)
-    write_column(
-        writer,
-        {fmt::format("{}/{}", group, counter.name), "1", fmt::format("{}, of the {}", counter.summary, of)},
-        rows, [&](const Row& row) { return static_cast<std::int64_t>(row.counters.values[counter.index]); });
+void write_columns(ResultWriter& writer, const std::string& group, const std::vector<Column<Row>>& columns,
+                   const std::vector<Row>& rows) {
+  for (const Column<Row>& column : columns)
+    std::visit(
+        [&](const auto& value) {
+          write_column(writer, {group + "/" + column.name, column.units, column.long_name}, rows, value);
+        },
+        column.value);
 }
 
 /// Times of all repetitions as a (repetition, column) array.
@@ -64,40 +66,7 @@ void write_times(ResultWriter& writer, const DatasetInfo& info,
 
 void write_frames(ResultWriter& writer, const std::string& group, const MethodDescription& method,
                   const MethodRecord& record) {
-  const std::vector<FrameRecord>& frames = record.frames;
-  write_column(writer, {group + "/force", "N", "rendered force on the moving mesh, world frame"}, frames,
-               [](const FrameRecord& f) { return f.force; });
-  write_column(writer, {group + "/force_clipped", "1", "1 where the device clipped the force"}, frames,
-               [](const FrameRecord& f) { return f.force_clipped; });
-  write_column(writer,
-               {group + "/force_above_continuous", "1", "1 where the force exceeds what the device can hold"},
-               frames, [](const FrameRecord& f) { return f.force_above_continuous; });
-  write_column(writer, {group + "/torque", "N m", "torque about the moving mesh's centre, not rendered"},
-               frames, [](const FrameRecord& f) { return f.torque; });
-  write_column(writer, {group + "/lmd_count", "1", "LMDs within the cutoff"}, frames,
-               [](const FrameRecord& f) { return f.lmd_count; });
-  if (method.tracks_locally) {
-    write_column(
-        writer,
-        {group + "/lmd_count_before_reduction", "1", "LMD candidates of the search behind the set in use"},
-        frames, [](const FrameRecord& f) { return f.lmd_count_before_reduction; });
-    write_column(writer, {group + "/reduction_ratio", "1", "LMD candidates divided by LMDs kept"}, frames,
-                 [](const FrameRecord& f) {
-                   return f.lmd_count > 0 ? f.lmd_count_before_reduction / static_cast<double>(f.lmd_count)
-                                          : UNSET;
-                 });
-    write_column(writer, {group + "/lmd_age", "s", "time since the pose that the set in use was searched at"},
-                 frames, [](const FrameRecord& f) { return f.lmd_age; });
-  }
-  write_column(writer, {group + "/minimum_distance", "m", "smallest LMD distance"}, frames,
-               [](const FrameRecord& f) { return f.minimum_distance; });
-  write_column(writer, {group + "/effective_stiffness", "N/m", "slope of the force's length along the force"},
-               frames, [](const FrameRecord& f) { return f.effective_stiffness; });
-  write_column(
-      writer,
-      {group + "/contact_without_direction", "1", "LMDs at distance 0, which keep their last direction"},
-      frames, [](const FrameRecord& f) { return f.contact_without_direction; });
-  write_counters(writer, group + "/counters", frames, method.local_counters(), "frame's local part");
+  write_columns(writer, group, frame_columns(method), record.frames);
   write_times(writer, {group + "/local_update_time", "s", "time of the frame's local part, by repetition"},
               record.repetitions, &RepetitionTimes::local_update);
 }
@@ -105,23 +74,9 @@ void write_frames(ResultWriter& writer, const std::string& group, const MethodDe
 /// What only a method with a search of its own rate has.
 void write_searches(ResultWriter& writer, const std::string& group, const MethodDescription& method,
                     const MethodRecord& record) {
-  const std::vector<SearchRecord>& searches = record.searches;
-  write_column(writer, {group + "/global_frame", "1", "frame that the global search started in"}, searches,
-               [](const SearchRecord& s) { return s.frame; });
-  write_column(writer, {group + "/candidates", "1", "LMD candidates that the search found"}, searches,
-               [](const SearchRecord& s) { return s.candidates; });
-  write_counters(writer, group + "/global_counters", searches, method.global_counters(),
-                 "global search and its trackings");
-  write_times(writer, {group + "/global_search_time", "s", "time of the global search, by repetition"},
-              record.repetitions, &RepetitionTimes::global_search);
-  if (method.trackings_after_search == 0) return;
-  write_column(writer, {group + "/kept_after_reduction", "1", "LMDs left by the first tracking"}, searches,
-               [](const SearchRecord& s) { return s.kept_after_reduction; });
-  write_times(writer, {group + "/first_reduction_time", "s", "time of the first tracking, by repetition"},
-              record.repetitions, &RepetitionTimes::first_reduction);
-  if (method.trackings_after_search == 1) return;
-  write_times(writer, {group + "/second_tracking_time", "s", "time of the second tracking, by repetition"},
-              record.repetitions, &RepetitionTimes::second_tracking);
+  write_columns(writer, group, search_columns(method), record.searches);
+  for (const SearchTime& time : search_times(method))
+    write_times(writer, {group + "/" + time.name, "s", time.long_name}, record.repetitions, time.times);
 }
 
 void write_truth(ResultWriter& writer, const std::string& group, const std::vector<TruthFrame>& truth,
@@ -286,7 +241,7 @@ void write_method(ResultWriter& writer, const Experiment& experiment, const RunR
   if (!track.truth.empty()) write_truth(writer, group + "/truth", track.truth, result.comparisons[index]);
   if (experiment.loop.closed) {
     write_poses(writer, group + "/path", record.poses);
-    write_loop(writer, group + "/loop", record.loop);
+    write_columns(writer, group + "/loop", loop_columns(), record.loop);
   }
   if (!result.one_track) {
     write_in_contact(writer, experiment.loop.closed ? group + "/loop" : group, track.in_contact);
@@ -310,11 +265,15 @@ void write_method(ResultWriter& writer, const Experiment& experiment, const RunR
 
 }  // namespace
 
-void write_result(ResultWriter& writer, const Experiment& experiment, const RunResult& result) {
+void write_path(ResultWriter& writer, const RunResult& result) {
   const PreparedRun& prepared = result.prepared;
   writer.write({"/path/time", "s", "time of the haptic frame"}, std::span<const double>(prepared.times),
                {prepared.times.size()});
   write_poses(writer, "/path", prepared.input.poses);
+}
+
+void write_result(ResultWriter& writer, const Experiment& experiment, const RunResult& result) {
+  write_path(writer, result);
   write_scene(writer, result);
   write_in_contact(writer, "/scene", result.in_contact);
   // With a single repetition nothing would be left after the warm-up, so it then counts, with a warning.

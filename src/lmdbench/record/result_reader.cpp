@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/base/error.h>
 #include <lmdbench/record/hdf5_handle.h>
+#include <lmdbench/record/partial_result.h>
 #include <lmdbench/record/provenance.h>
 #include <lmdbench/record/result_reader.h>
 
@@ -205,7 +206,8 @@ class ResultReader::Implementation {
     if (format != RESULT_FORMAT)
       throw InputError(name_.string(), "attribute format",
                        format ? "'" + *format + "' instead of '" + RESULT_FORMAT + "'" : "missing",
-                       "give a result file of lmdbench run");
+                       format == PART_FORMAT ? "an unfinished run: finish it with lmdbench run --resume"
+                                             : "give a result file of lmdbench run");
     const auto version = number_attribute<std::int64_t>("/", "format_version", H5T_INTEGER, H5T_NATIVE_INT64);
     if (version != RESULT_FORMAT_VERSION)
       throw InputError(

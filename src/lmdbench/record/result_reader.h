@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <lmdbench/record/element_kind.h>
+
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
@@ -11,13 +13,6 @@
 #include <vector>
 
 namespace lmdbench {
-
-/// What a dataset of a result file holds.
-enum class ElementKind {
-  REAL,     ///< Floating point
-  INTEGER,  ///< Counts, indices, flags
-  TEXT      ///< Strings
-};
 
 /// Reads one result file (HDF5, `results/README.md`) whoever wrote it: the whole file is checked for the
 /// format and its major version when it is opened, every dataset for its type when it is read. Paths are

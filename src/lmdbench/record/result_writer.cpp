@@ -9,7 +9,9 @@
 
 #include <algorithm>
 #include <functional>
+#include <limits>
 #include <numeric>
+#include <optional>
 #include <stdexcept>
 #include <utility>
 
@@ -49,14 +51,19 @@ void check_path(const std::string& path) {
 
 class ResultWriter::Implementation {
  public:
-  explicit Implementation(std::filesystem::path name) : part_(std::move(name)) {
+  explicit Implementation(std::filesystem::path name) : Implementation() { part_.emplace(std::move(name)); }
+
+  Implementation() {
     silence_hdf5();
     Hdf5Handle access = checked(H5Pcreate(H5P_FILE_ACCESS), &H5Pclose, "made");
     // The file grows in memory and reaches the disk in `commit`: HDF5 1.10 corrupts its own state, and
     // crashes later, when closing an object meets a full disk.
     check(H5Pset_fapl_core(access.get(), MEMORY_STEP_BYTES, false), "made");
-    file_ = checked(H5Fcreate(part_.part_name().c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access.get()), &H5Fclose,
-                    "made");
+    // Reserved datasets are written through a mapping: whole numbers never lie across two pages.
+    check(H5Pset_alignment(access.get(), 1, sizeof(double)), "made");
+    // HDF5 takes two open files in memory of the same name for one.
+    const std::string own_name = fmt::format("result in memory {}", fmt::ptr(this));
+    file_ = checked(H5Fcreate(own_name.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access.get()), &H5Fclose, "made");
     // Strings have a variable length: JSON texts do not fit a fixed one.
     string_type_ = checked(H5Tcopy(H5T_C_S1), &H5Tclose, "made");
     check(H5Tset_size(string_type_.get(), H5T_VARIABLE), "made");
@@ -76,10 +83,7 @@ class ResultWriter::Implementation {
       throw std::invalid_argument(
           fmt::format("{}: the shape has room for {} values, {} were given", info.path, product, count));
     }
-    if (info.units.empty() || info.long_name.empty()) {
-      throw std::invalid_argument(info.path + ": a dataset needs units and a long name");
-    }
-    if (exists(info.path)) throw std::invalid_argument(info.path + ": written twice");
+    check_new(info);
     const std::string action = "extended by " + info.path;
     Hdf5Handle space =
         extents.empty() ? checked(H5Screate(H5S_SCALAR), &H5Sclose, action)
@@ -100,9 +104,33 @@ class ResultWriter::Implementation {
                                             link_creation_.get(), creation.get(), H5P_DEFAULT),
                                  &H5Dclose, action);
     if (count > 0) check(H5Dwrite(dataset.get(), memory_type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values), action);
-    string_attribute(dataset.get(), "units", info.units, action);
-    string_attribute(dataset.get(), "long_name", info.long_name, action);
+    describe(dataset.get(), info, action);
     if (!dataset.close()) fail(action);  // compresses the last chunks
+  }
+
+  void reserve(const DatasetInfo& info, ElementKind kind, const std::vector<std::size_t>& shape) {
+    begin();
+    check_path(info.path);
+    check_new(info);
+    const std::string action = "extended by " + info.path;
+    const std::vector<hsize_t> extents(shape.begin(), shape.end());
+    Hdf5Handle space = checked(H5Screate_simple(static_cast<int>(extents.size()), extents.data(), nullptr),
+                               &H5Sclose, action);
+    Hdf5Handle creation = checked(H5Pcreate(H5P_DATASET_CREATE), &H5Pclose, action);
+    check(H5Pset_obj_track_times(creation.get(), false), action);
+    check(H5Pset_layout(creation.get(), H5D_CONTIGUOUS), action);
+    check(H5Pset_alloc_time(creation.get(), H5D_ALLOC_TIME_EARLY), action);
+    const double unset_real = std::numeric_limits<double>::quiet_NaN();
+    const std::int64_t unset_integer = UNSET_INTEGER;
+    const bool real = kind == ElementKind::REAL;
+    check(real ? H5Pset_fill_value(creation.get(), H5T_NATIVE_DOUBLE, &unset_real)
+               : H5Pset_fill_value(creation.get(), H5T_NATIVE_INT64, &unset_integer),
+          action);
+    Hdf5Handle dataset =
+        checked(H5Dcreate2(file_.get(), info.path.c_str(), real ? H5T_IEEE_F64LE : H5T_STD_I64LE, space.get(),
+                           link_creation_.get(), creation.get(), H5P_DEFAULT),
+                &H5Dclose, action);
+    describe(dataset.get(), info, action);
   }
 
   void write_strings(const DatasetInfo& info, const std::vector<std::string>& values) {
@@ -126,27 +154,49 @@ class ResultWriter::Implementation {
                      "given attribute " + name + " of " + path);
   }
 
-  void commit() {
+  std::string image() {
     begin();
     check(H5Fflush(file_.get(), H5F_SCOPE_GLOBAL), "completed");
     const ssize_t size = H5Fget_file_image(file_.get(), nullptr, 0);
     if (size < 0) fail("completed");
-    std::vector<std::byte> image(static_cast<std::size_t>(size));
-    if (H5Fget_file_image(file_.get(), image.data(), image.size()) != size) fail("completed");
-    part_.publish(image);
+    std::string bytes(static_cast<std::size_t>(size), '\0');
+    if (H5Fget_file_image(file_.get(), bytes.data(), bytes.size()) != size) fail("completed");
+    return bytes;
+  }
+
+  PartFile& part() {
+    if (!part_) throw std::logic_error("a result in memory has no file");
+    return *part_;
+  }
+
+  void commit() {
+    part().publish(image());
     file_.close();
   }
 
  private:
   /// Every public step starts here: HDF5's printing is a setting of the thread.
   void begin() {
-    if (!file_.valid()) throw std::logic_error(part_.final_name().string() + ": written to after commit");
+    if (!file_.valid()) throw std::logic_error(name() + ": written to after commit");
     silence_hdf5();
   }
 
+  std::string name() const { return part_ ? part_->final_name().string() : std::string(); }
+
+  void check_new(const DatasetInfo& info) const {
+    if (info.units.empty() || info.long_name.empty()) {
+      throw std::invalid_argument(info.path + ": a dataset needs units and a long name");
+    }
+    if (exists(info.path)) throw std::invalid_argument(info.path + ": written twice");
+  }
+
+  void describe(hid_t dataset, const DatasetInfo& info, const std::string& action) {
+    string_attribute(dataset, "units", info.units, action);
+    string_attribute(dataset, "long_name", info.long_name, action);
+  }
+
   [[noreturn]] void fail(const std::string& action) const {
-    throw EnvironmentError(part_.part_name().string(), "",
-                           "the result file cannot be " + action + ": " + last_hdf5_error(),
+    throw EnvironmentError(name(), "", "the result file cannot be " + action + ": " + last_hdf5_error(),
                            "free memory, or record less");
   }
 
@@ -194,7 +244,7 @@ class ResultWriter::Implementation {
     check(H5Awrite(attribute.get(), memory_type, value), action);
   }
 
-  PartFile part_;
+  std::optional<PartFile> part_;
   Hdf5Handle file_;
   Hdf5Handle string_type_;
   Hdf5Handle link_creation_;
@@ -202,6 +252,8 @@ class ResultWriter::Implementation {
 
 ResultWriter::ResultWriter(std::filesystem::path file)
     : implementation_(std::make_unique<Implementation>(std::move(file))) {}
+
+ResultWriter::ResultWriter() : implementation_(std::make_unique<Implementation>()) {}
 
 ResultWriter::~ResultWriter() {
   silence_hdf5();
@@ -224,6 +276,18 @@ void ResultWriter::write(const DatasetInfo& info, std::span<const std::uint8_t> 
 
 void ResultWriter::write(const DatasetInfo& info, const std::vector<std::string>& values) {
   implementation_->write_strings(info, values);
+}
+
+void ResultWriter::reserve(const DatasetInfo& info, ElementKind kind, const std::vector<std::size_t>& shape) {
+  implementation_->reserve(info, kind, shape);
+}
+
+std::string ResultWriter::image() {
+  return implementation_->image();
+}
+
+PartFile& ResultWriter::part() {
+  return implementation_->part();
 }
 
 void ResultWriter::attribute(const std::string& path, const std::string& name, const std::string& value) {

@@ -2,6 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <lmdbench/base/part_file.h>
+#include <lmdbench/record/element_kind.h>
+
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
@@ -20,8 +23,11 @@ struct DatasetInfo {
   std::string long_name;  ///< One phrase
 };
 
-/// Writes one result file (HDF5). It is kept in memory until `commit`, which writes `<file>.part`, brings it
-/// to the disk and gives it the final name: an earlier result of that name is whole until then, and an
+/// Values that are not known yet, in `ResultWriter::reserve`: NaN, or this where the numbers are integers.
+inline constexpr std::int64_t UNSET_INTEGER = -1;
+
+/// Writes one result file (HDF5). It is kept in memory until `commit`, which writes it beside its name, brings
+/// it to the disk and gives it the final name: an earlier result of that name is whole until then, and an
 /// interrupted run never looks like a finished one. The `.part` file is made at once, so that a wrong place
 /// is reported before a long run.
 /// @throws EnvironmentError when the file cannot be made, written or renamed, or when another run is
@@ -31,6 +37,7 @@ struct DatasetInfo {
 class ResultWriter {
  public:
   explicit ResultWriter(std::filesystem::path file);
+  ResultWriter();   ///< In memory only, for `image`.
   ~ResultWriter();  ///< Closes; leaves the `.part` file where nothing was committed.
   ResultWriter(const ResultWriter&) = delete;
   ResultWriter& operator=(const ResultWriter&) = delete;
@@ -44,10 +51,19 @@ class ResultWriter {
              const std::vector<std::size_t>& shape);
   void write(const DatasetInfo& info, const std::vector<std::string>& values);
 
+  /// A dataset whose values come later and by other means (`PartialResult`): contiguous, every value unset.
+  void reserve(const DatasetInfo& info, ElementKind kind, const std::vector<std::size_t>& shape);
+
   /// Attributes of the group or dataset at `path` ("/" is the root; missing groups are made).
   void attribute(const std::string& path, const std::string& name, const std::string& value);
   void attribute(const std::string& path, const std::string& name, std::int64_t value);
   void attribute(const std::string& path, const std::string& name, double value);
+
+  /// The file as it stands.
+  std::string image();
+
+  /// The part that `commit` turns into the result.
+  PartFile& part();
 
   /// Flushes to disk and gives the file its name, replacing an earlier one at once. When it throws, nothing
   /// is lost: it may be called again.
