@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/base/error.h>
-#include <lmdbench/geometry/triangle_distance_batch.h>
 
 #include <CLI/CLI.hpp>
+#include <benchmarks/triangle_distance/batch/triangle_distance_batch.h>
 #include <fmt/format.h>
 #include <judge/accuracy_table.h>
 #include <judge/distance_kernels.h>

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/crosscheck/fcl_triangle_distance.h>
 #include <lmdbench/geometry/triangle_distance.h>
-#include <lmdbench/geometry/triangle_distance_batch.h>
 
+#include <benchmarks/triangle_distance/batch/triangle_distance_batch.h>
 #include <judge/distance_kernels.h>
 
 #include <cmath>

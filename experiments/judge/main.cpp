@@ -1,12 +1,8 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include <lmdbench/base/error.h>
-
 #include <CLI/CLI.hpp>
 #include <judge/judges.h>
-
-#include <exception>
-#include <iostream>
+#include <support/program.h>
 
 /// lmdbench-judge: who is right, in exact arithmetic. A program of its own, because CGAL's kernels are (L)GPL and
 /// nothing else links them.
@@ -18,14 +14,5 @@ int main(int argc, char** argv) {
   exact::add_truth(app, chosen);
   exact::add_ledger(app, chosen);
   exact::add_accuracy(app, chosen);
-  CLI11_PARSE(app, argc, argv);
-  try {
-    return chosen();
-  } catch (const Error& error) {
-    std::cerr << "error: " << error.what() << '\n';
-    return static_cast<int>(error.code());
-  } catch (const std::exception& error) {
-    std::cerr << "error: " << error.what() << '\n';
-    return static_cast<int>(ExitCode::INPUT_DATA);
-  }
+  return experiments::run_program(app, argc, argv, [&chosen] { return chosen(); });
 }

@@ -5,13 +5,13 @@
 
 #include <CLI/CLI.hpp>
 #include <fmt/core.h>
-#include <micro/bodies.h>
-#include <micro/poses.h>
-#include <micro/program.h>
-#include <micro/timing.h>
-#include <scaling/builder_counts.h>
-#include <scaling/measure.h>
+#include <study/scaling/builder_counts.h>
+#include <study/scaling/measure.h>
 #include <study/studies.h>
+#include <support/bodies.h>
+#include <support/poses.h>
+#include <support/program.h>
+#include <support/timing.h>
 
 #include <array>
 #include <cstdio>
@@ -23,7 +23,7 @@ namespace lmdbench::scaling {
 namespace {
 
 struct Choice {
-  micro::SceneChoice scene;
+  experiments::SceneChoice scene;
   std::size_t poses = 40;
   std::uint64_t seed = 1;
 };
@@ -93,10 +93,10 @@ std::string row(const Variant& variant, const Choice& choice, const Surface& mov
 }
 
 int run(const Choice& choice) {
-  const Scene scene = micro::load_scene(choice.scene);
+  const Scene scene = experiments::load_scene(choice.scene);
   const Body& moving = *scene.moving;
   const Body& fixed = *scene.fixed.at(0);
-  const std::vector<Pose> poses = micro::grazing_poses(
+  const std::vector<Pose> poses = experiments::grazing_poses(
       moving, fixed, choice.scene.gap * choice.scene.diagonal, choice.poses, choice.seed);
   fmt::print(
       "\n### {} on {}\n\nWidth 16 is the tree of width 4 read two levels at a time, and takes as long to "
@@ -124,8 +124,8 @@ void lmdbench::study::add_builders(CLI::App& app, Run& chosen) {
   CLI::App* command = app.add_subcommand(
       "builders", "Builders of the wide hierarchy, by the work that their trees leave to a search");
   const auto choice = std::make_shared<scaling::Choice>();
-  micro::add_mesh_options(*command, choice->scene);
-  micro::add_scene_options(*command, choice->scene);
+  experiments::add_mesh_options(*command, choice->scene);
+  experiments::add_scene_options(*command, choice->scene);
   command->add_option("--poses", choice->poses, "Random poses")
       ->capture_default_str()
       ->check(CLI::PositiveNumber);

@@ -3,20 +3,20 @@
 #include <lmdbench/base/statistics.h>
 
 #include <CLI/CLI.hpp>
+#include <benchmarks/global_search/check.h>
 #include <fmt/core.h>
-#include <micro/global_search/check.h>
-#include <micro/poses.h>
-#include <micro/program.h>
-#include <micro/timing.h>
 #include <nlohmann/json.hpp>
 #include <study/studies.h>
+#include <support/poses.h>
+#include <support/program.h>
+#include <support/timing.h>
 
 #include <memory>
 
 /// Times every implementation of the task "global search" on the same poses, interleaved
 /// pose by pose, and reports the error of each beside its time. Exit code 1 when an
 /// implementation does not do what it promises.
-namespace lmdbench::micro {
+namespace lmdbench::experiments {
 namespace {
 
 struct Choice : StudyChoice {
@@ -124,18 +124,18 @@ int run(const Choice& choice) {
 }
 
 }  // namespace
-}  // namespace lmdbench::micro
+}  // namespace lmdbench::experiments
 
 void lmdbench::study::add_compare(CLI::App& app, Run& chosen) {
   CLI::App* command =
       app.add_subcommand("compare", "Interleaved comparison of global searches, error beside time");
-  const auto choice = std::make_shared<micro::Choice>();
-  micro::add_mesh_options(*command, choice->scene);
-  micro::add_study_options(*command, *choice);
+  const auto choice = std::make_shared<experiments::Choice>();
+  experiments::add_mesh_options(*command, choice->scene);
+  experiments::add_study_options(*command, *choice);
   command->add_option("--repetitions", choice->repetitions, "Timed runs a pose")->capture_default_str();
   command->add_option("--path", choice->path,
                       "Recorded path (TUM) instead of random poses: consecutive frames at 1 kHz");
   command->add_option("--first-frame", choice->first_frame, "First frame of the path")->capture_default_str();
   command->add_flag("--slow", choice->slow, "Time slow implementations too");
-  command->callback([&chosen, choice] { chosen = [choice] { return micro::run(*choice); }; });
+  command->callback([&chosen, choice] { chosen = [choice] { return experiments::run(*choice); }; });
 }

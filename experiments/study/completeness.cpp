@@ -4,14 +4,14 @@
 #include <lmdbench/motion/tum_file.h>
 
 #include <CLI/CLI.hpp>
-#include <completeness/far_scenes.h>
-#include <completeness/study.h>
 #include <fmt/core.h>
-#include <micro/context.h>
-#include <micro/poses.h>
-#include <micro/program.h>
 #include <nlohmann/json.hpp>
+#include <study/completeness/far_scenes.h>
+#include <study/completeness/study.h>
 #include <study/studies.h>
+#include <support/context.h>
+#include <support/poses.h>
+#include <support/program.h>
 
 #include <cmath>
 #include <cstdio>
@@ -50,7 +50,7 @@ const std::vector<std::string> DEFAULT_PAIRS = {"bunny-5k:bunny-5k",
                                                 "wedge:l-block",
                                                 "two-boxes:patch"};
 
-struct Choice : micro::StudyChoice {
+struct Choice : experiments::StudyChoice {
   Choice() { seed = 3; }
   std::vector<std::string> pairs = DEFAULT_PAIRS;
   std::vector<std::string> experiments;
@@ -75,7 +75,7 @@ class Complaints {
   std::size_t count_ = 0;
 };
 
-void choose_pair(const std::string& pair, micro::SceneChoice& scene) {
+void choose_pair(const std::string& pair, experiments::SceneChoice& scene) {
   const std::size_t colon = pair.find(':');
   if (colon == std::string::npos)
     throw UsageError("", "--pair", "'" + pair + "' has no colon", "write MOVING:FIXED");
@@ -86,7 +86,7 @@ void choose_pair(const std::string& pair, micro::SceneChoice& scene) {
 nlohmann::json to_json(const Judgement& judgement) {
   return {{"poses", judgement.poses},
           {"wrong_poses", judgement.wrong_poses},
-          {"set", micro::error_json(judgement.same, judgement.neighbours)},
+          {"set", experiments::error_json(judgement.same, judgement.neighbours)},
           {"duplicates", judgement.duplicates},
           {"worst_distance_difference_diagonals", judgement.worst_distance_difference},
           {"worst_point_difference_diagonals", judgement.worst_point_difference}};
@@ -104,8 +104,8 @@ constexpr const char* NUMBER_HEADS =
 
 std::vector<Pose> choose_poses(const Scene& scene, const Choice& choice) {
   if (choice.poses_file.empty())
-    return micro::grazing_poses(*scene.moving, *scene.fixed.at(0), choice.scene.gap * choice.scene.diagonal,
-                                choice.poses, choice.seed);
+    return experiments::grazing_poses(*scene.moving, *scene.fixed.at(0),
+                                      choice.scene.gap * choice.scene.diagonal, choice.poses, choice.seed);
   std::vector<Pose> poses;
   for (const TimedPose& timed : read_tum(choice.poses_file)) poses.push_back(timed.pose);
   return poses;
@@ -176,15 +176,19 @@ nlohmann::json run_far_scenes(const Choice& choice, Complaints& complaints) {
 
 int run(const Choice& choice) {
   Complaints complaints;
-  nlohmann::json report = {
-      {"format", "lmdbench-completeness"}, {"format_version", 1},
-      {"context", micro::run_context()},   {"diagonal_m", choice.scene.diagonal},
-      {"gap", choice.scene.gap},           {"seed", choice.seed},
-      {"poses_file", choice.poses_file},   {"position_tolerance_diagonals", POSITION_TOLERANCE},
-      {"pairs", nlohmann::json::array()},  {"paths", nlohmann::json::array()}};
+  nlohmann::json report = {{"format", "lmdbench-completeness"},
+                           {"format_version", 1},
+                           {"context", experiments::run_context()},
+                           {"diagonal_m", choice.scene.diagonal},
+                           {"gap", choice.scene.gap},
+                           {"seed", choice.seed},
+                           {"poses_file", choice.poses_file},
+                           {"position_tolerance_diagonals", POSITION_TOLERANCE},
+                           {"pairs", nlohmann::json::array()},
+                           {"paths", nlohmann::json::array()}};
   const auto save = [&] {
     report["wrong_poses"] = complaints.count();
-    micro::write_report(choice.json, report);
+    experiments::write_report(choice.json, report);
   };
   if (!choice.pairs.empty()) {
     fmt::print("## certified against exhaustive\n\n");
@@ -240,7 +244,7 @@ void lmdbench::study::add_completeness(CLI::App& app, Run& chosen) {
       ->add_option("--far-poses", choice->far_poses,
                    "Poses of generated scenes far from the origin, 1e-10 to 1e-5 of it large; 0: none")
       ->capture_default_str();
-  micro::add_study_options(*command, *choice);
+  experiments::add_study_options(*command, *choice);
   command->add_option("--poses-file", choice->poses_file, "Poses of this TUM file instead of random ones");
   command
       ->add_option("--truth-stride", choice->truth_stride,

@@ -8,11 +8,11 @@
 #include <Eigen/Geometry>
 #include <completeness/judge.h>
 #include <fmt/core.h>
-#include <micro/bodies.h>
-#include <micro/program.h>
-#include <micro/timing.h>
 #include <nlohmann/json.hpp>
 #include <study/studies.h>
+#include <support/bodies.h>
+#include <support/program.h>
+#include <support/timing.h>
 
 #include <algorithm>
 #include <array>
@@ -27,7 +27,7 @@ namespace lmdbench::study {
 namespace {
 
 struct Choice {
-  micro::SceneChoice scene;
+  experiments::SceneChoice scene;
   double cutoff = 0.005;  ///< Share of the diagonal.
   double turn = 0.1;      ///< rad
   std::size_t frames = 5000, passes = 5, truth_stride = 50, rows = 20;
@@ -64,7 +64,7 @@ std::vector<Pose> slide(const Scene& scene, const Choice& choice) {
 }
 
 int run(const Choice& choice) {
-  Scene scene = micro::load_scene(choice.scene);
+  Scene scene = experiments::load_scene(choice.scene);
   scene.cutoff = choice.cutoff * choice.scene.diagonal;
   const std::vector<Pose> poses = slide(scene, choice);
   std::array<Way, 2> ways{Way{"coherent", true, {}}, Way{"from scratch", false, {}}};
@@ -76,9 +76,9 @@ int run(const Choice& choice) {
       Certified method(scene, {.frame_coherence = way.coherent});
       for (std::size_t i = 0; i < poses.size(); ++i) {
         WorkCounters counters;
-        const double begin = micro::thread_seconds();
+        const double begin = experiments::thread_seconds();
         method.search(poses[i], set, counters);
-        way.seconds[i] = std::min(way.seconds[i], micro::thread_seconds() - begin);
+        way.seconds[i] = std::min(way.seconds[i], experiments::thread_seconds() - begin);
         lmds[i] = set.size();
         exact_pairs[i] = counters[Certified::Counter::TRIANGLE_DISTANCES];
       }
@@ -145,7 +145,7 @@ int run(const Choice& choice) {
       "Against exhaustive: {} sets of {} LMDs, {} sets wrong, points off by {:.1e} diagonals at most\n{}",
       judgement.poses, judgement.same.true_lmds, judgement.wrong_poses, judgement.worst_point_difference,
       objections);
-  micro::write_report(choice.json, report);
+  experiments::write_report(choice.json, report);
   return judgement.wrong_poses == 0 ? 0 : 1;
 }
 
@@ -154,8 +154,8 @@ int run(const Choice& choice) {
 void add_depth(CLI::App& app, Run& chosen) {
   const auto choice = std::make_shared<Choice>();
   CLI::App* command = app.add_subcommand("depth", "What does a frame cost at every depth of overlap?");
-  micro::add_mesh_options(*command, choice->scene);
-  micro::add_scene_options(*command, choice->scene);
+  experiments::add_mesh_options(*command, choice->scene);
+  experiments::add_scene_options(*command, choice->scene);
   command->add_option("--cutoff", choice->cutoff, "Cutoff, share of the diagonal")->capture_default_str();
   command->add_option("--turn", choice->turn, "Turn of the moving mesh about z [rad]")->capture_default_str();
   command->add_option("--frames", choice->frames, "Frames from apart to the deepest")

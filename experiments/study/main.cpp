@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include <CLI/CLI.hpp>
-#include <micro/program.h>
 #include <study/studies.h>
+#include <support/program.h>
 
 /// lmdbench-study: questions beyond one experiment. Markdown on standard output, numbers in a JSON file where --json
 /// names one; exit code 1 when a method breaks a promise.
@@ -18,5 +18,5 @@ int main(int argc, char** argv) {
   study::add_compare(app, chosen);
   study::add_depth(app, chosen);
   study::add_integrators(app, chosen);
-  return micro::run_program(app, argc, argv, [&chosen] { return chosen(); });
+  return experiments::run_program(app, argc, argv, [&chosen] { return chosen(); });
 }

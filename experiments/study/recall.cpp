@@ -4,11 +4,11 @@
 
 #include <CLI/CLI.hpp>
 #include <fmt/core.h>
-#include <micro/poses.h>
-#include <micro/program.h>
 #include <nlohmann/json.hpp>
-#include <recall_study/variant.h>
+#include <study/recall/variant.h>
 #include <study/studies.h>
+#include <support/poses.h>
+#include <support/program.h>
 
 #include <algorithm>
 #include <memory>
@@ -46,7 +46,7 @@ nlohmann::json to_json(const VariantResult& result) {
           {"method", result.variant.method},
           {"options", result.variant.options},
           {"trackings", result.variant.trackings},
-          {"set", micro::error_json(result.same, result.neighbours)},
+          {"set", experiments::error_json(result.same, result.neighbours)},
           {"poses_with_loss", result.poses_with_loss},
           {"minimum_missed", result.minimum_missed}};
 }
@@ -58,10 +58,10 @@ std::vector<VariantResult> judge_all(const std::vector<Variant>& variants, const
   return results;
 }
 
-int run(const micro::StudyChoice& choice) {
+int run(const experiments::StudyChoice& choice) {
   Scene scene = load_scene(choice.scene);
   const double diagonal = choice.scene.diagonal;
-  const std::vector<Pose> poses = micro::grazing_poses(
+  const std::vector<Pose> poses = experiments::grazing_poses(
       *scene.moving, *scene.fixed.at(0), choice.scene.gap * diagonal, choice.poses, choice.seed);
   fmt::print("## {} on {}\n\n{} random poses at gap {:g} % of the diagonal, seed {}\n", choice.scene.moving,
              choice.scene.fixed, poses.size(), 100.0 * choice.scene.gap, choice.seed);
@@ -89,7 +89,7 @@ int run(const micro::StudyChoice& choice) {
     for (const VariantResult& result : original) entry["original"].push_back(to_json(result));
     report["cutoffs"].push_back(entry);
   }
-  micro::write_report(choice.json, report);
+  experiments::write_report(choice.json, report);
   if (!cones_conservative) fmt::print(stderr, "error: the cone tests alone lost true LMDs\n");
   return cones_conservative ? 0 : 1;
 }
@@ -99,9 +99,9 @@ int run(const micro::StudyChoice& choice) {
 
 void lmdbench::study::add_recall(CLI::App& app, Run& chosen) {
   CLI::App* command = app.add_subcommand("recall", "Where the paper's algorithms lose LMDs");
-  const auto choice = std::make_shared<micro::StudyChoice>();
+  const auto choice = std::make_shared<experiments::StudyChoice>();
   choice->seed = 2;
-  micro::add_mesh_options(*command, choice->scene);
-  micro::add_study_options(*command, *choice);
+  experiments::add_mesh_options(*command, choice->scene);
+  experiments::add_study_options(*command, *choice);
   command->callback([&chosen, choice] { chosen = [choice] { return recall_study::run(*choice); }; });
 }

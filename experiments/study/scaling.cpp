@@ -9,14 +9,14 @@
 
 #include <CLI/CLI.hpp>
 #include <fmt/core.h>
-#include <micro/context.h>
-#include <micro/poses.h>
-#include <micro/program.h>
-#include <micro/timing.h>
 #include <nlohmann/json.hpp>
-#include <scaling/measure.h>
-#include <scaling/subdivide.h>
+#include <study/scaling/measure.h>
+#include <study/scaling/subdivide.h>
 #include <study/studies.h>
+#include <support/context.h>
+#include <support/poses.h>
+#include <support/program.h>
+#include <support/timing.h>
 
 #include <algorithm>
 #include <cmath>
@@ -142,7 +142,7 @@ class Bodies {
 
 nlohmann::json to_json(const Series& series) {
   nlohmann::json result = {{"seconds", series.seconds}, {"objection", series.objection}};
-  if (series.same.true_lmds > 0) result["set"] = micro::error_json(series.same, series.neighbours);
+  if (series.same.true_lmds > 0) result["set"] = experiments::error_json(series.same, series.neighbours);
   if (series.counters.empty()) return result;
   for (const CounterDescription& counter : method_description("certified").counters) {
     nlohmann::json values;
@@ -207,8 +207,8 @@ nlohmann::json run_study(const Study& study, const Choice& choice, Bodies& bodie
     scene.fixed = {bodies.get(point.fixed)};
     scene.cutoff = point.cutoff * choice.diagonal;
     if (poses.empty() || !study.same_surface)
-      poses = micro::grazing_poses(*scene.moving, *scene.fixed[0], point.gap * choice.diagonal, choice.poses,
-                                   choice.seed);
+      poses = experiments::grazing_poses(*scene.moving, *scene.fixed[0], point.gap * choice.diagonal,
+                                         choice.poses, choice.seed);
     MeasureChoice measure_choice;
     measure_choice.repetitions = choice.repetitions;
     measure_choice.seed = choice.seed;
@@ -266,7 +266,7 @@ void print_costs(const nlohmann::json& costs) {
 int run(const Choice& choice) {
   nlohmann::json report = {{"format", "lmdbench-scaling"},
                            {"format_version", FORMAT_VERSION},
-                           {"context", micro::run_context()},
+                           {"context", experiments::run_context()},
                            {"diagonal_m", choice.diagonal},
                            {"poses", choice.poses},
                            {"repetitions", choice.repetitions},
@@ -284,7 +284,7 @@ int run(const Choice& choice) {
     if (choice.only.empty() ? study.large && !choice.large : !named) continue;
     report["studies"].push_back(run_study(study, choice, bodies, kept_promises));
     report["builds"] = bodies.costs();
-    micro::write_report(choice.json, report);
+    experiments::write_report(choice.json, report);
   }
   if (!unknown.empty())
     throw UsageError("", "--only", "there is no study '" + unknown.front() + "'",

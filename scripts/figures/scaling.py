@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-FileCopyrightText: The lmdbench authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""The scaling figure from the file of experiments/scaling: run time over triangles at a fixed contact with log-log
+"""The scaling figure from the file of experiments/study/scaling: run time over triangles at a fixed contact with log-log
 slopes, certified's work counters over triangles, and run time over cutoff and over the number of LMDs. A point stands
 at the median over the poses (work counters: at the mean). Slopes are least squares through
 the medians; their 95 % intervals come from a bootstrap over poses: pose i has the same orientation and line of approach

@@ -138,10 +138,10 @@ PreparedRun prepare(const Experiment& experiment) {
     if (note.file && !listed)
       prepared.files.push_back({"mesh:" + note.name, *note.file, note.sha256, note.size});
     if (note.flattening.moved_vertices > 0)
-      prepared.warnings.push_back(
+      prepared.warnings.emplace_back(
           fmt::format("{} mesh {}: {}", note.role, note.name, to_text(note.flattening)));
     for (const std::string& finding : findings(note.report))
-      prepared.warnings.push_back(fmt::format("{} mesh {}: {}", note.role, note.name, finding));
+      prepared.warnings.emplace_back(fmt::format("{} mesh {}: {}", note.role, note.name, finding));
   }
   if (experiment.loop.closed)
     prepared.input.make_poses = [loop = experiment.loop, path = prepared.input.poses,
@@ -150,7 +150,7 @@ PreparedRun prepare(const Experiment& experiment) {
     };
   prepared.starts_touching = touches(prepared.scene(), prepared.input.poses.front());
   if (prepared.starts_touching)
-    prepared.warnings.push_back(
+    prepared.warnings.emplace_back(
         "the meshes touch in the first frame: LMDs at distance 0 have no direction there and exert no force "
         "until they "
         "have been apart");

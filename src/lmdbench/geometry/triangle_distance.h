@@ -37,7 +37,7 @@ struct TrianglePairDistance {
 ///
 /// Most pairs are proved from a guess of the nearest features (feature_proof.h), about 60 ns a few sizes
 /// apart and 140 ns face to face; contact, parallel features and exact ties take all candidates
-/// (all_candidates.h), 0.3 to 1 us. For many pairs see triangle_distance_batch.h.
+/// (all_candidates.h), 0.3 to 1 us.
 TrianglePairDistance triangle_distance(const Triangle& a, const Triangle& b);
 
 }  // namespace lmdbench

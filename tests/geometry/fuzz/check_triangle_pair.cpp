@@ -4,8 +4,8 @@
 
 #include <lmdbench/geometry/tolerance.h>
 #include <lmdbench/geometry/triangle_distance.h>
-#include <lmdbench/geometry/triangle_distance_batch.h>
 
+#include <benchmarks/triangle_distance/batch/triangle_distance_batch.h>
 #include <judge/brute_force_distance.h>
 
 #include <array>

@@ -1,0 +1,76 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <lmdbench/experiment/lockstep.h>
+
+#include <support/lmd_error.h>
+
+#include <cstddef>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+/// Tasks along a recorded path: what one haptic frame takes ("whole frame"), and what its
+/// local part takes ("local tracking").
+namespace lmdbench::experiments {
+
+/// Consecutive frames of an experiment, with the truth at some of them.
+struct RecordedPath {
+  std::string name;
+  Scene scene;
+  LockstepInput input;  ///< Poses of the frames.
+  DriverChoice driver;
+  std::vector<LockstepMethod> methods;    ///< The experiment's.
+  ForceProfile profile;                   ///< Of what is no method of the experiment.
+  std::vector<LmdSet> lmds = {};          ///< LMDs of every frame, by `certified`.
+  std::vector<std::size_t> checked = {};  ///< Frames whose truth is known, ascending.
+  Truth truth = {};                       ///< One a checked frame, by `exhaustive`.
+
+  const std::vector<Pose>& poses() const { return input.poses; }
+  /// The experiment's method of that label; where it has none, the method of that name with default options.
+  LockstepMethod method(const std::string& method) const;
+};
+
+struct PathChoice {
+  std::filesystem::path experiment;
+  std::filesystem::path meshes;
+  std::size_t first_frame = 0;
+  std::size_t frame_count = 0;
+  std::size_t check_stride = 1;  ///< Truth is sought in every so many frames.
+};
+
+/// @throws Error for an experiment, mesh or path that cannot be used, or when the path is shorter
+RecordedPath load_path(const PathChoice& choice);
+
+/// Fills in LMDs, checked frames and truth.
+void find_truth(RecordedPath& path, std::size_t check_stride);
+
+/// Something that is done in every haptic frame.
+class FrameLoop {
+ public:
+  virtual ~FrameLoop() = default;
+  /// What is timed. Frames come one after the other; frame 0 begins anew.
+  virtual void step(std::size_t frame) = 0;
+  /// Smallest distance that the last step found [m]; NaN where it found nothing.
+  virtual double minimum_distance() const = 0;
+  /// LMD set after the last step; null for peers that find a nearest pair only.
+  virtual const LmdSet* lmds() const = 0;
+};
+
+struct FrameImplementation {
+  std::string name;
+  Promise promise = Promise::APPROXIMATION;
+  bool slow = false;  ///< Steps at the checked frames only; for loops that keep nothing from frame to frame.
+  std::function<std::unique_ptr<FrameLoop>(const RecordedPath&)> make;
+};
+
+/// The frames that an implementation steps through.
+std::vector<std::size_t> frames_of(const FrameImplementation& implementation, const RecordedPath& path);
+
+/// Steps through the path and compares with truth.
+LmdError check_frames(const FrameImplementation& implementation, FrameLoop& loop, const RecordedPath& path);
+
+}  // namespace lmdbench::experiments

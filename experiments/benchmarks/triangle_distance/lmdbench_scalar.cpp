@@ -1,0 +1,19 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/geometry/triangle_distance.h>
+
+#include <benchmarks/triangle_distance/implementation.h>
+
+#include <cmath>
+
+namespace lmdbench::experiments {
+
+/// The exact-form kernel of the program, one pair at a time, with its witness points and closest features.
+DistanceImplementation lmdbench_scalar_distance() {
+  return {"lmdbench-scalar", [](const PairFamily& pairs, std::span<double> distances) {
+            for (std::size_t i = 0; i < pairs.size(); ++i)
+              distances[i] = std::sqrt(triangle_distance(pairs.a[i], pairs.b[i]).squared_distance);
+          }};
+}
+
+}  // namespace lmdbench::experiments

@@ -1,0 +1,33 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <benchmarks/frame_loop.h>
+#include <benchmarks/global_search/implementation.h>
+
+#include <string>
+#include <vector>
+
+namespace lmdbench::experiments {
+
+/// Task "whole frame": all that a haptic frame costs, from the pose to the force of the device. Methods that
+/// track locally search and track as the experiment configures it; their searches are spread over the frames
+/// between two of them, as if one core did everything. Peers outside the registry find a nearest pair and
+/// make no force.
+
+/// A method of the registry, as the experiment configures it or with its default options.
+FrameImplementation method_frame(const std::string& method);
+
+FrameImplementation fcl_cold_frame();
+FrameImplementation fcl_warm_frame();
+
+/// All that this build knows.
+std::vector<FrameImplementation> frame_implementations();
+
+/// A search in every frame, and the force of what it finds.
+FrameImplementation rendered_search(const SearchImplementation& search);
+
+/// A method by its name, with local tracking and a search now and then, and the force.
+FrameImplementation rendered_tracking(const std::string& method);
+
+}  // namespace lmdbench::experiments

@@ -1,0 +1,70 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <fmt/format.h>
+#include <study/completeness/judge.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace lmdbench::completeness {
+namespace {
+
+std::string describe(const Lmd& lmd) {
+  return fmt::format("{} {} on {} {} of body {} at {:.17g} m", to_string(lmd.feature_moving.kind),
+                     lmd.feature_moving.index, to_string(lmd.feature_fixed.kind), lmd.feature_fixed.index,
+                     lmd.fixed_body, lmd.distance);
+}
+
+const Lmd* find_pair(const LmdSet& set, const Lmd& wanted) {
+  const auto found =
+      std::find_if(set.begin(), set.end(), [&](const Lmd& lmd) { return same_feature_pair(lmd, wanted); });
+  return found == set.end() ? nullptr : &*found;
+}
+
+}  // namespace
+
+Judgement& Judgement::operator+=(const Judgement& other) {
+  same += other.same;
+  neighbours += other.neighbours;
+  duplicates += other.duplicates;
+  poses += other.poses;
+  wrong_poses += other.wrong_poses;
+  worst_distance_difference = std::max(worst_distance_difference, other.worst_distance_difference);
+  worst_point_difference = std::max(worst_point_difference, other.worst_point_difference);
+  return *this;
+}
+
+Judgement judge(const LmdSet& truth, const LmdSet& reported, const Scene& scene, double diagonal,
+                std::string& objection) {
+  Judgement result;
+  result.poses = 1;
+  result.same = agreement(truth, reported, Match::SAME_FEATURES, scene);
+  result.neighbours = agreement(truth, reported, Match::NEIGHBOURING_FEATURES, scene);
+  result.duplicates = reported.size() - distinct_pairs(reported).size();
+  objection.clear();
+  const auto object = [&](const std::string& what) { objection += (objection.empty() ? "" : "; ") + what; };
+  if (result.duplicates > 0) object(fmt::format("{} duplicates", result.duplicates));
+  for (const Lmd& lmd : truth) {
+    const Lmd* same = find_pair(reported, lmd);
+    if (same == nullptr) {
+      object("missed " + describe(lmd));
+      continue;
+    }
+    const double distance = std::abs(lmd.distance - same->distance) / diagonal;
+    const double point = std::max((lmd.point_moving - same->point_moving).norm(),
+                                  (lmd.point_fixed - same->point_fixed).norm()) /
+                         diagonal;
+    result.worst_distance_difference = std::max(result.worst_distance_difference, distance);
+    result.worst_point_difference = std::max(result.worst_point_difference, point);
+    // Written so that NaN objects.
+    if (!(distance <= POSITION_TOLERANCE && point <= POSITION_TOLERANCE))
+      object(fmt::format("{}: distance off by {:.2g}, points by {:.2g} of the diagonal", describe(lmd),
+                         distance, point));
+  }
+  for (const Lmd& lmd : reported)
+    if (find_pair(truth, lmd) == nullptr) object("reported " + describe(lmd) + ", which is none");
+  result.wrong_poses = objection.empty() ? 0 : 1;
+  return result;
+}
+
+}  // namespace lmdbench::completeness

@@ -1,0 +1,82 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/catalogue/shapes.h>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <study/completeness/judge.h>
+
+namespace lmdbench::completeness {
+namespace {
+
+using ::testing::HasSubstr;
+
+class JudgeTest : public ::testing::Test {
+ protected:
+  JudgeTest() {
+    const auto body = std::make_shared<const Body>("box", build_surface(make_box(Vec3::Ones())));
+    scene_.moving = body;
+    scene_.fixed = {body};
+    for (const int vertex : {0, 1, 2}) {
+      Lmd lmd;
+      lmd.distance = 0.1 * (vertex + 1);
+      lmd.point_moving = Vec3::Zero();
+      lmd.point_fixed = Vec3(lmd.distance, 0.0, 0.0);
+      lmd.feature_moving = {FeatureKind::VERTEX, vertex};
+      lmd.feature_fixed = {FeatureKind::VERTEX, 0};
+      truth_.push_back(lmd);
+    }
+  }
+  Judgement judge_now(const LmdSet& reported) { return judge(truth_, reported, scene_, 1.0, objection_); }
+
+  Scene scene_;
+  LmdSet truth_;
+  std::string objection_;
+};
+
+TEST_F(JudgeTest, HasNothingAgainstTheTruth) {
+  const Judgement judgement = judge_now(truth_);
+  EXPECT_EQ(judgement.wrong_poses, 0u) << objection_;
+  EXPECT_EQ(judgement.same.recall(), 1.0);
+  EXPECT_EQ(judgement.same.precision(), 1.0);
+  EXPECT_EQ(judgement.worst_point_difference, 0.0);
+}
+
+TEST_F(JudgeTest, NamesAMiss) {
+  LmdSet reported = truth_;
+  reported.erase(reported.begin() + 1);
+  const Judgement judgement = judge_now(reported);
+  EXPECT_EQ(judgement.wrong_poses, 1u);
+  EXPECT_EQ(judgement.same.missed(), 1u);
+  EXPECT_THAT(objection_, HasSubstr("missed vertex 1"));
+}
+
+TEST_F(JudgeTest, NamesWhatIsNoLmd) {
+  LmdSet reported = truth_;
+  reported[0].feature_moving.index = 7;
+  EXPECT_EQ(judge_now(reported).same.right, 2u);
+  EXPECT_THAT(objection_, HasSubstr("reported vertex 7"));
+}
+
+TEST_F(JudgeTest, CountsDuplicates) {
+  LmdSet reported = truth_;
+  reported.push_back(truth_[2]);
+  const Judgement judgement = judge_now(reported);
+  EXPECT_EQ(judgement.duplicates, 1u);
+  EXPECT_EQ(judgement.wrong_poses, 1u);
+}
+
+TEST_F(JudgeTest, MeasuresDistancesAndPoints) {
+  LmdSet reported = truth_;
+  reported[0].point_fixed.y() += 0.5 * POSITION_TOLERANCE;
+  EXPECT_EQ(judge_now(reported).wrong_poses, 0u);
+  reported[0].point_fixed.y() += POSITION_TOLERANCE;
+  EXPECT_EQ(judge_now(reported).wrong_poses, 1u);
+  EXPECT_THAT(objection_, HasSubstr("off by"));
+  reported = truth_;
+  reported[1].distance = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(judge_now(reported).wrong_poses, 1u) << "NaN";
+}
+
+}  // namespace
+}  // namespace lmdbench::completeness

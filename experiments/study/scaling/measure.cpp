@@ -1,0 +1,198 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/lmd/first_order.h>
+#include <lmdbench/methods/certified/hierarchy/wide_hierarchy.h>
+#include <lmdbench/methods/registry.h>
+#include <lmdbench/snch/minimum_distance.h>
+
+#include <benchmarks/global_search/implementation.h>
+#include <fmt/format.h>
+#include <study/scaling/measure.h>
+#include <study/scaling/slide.h>
+#include <support/poses.h>
+#include <support/timing.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <ctime>
+#include <limits>
+
+namespace lmdbench::scaling {
+namespace {
+
+/// Relative; the poses reach the gap to within GAP_TOLERANCE, and FCL is judged with 1e-6 in this project.
+constexpr double MINIMUM_TOLERANCE = 2.0 * experiments::GAP_TOLERANCE;
+
+bool same_set(const LmdSet& a, const LmdSet& b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(), same_feature_pair);
+}
+
+/// Each pair once: what the paper's searches leave are candidates.
+void judge(Series& series, const LmdSet& truth, const LmdSet& lmds, const Scene& scene) {
+  const LmdSet reported = distinct_pairs(lmds);
+  series.same += agreement(truth, reported, Match::SAME_FEATURES, scene);
+  series.neighbours += agreement(truth, reported, Match::NEIGHBOURING_FEATURES, scene);
+}
+
+/// `certified` with the slide that leads to each pose.
+class CertifiedRunner {
+ public:
+  CertifiedRunner(const Scene& scene, bool coherent, const std::vector<Pose>& poses,
+                  const std::vector<std::vector<Pose>>& slides)
+      : poses_(poses), slides_(slides) {
+    method_ = make_method("certified", scene, {{"frame_coherence", coherent}});
+  }
+  void slide(std::size_t pose) {
+    WorkCounters ignored;
+    for (const Pose& frame : slides_[pose]) method_->search(frame, lmds_, ignored);
+  }
+  void search(std::size_t pose) {
+    counters_ = WorkCounters{};
+    method_->search(poses_[pose], lmds_, counters_);
+  }
+  const LmdSet& lmds() const { return lmds_; }
+  const WorkCounters& counters() const { return counters_; }
+
+ private:
+  const std::vector<Pose>& poses_;
+  const std::vector<std::vector<Pose>>& slides_;
+  std::unique_ptr<Method> method_;
+  LmdSet lmds_;
+  WorkCounters counters_;
+};
+
+std::string minimum_objection(double minimum, const MeasureChoice& choice, double cutoff) {
+  if (choice.gap > cutoff) return std::isnan(minimum) ? "" : "found something beyond the cutoff";
+  const double relative = std::abs(minimum - choice.gap) / choice.gap;
+  // Written so that NaN objects.
+  return relative <= MINIMUM_TOLERANCE ? ""
+                                       : fmt::format("minimum distance off by {:.2g} of itself", relative);
+}
+
+/// Whether the nearest pair is an LMD. On a broken mesh it need not be one: a sheet that is turned over or
+/// lies twice at the same place has its outer side elsewhere.
+bool nearest_pair_is_lmd(const Scene& scene, const Pose& X_WM) {
+  const Surface& moving = scene.moving->surface();
+  const Surface& fixed = scene.fixed.at(0)->surface();
+  const NearestPair nearest = nearest_pair(moving, scene.moving->prepared<Hierarchy>(), fixed,
+                                           scene.fixed[0]->prepared<Hierarchy>(), X_WM);
+  Lmd lmd;
+  lmd.distance = nearest.distance;
+  lmd.point_moving = nearest.pair.point_a;
+  lmd.point_fixed = nearest.pair.point_b;
+  lmd.direction = (lmd.point_fixed - lmd.point_moving) / lmd.distance;
+  lmd.feature_moving = moving.feature_of(nearest.triangle_moving, nearest.pair.feature_a);
+  lmd.feature_fixed = fixed.feature_of(nearest.triangle_fixed, nearest.pair.feature_b);
+  return is_local_minimum(moving, RigidTransform(X_WM), fixed, lmd);
+}
+
+/// What `certified` is compared with: the other methods that are not brute force, and FCL.
+std::vector<experiments::SearchImplementation> peer_searches() {
+  std::vector<experiments::SearchImplementation> peers;
+  for (const experiments::SearchImplementation& search : experiments::method_searches())
+    if (!search.slow && search.promise != Promise::COMPLETE_SET) peers.push_back(search);
+  peers.push_back(experiments::fcl_cold_search());
+  return peers;
+}
+
+double wall_seconds() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+}  // namespace
+
+double process_seconds() {
+  timespec now{};
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
+
+Measurement measure(const Scene& scene, const std::vector<Pose>& poses, const MeasureChoice& choice) {
+  const Body& moving = *scene.moving;
+  const Body& fixed = *scene.fixed.at(0);
+  experiments::Random random(choice.seed);
+  std::vector<std::vector<Pose>> slides;
+  for (const Pose& pose : poses)
+    slides.push_back(lead_in(moving, fixed, pose, bounding_box_diagonal(moving.surface().mesh),
+                             choice.lead_in_frames, random));
+
+  Measurement result;
+  std::vector<experiments::TimedTask> tasks;
+  std::vector<LmdSet> truth(poses.size());
+
+  CertifiedRunner scratch(scene, false, poses, slides), sliding(scene, false, poses, slides),
+      coherent(scene, true, poses, slides);
+  const auto add_certified = [&](const std::string& name, CertifiedRunner& runner, bool slides_first) {
+    Series series;
+    series.name = name;
+    for (std::size_t i = 0; i < poses.size(); ++i) {
+      if (slides_first) runner.slide(i);
+      runner.search(i);
+      series.counters.push_back(runner.counters());
+      if (result.series.empty()) truth[i] = runner.lmds();
+      const std::string wrong = minimum_objection(minimum_distance(runner.lmds()), choice, scene.cutoff);
+      if (!wrong.empty() && nearest_pair_is_lmd(scene, poses[i]))
+        series.objection = fmt::format("pose {}: {}", i, wrong);
+      if (!same_set(truth[i], runner.lmds()))
+        series.objection = fmt::format("pose {}: not the set that is found from scratch", i);
+      judge(series, truth[i], runner.lmds(), scene);
+    }
+    result.series.push_back(series);
+    experiments::TimedTask task{name, [&runner](std::size_t pose) { runner.search(pose); }};
+    if (slides_first) task.prepare = [&runner](std::size_t pose) { runner.slide(pose); };
+    tasks.push_back(std::move(task));
+  };
+  add_certified("certified", scratch, false);
+  add_certified("certified sliding", sliding, true);
+  add_certified("certified coherent", coherent, true);
+  for (const LmdSet& set : truth) result.lmd_counts.push_back(set.size());
+
+  std::vector<std::unique_ptr<experiments::GlobalSearch>> peers;
+  for (const experiments::SearchImplementation& implementation : peer_searches()) {
+    peers.push_back(implementation.make(scene));
+    experiments::GlobalSearch* peer = peers.back().get();
+    Series series;
+    series.name = implementation.name;
+    for (std::size_t i = 0; i < poses.size(); ++i) {
+      peer->run(poses[i]);
+      if (const LmdSet* lmds = peer->lmds()) {
+        judge(series, truth[i], *lmds, scene);
+      } else {
+        const std::string wrong =
+            minimum_objection(peer->minimum_distance(), choice, std::numeric_limits<double>::infinity());
+        if (!wrong.empty()) series.objection = fmt::format("pose {}: {}", i, wrong);
+      }
+    }
+    result.series.push_back(series);
+    tasks.push_back({implementation.name, [peer, &poses](std::size_t pose) { peer->run(poses[pose]); }});
+  }
+
+  const auto seconds = experiments::time_interleaved(tasks, poses.size(), choice.repetitions);
+  for (std::size_t i = 0; i < tasks.size(); ++i) result.series[i].seconds = seconds[i];
+  return result;
+}
+
+BuildCost measure_build(const TriangleMesh& mesh) {
+  constexpr int RUNS = 3;
+  constexpr double INFINITE = std::numeric_limits<double>::infinity();
+  BuildCost cost{INFINITE, INFINITE, INFINITE, INFINITE};
+  for (int run = 0; run < RUNS; ++run) {
+    TriangleMesh copy = mesh;
+    const double start = wall_seconds(), start_cpu = process_seconds();
+    const Surface surface = build_surface(std::move(copy));
+    const double middle = wall_seconds(), middle_cpu = process_seconds();
+    const WideHierarchy hierarchy = build_wide_hierarchy(surface);
+    const double end_cpu = process_seconds();
+    cost.surface_seconds = std::min(cost.surface_seconds, middle - start);
+    cost.surface_cpu_seconds = std::min(cost.surface_cpu_seconds, middle_cpu - start_cpu);
+    cost.wide_hierarchy_seconds = std::min(cost.wide_hierarchy_seconds, wall_seconds() - middle);
+    cost.wide_hierarchy_cpu_seconds = std::min(cost.wide_hierarchy_cpu_seconds, end_cpu - middle_cpu);
+    cost.surface_bytes = surface.bytes();
+    cost.wide_hierarchy_bytes = hierarchy.bytes();
+    cost.features = hierarchy.feature_count;
+  }
+  return cost;
+}
+
+}  // namespace lmdbench::scaling

@@ -1,0 +1,33 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <lmdbench/geometry/pose.h>
+#include <lmdbench/lmd/body.h>
+
+#include <support/random.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <vector>
+
+namespace lmdbench::experiments {
+
+/// Poses X_WM at which the moving body is `gap` away from the fixed one: a random orientation, approached
+/// along a random line through both centres by conservative advancement (each step is the distance that is
+/// left, so nothing is jumped over). The first pose depends on the seed alone, not on how many follow.
+/// @param gap wanted minimum distance [m], positive; reached to within `GAP_TOLERANCE` of itself
+/// @throws std::runtime_error when a line misses the fixed body (bodies with a hole through the centre)
+std::vector<Pose> grazing_poses(const Body& moving, const Body& fixed, double gap, std::size_t count,
+                                std::uint64_t seed);
+
+/// Consecutive poses of a recorded path (TUM file) at 1 kHz, as the experiments see them.
+/// @param first  frame of the first pose
+/// @throws InputError when the file cannot be read; std::runtime_error when the path has not that many frames
+std::vector<Pose> path_poses(const std::filesystem::path& file, std::size_t first, std::size_t count);
+
+/// Relative to the gap: far below what any method resolves, reached in some dozens of steps.
+inline constexpr double GAP_TOLERANCE = 1e-6;
+
+}  // namespace lmdbench::experiments

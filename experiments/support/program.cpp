@@ -1,0 +1,68 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/base/atomic_file.h>
+#include <lmdbench/base/error.h>
+
+#include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
+#include <support/program.h>
+
+#include <exception>
+#include <iostream>
+
+namespace lmdbench::experiments {
+
+void add_mesh_options(CLI::App& app, SceneChoice& scene) {
+  app.add_option("--moving", scene.moving, "Moving mesh")->capture_default_str();
+  app.add_option("--fixed", scene.fixed, "Fixed mesh")->capture_default_str();
+}
+
+void add_scene_options(CLI::App& app, SceneChoice& scene) {
+  app.add_option("--meshes", scene.meshes, "Folder of built meshes")->capture_default_str();
+  app.add_option("--diagonal", scene.diagonal, "Diagonal of both meshes [m]")->capture_default_str();
+  app.add_option("--gap", scene.gap, "Gap, share of the diagonal")->capture_default_str();
+}
+
+void add_study_options(CLI::App& app, StudyChoice& choice) {
+  add_scene_options(app, choice.scene);
+  app.add_option("--cutoff", choice.cutoffs, "Cutoffs, shares of the diagonal")->capture_default_str();
+  app.add_option("--poses", choice.poses, "How many poses")->capture_default_str();
+  app.add_option("--seed", choice.seed, "Seed of the poses")->capture_default_str();
+  app.add_option("--json", choice.json, "Also write the tables to this file");
+}
+
+int report_errors(const std::function<int()>& run) {
+  try {
+    return run();
+  } catch (const Error& error) {
+    std::cerr << "error: " << error.what() << '\n';
+    return static_cast<int>(error.code());
+  } catch (const std::exception& error) {
+    std::cerr << "error: " << error.what() << '\n';
+    return static_cast<int>(ExitCode::INPUT_DATA);
+  }
+}
+
+int run_program(CLI::App& app, int argc, const char* const* argv, const std::function<int()>& run) {
+  CLI11_PARSE(app, argc, argv);
+  return report_errors(run);
+}
+
+void write_report(const std::string& file, const nlohmann::json& report) {
+  if (!file.empty()) write_file_atomically(file, report.dump(2) + '\n');
+}
+
+nlohmann::json error_json(const Agreement& same, const Agreement& neighbours) {
+  return {{"true_lmds", same.true_lmds},
+          {"found", same.found},
+          {"found_adjacent", neighbours.found},
+          {"reported", same.reported},
+          {"right", same.right},
+          {"right_adjacent", neighbours.right},
+          {"recall", same.recall()},
+          {"recall_adjacent", neighbours.recall()},
+          {"precision", same.precision()},
+          {"precision_adjacent", neighbours.precision()}};
+}
+
+}  // namespace lmdbench::experiments

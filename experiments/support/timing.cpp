@@ -1,0 +1,45 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/base/statistics.h>
+
+#include <support/timing.h>
+
+#include <ctime>
+
+namespace lmdbench::experiments {
+
+double thread_seconds() {
+  timespec now{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
+
+std::vector<std::vector<double>> time_interleaved(const std::vector<TimedTask>& tasks, std::size_t pose_count,
+                                                  std::size_t repetitions) {
+  const auto prepare = [](const TimedTask& task, std::size_t pose) {
+    if (task.prepare) task.prepare(pose);
+  };
+  for (std::size_t pose = 0; pose < pose_count; ++pose)
+    for (const TimedTask& task : tasks) {
+      prepare(task, pose);
+      task.run(pose);
+    }
+
+  std::vector samples(tasks.size(), std::vector(pose_count, std::vector<double>(repetitions)));
+  for (std::size_t repetition = 0; repetition < repetitions; ++repetition)
+    for (std::size_t pose = 0; pose < pose_count; ++pose)
+      for (std::size_t k = 0; k < tasks.size(); ++k) {
+        const std::size_t t = (k + pose + repetition) % tasks.size();
+        prepare(tasks[t], pose);
+        const double start = thread_seconds();
+        tasks[t].run(pose);
+        samples[t][pose][repetition] = thread_seconds() - start;
+      }
+
+  std::vector seconds(tasks.size(), std::vector<double>(pose_count));
+  for (std::size_t t = 0; t < tasks.size(); ++t)
+    for (std::size_t pose = 0; pose < pose_count; ++pose) seconds[t][pose] = median(samples[t][pose]);
+  return seconds;
+}
+
+}  // namespace lmdbench::experiments
