@@ -18,7 +18,7 @@ namespace lmdbench::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-using Floats = hn::Vec<Lanes>;
+using Floats = hn::Vec<FloatTag>;
 
 /// A vector of every lane. Products and sums stay apart: fused, they would round differently.
 struct Vectors {
@@ -26,7 +26,7 @@ struct Vectors {
 };
 
 HWY_INLINE Vectors load(const LaneSets& sets, std::size_t at) {
-  const Lanes f;
+  const FloatTag f;
   return {hn::LoadU(f, sets.x.data() + at), hn::LoadU(f, sets.y.data() + at),
           hn::LoadU(f, sets.z.data() + at)};
 }
@@ -54,25 +54,25 @@ HWY_INLINE Vectors choose(Mask mask, const Vectors& yes, const Vectors& no) {
 }
 
 HWY_INLINE void store(const Vectors& v, LaneVectors& result, std::size_t first) {
-  const Lanes f;
+  const FloatTag f;
   hn::Store(v.x, f, result.x + first);
   hn::Store(v.y, f, result.y + first);
   hn::Store(v.z, f, result.z + first);
 }
 
 HWY_INLINE Floats sine_of(Floats cosine) {
-  const Lanes f;
+  const FloatTag f;
   return hn::Sqrt(hn::Max(hn::Zero(f), hn::Sub(hn::Set(f, 1.0F), hn::Mul(cosine, cosine))));
 }
 
 HWY_INLINE Vectors unit(const Vectors& v) {
-  return scale(hn::Div(hn::Set(Lanes(), 1.0F), hn::Sqrt(dot(v, v))), v);
+  return scale(hn::Div(hn::Set(FloatTag(), 1.0F), hn::Sqrt(dot(v, v))), v);
 }
 
 void lane_axes(const LaneCaps& caps, int steps, LaneVectors& axes) {
   // Axes that are this close to the widest cap's have no direction to go.
   constexpr float LEAST_SQUARED_ACROSS = 1e-12F;
-  const Lanes f;
+  const FloatTag f;
   const auto one = hn::Set(f, 1.0F);
   for (std::size_t first = 0; first < WIDE_WIDTH; first += hn::Lanes(f)) {
     Vectors axis = load(caps.axes, first);
@@ -110,7 +110,7 @@ void lane_axes(const LaneCaps& caps, int steps, LaneVectors& axes) {
 }
 
 void lane_centres(const LaneSets& points, const LaneVectors& axes, int steps, LaneVectors& centres) {
-  const Lanes f;
+  const FloatTag f;
   const auto half = hn::Set(f, 0.5F);
   for (std::size_t first = 0; first < WIDE_WIDTH; first += hn::Lanes(f)) {
     const Vectors axis{hn::Load(f, axes.x + first), hn::Load(f, axes.y + first), hn::Load(f, axes.z + first)};

@@ -5,8 +5,6 @@
 #include <lmdbench/geometry/pose.h>
 #include <lmdbench/methods/certified/hierarchy/wide_hierarchy.h>
 
-#include <algorithm>
-#include <cmath>
 #include <cstdint>
 
 /// The test of one child ("probe") against the eight children of a node of the other mesh.
@@ -120,40 +118,6 @@ inline WideProbe make_probe(const WideChild& child, const WideTransform& X) {
   probe.sine = child.sine;
   return probe;
 }
-
-/// One lane of a node beside a probe: the quantities above that every form of the test needs.
-struct LaneBounds {
-  float dx, dy, dz;                         ///< D
-  float radius, cosine, sine, ux, uy, uz;   ///< Of the lane.
-  float squared_distance, z_probe, z_lane;  ///< |D|^2; z of the probe and of the lane.
-  float between, across;                    ///< u . u' and the sine of their angle, rounded up.
-  float radii, slab_probe, slab_lane;       ///< With the rounding that is granted.
-
-  LaneBounds(const WideNode& node, std::uint32_t lane, const WideProbe& probe, float rounding)
-      : dx(node.centre[0][lane] - probe.centre[0]),
-        dy(node.centre[1][lane] - probe.centre[1]),
-        dz(node.centre[2][lane] - probe.centre[2]),
-        radius(node.radius[lane]),
-        cosine(node.cosine[lane]),
-        sine(node.sine[lane]),
-        ux(node.axis[0][lane]),
-        uy(node.axis[1][lane]),
-        uz(node.axis[2][lane]),
-        squared_distance(dot(dx, dy, dz, dx, dy, dz)),
-        z_probe(dot(dx, dy, dz, probe.axis[0], probe.axis[1], probe.axis[2])),
-        z_lane(-dot(dx, dy, dz, ux, uy, uz)),
-        between(dot(ux, uy, uz, probe.axis[0], probe.axis[1], probe.axis[2])),
-        across(std::sqrt(std::max(1.0F - between * between, 0.0F) + DIRECTION_ROUNDING)),
-        radii((radius + probe.radius) + rounding),
-        slab_probe((probe.thickness + rounding) +
-                   (node.thickness[lane] * std::abs(between) + radius * across)),
-        slab_lane((node.thickness[lane] + rounding) +
-                  (probe.thickness * std::abs(between) + probe.radius * across)) {}
-
-  static float dot(float ax, float ay, float az, float bx, float by, float bz) {
-    return (ax * bx + ay * by) + az * bz;
-  }
-};
 
 /// The test, lane by lane: the reference that the vector form is checked against, bit for bit.
 WideMasks test_lanes_scalar(const WideNode& node, const WideProbe& probe, const WideLimits& limits);

@@ -29,65 +29,55 @@ constexpr std::size_t LOOK_AHEAD = 8;
 /// Entries of a queue that has never been used; it grows by doubling.
 constexpr std::size_t QUEUE_START = 4096;
 
-/// The same operations in the same order as test_lanes_scalar.
+/// The test of wide_node_test.h.
+template <class Lanes>
+HWY_INLINE WideMasks test_lanes(const WideNode& node, const WideProbe& probe, const WideLimits& limits) {
+  using Number = typename Lanes::Number;
+  const auto squared = [](Number x) HWY_ATTR { return x * x; };
+  const Number zero = Lanes::set(0.0F);
+  const Number cutoff = Lanes::set(limits.cutoff);
+  const Number touch_limit = Lanes::set(limits.touch);
+  WideMasks masks;
+  for (std::uint32_t first = 0; first < WIDE_WIDTH; first += Lanes::count()) {
+    const LaneBounds<Lanes> bounds(node, first, probe, limits.rounding);
+    const auto touch = (bounds.squared_distance <= squared(touch_limit + bounds.radii)) &
+                       (magnitude(bounds.z_probe) <= touch_limit + bounds.slab_probe) &
+                       (magnitude(bounds.z_lane) <= touch_limit + bounds.slab_lane);
+    const auto near = (bounds.squared_distance <= squared(cutoff + bounds.radii)) &
+                      (bounds.z_probe <= cutoff + bounds.slab_probe) &
+                      (bounds.z_lane <= cutoff + bounds.slab_lane);
+
+    const auto collinear =
+        -bounds.between >= (bounds.cosine * bounds.probe_cosine - bounds.sine * bounds.probe_sine) -
+                               Lanes::set(DIRECTION_ROUNDING);
+
+    const Number least_squared_distance = bounds.squared_distance * Lanes::set(1.0F - DIRECTION_ROUNDING);
+    const auto inside = [&](Number z, Number reach, Number cosine, Number sine) HWY_ATTR {
+      const Number side = bounds.radii * cosine + sine * least_of(reach, cutoff * cosine);
+      return (reach >= zero) & ((least_squared_distance - squared(z)) * squared(cosine) <= squared(side));
+    };
+    const auto directed =
+        inside(bounds.z_probe, bounds.z_probe + bounds.slab_probe, bounds.probe_cosine, bounds.probe_sine) &
+        inside(bounds.z_lane, bounds.z_lane + bounds.slab_lane, bounds.cosine, bounds.sine);
+
+    const std::uint32_t used_bits = Lanes::bits(Lanes::not_zero(node.child, first), first);
+    const std::uint32_t touch_bits = Lanes::bits(touch, first) & used_bits;
+    const std::uint32_t near_bits = Lanes::bits(near, first) & used_bits;
+    const std::uint32_t collinear_bits = Lanes::bits(collinear, first);
+    const std::uint32_t directed_bits = Lanes::bits(directed, first);
+    masks.used |= used_bits;
+    masks.touch |= touch_bits;
+    masks.lmd |= near_bits & collinear_bits & directed_bits;
+    masks.beyond |= used_bits & ~touch_bits & ~near_bits;
+    masks.not_collinear |= near_bits & ~touch_bits & ~collinear_bits;
+  }
+  return masks;
+}
+
 struct VectorTest {
   HWY_INLINE WideMasks operator()(const WideNode& node, const WideProbe& probe,
                                   const WideLimits& limits) const {
-    const Lanes f;
-    const hn::RebindToUnsigned<Lanes> u;
-    const auto squared = [](auto x) HWY_ATTR { return hn::Mul(x, x); };
-    const auto zero = hn::Zero(f);
-    const auto cutoff = hn::Set(f, limits.cutoff);
-    const auto touch_limit = hn::Set(f, limits.touch);
-    const auto direction_rounding = hn::Set(f, DIRECTION_ROUNDING);
-    WideMasks masks;
-    for (std::uint32_t first = 0; first < WIDE_WIDTH; first += static_cast<std::uint32_t>(hn::Lanes(f))) {
-      const VectorBounds bounds(node, first, probe, limits.rounding);
-      const auto touch =
-          hn::And(hn::Le(bounds.squared_distance, squared(hn::Add(touch_limit, bounds.radii))),
-                  hn::And(hn::Le(hn::Abs(bounds.z_probe), hn::Add(touch_limit, bounds.slab_probe)),
-                          hn::Le(hn::Abs(bounds.z_lane), hn::Add(touch_limit, bounds.slab_lane))));
-      const auto near = hn::And(hn::Le(bounds.squared_distance, squared(hn::Add(cutoff, bounds.radii))),
-                                hn::And(hn::Le(bounds.z_probe, hn::Add(cutoff, bounds.slab_probe)),
-                                        hn::Le(bounds.z_lane, hn::Add(cutoff, bounds.slab_lane))));
-
-      const auto collinear =
-          hn::Ge(hn::Neg(bounds.between), hn::Sub(hn::Sub(hn::Mul(bounds.cosine, bounds.probe_cosine),
-                                                          hn::Mul(bounds.sine, bounds.probe_sine)),
-                                                  direction_rounding));
-
-      const auto least_squared_distance =
-          hn::Mul(bounds.squared_distance, hn::Set(f, 1.0F - DIRECTION_ROUNDING));
-      const auto reach_probe = hn::Add(bounds.z_probe, bounds.slab_probe);
-      const auto reach_lane = hn::Add(bounds.z_lane, bounds.slab_lane);
-      const auto side_probe =
-          hn::Add(hn::Mul(bounds.radii, bounds.probe_cosine),
-                  hn::Mul(bounds.probe_sine, hn::Min(reach_probe, hn::Mul(cutoff, bounds.probe_cosine))));
-      const auto side_lane =
-          hn::Add(hn::Mul(bounds.radii, bounds.cosine),
-                  hn::Mul(bounds.sine, hn::Min(reach_lane, hn::Mul(cutoff, bounds.cosine))));
-      const auto directed = hn::And(
-          hn::And(hn::Ge(reach_probe, zero), hn::Ge(reach_lane, zero)),
-          hn::And(
-              hn::Le(hn::Mul(hn::Sub(least_squared_distance, squared(bounds.z_probe)),
-                             squared(bounds.probe_cosine)),
-                     squared(side_probe)),
-              hn::Le(hn::Mul(hn::Sub(least_squared_distance, squared(bounds.z_lane)), squared(bounds.cosine)),
-                     squared(side_lane))));
-
-      const auto used = hn::Ne(hn::Load(u, node.child + first), hn::Zero(u));
-      const std::uint32_t used_bits = mask_bits(f, hn::RebindMask(f, used), first);
-      const std::uint32_t touch_bits = mask_bits(f, touch, first) & used_bits;
-      const std::uint32_t near_bits = mask_bits(f, near, first) & used_bits;
-      const std::uint32_t collinear_bits = mask_bits(f, collinear, first);
-      const std::uint32_t directed_bits = mask_bits(f, directed, first);
-      masks.used |= used_bits;
-      masks.touch |= touch_bits;
-      masks.lmd |= near_bits & collinear_bits & directed_bits;
-      masks.beyond |= used_bits & ~touch_bits & ~near_bits;
-      masks.not_collinear |= near_bits & ~touch_bits & ~collinear_bits;
-    }
-    return masks;
+    return test_lanes<VectorLanes>(node, probe, limits);
   }
 };
 
@@ -106,7 +96,7 @@ void descend(const WideHierarchy& a, const WideHierarchy& b, const WideQuery& qu
   const WideNode* const nodes_a = a.nodes.data();
   const WideNode* const nodes_b = b.nodes.data();
   WideCounters count;
-  const hn::RebindToUnsigned<Lanes> u;
+  const hn::RebindToUnsigned<FloatTag> u;
   if (scratch.queue_a.size() < QUEUE_START) scratch.resize_queue(QUEUE_START);
   scratch.queue_a[0] = scratch.queue_b[0] = 0;
   std::size_t end = 1, looked_at = 0;
@@ -229,6 +219,10 @@ void find_wide_pairs(const WideHierarchy& a, const WideHierarchy& b, const WideQ
   } else {
     HWY_DYNAMIC_DISPATCH(descend_scalar)(a, b, query, scratch, counters);
   }
+}
+
+WideMasks test_lanes_scalar(const WideNode& node, const WideProbe& probe, const WideLimits& limits) {
+  return HWY_NAMESPACE::test_lanes<HWY_NAMESPACE::ScalarLanes>(node, probe, limits);
 }
 
 WideMasks test_lanes_vector(const WideNode& node, const WideProbe& probe, const WideLimits& limits) {

@@ -11,6 +11,7 @@
 #endif
 
 #include <lmdbench/methods/certified/hierarchy/wide_node_test.h>
+#include <lmdbench/methods/certified/hierarchy/wide_numbers-inl.h>
 
 #include <hwy/highway.h>
 
@@ -18,17 +19,6 @@ HWY_BEFORE_NAMESPACE();
 namespace lmdbench::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
-
-/// Lanes per vector: eight, or four twice where vectors are 128 bits wide.
-using Lanes = hn::CappedTag<float, WIDE_WIDTH>;
-
-template <class Mask>
-HWY_INLINE std::uint32_t mask_bits(Lanes lanes, Mask mask, std::uint32_t first) {
-  alignas(8) std::uint8_t bytes[8] = {};
-  hn::StoreMaskBits(lanes, mask, bytes);
-  const std::uint32_t all = hn::Lanes(lanes) >= 8 ? 0xFFu : (1u << hn::Lanes(lanes)) - 1u;
-  return (bytes[0] & all) << first;
-}
 
 /// Brings a node near that will be tested soon: a mesh that does not fit into a processor's
 /// cache is slow to descend otherwise.
@@ -45,8 +35,8 @@ struct KindBits {
 };
 
 HWY_INLINE KindBits kind_bits(const WideNode& node) {
-  const Lanes f;
-  const hn::RebindToUnsigned<Lanes> u;
+  const FloatTag f;
+  const hn::RebindToUnsigned<FloatTag> u;
   KindBits bits;
   for (std::uint32_t first = 0; first < WIDE_WIDTH; first += static_cast<std::uint32_t>(hn::Lanes(u))) {
     const auto child = hn::Load(u, node.child + first);
@@ -81,57 +71,56 @@ HWY_INLINE WideProbe make_probe_vector(const WideChild& child, const WideTransfo
   return probe;
 }
 
-/// Some lanes of a node beside a probe: the quantities of wide_node_test.h that every form of the test needs.
-/// The same operations in the same order as LaneBounds.
-struct VectorBounds {
-  using Floats = hn::Vec<Lanes>;
+/// Some lanes of a node beside a probe: the quantities of wide_node_test.h that every test of them needs.
+template <class Lanes>
+struct LaneBounds {
+  using Number = typename Lanes::Number;
 
-  Floats cx, cy, cz;              ///< Lanes' centres.
-  Floats dx, dy, dz;              ///< D
-  Floats ux, uy, uz;              ///< Lanes' axes.
-  Floats axis_x, axis_y, axis_z;  ///< Probe's axis.
-  Floats radius, cosine, sine;    ///< Lanes'.
-  Floats probe_cosine, probe_sine;
-  Floats squared_distance, z_probe, z_lane, between, across, radii, slab_probe, slab_lane;
+  Number cx, cy, cz;              ///< Lanes' centres.
+  Number dx, dy, dz;              ///< D
+  Number ux, uy, uz;              ///< Lanes' axes.
+  Number axis_x, axis_y, axis_z;  ///< Probe's axis.
+  Number radius, cosine, sine;    ///< Lanes'.
+  Number probe_cosine, probe_sine;
+  Number squared_distance, z_probe, z_lane;  ///< |D|^2; z of the probe and of the lane.
+  Number between, across;                    ///< u . u' and the sine of their angle, rounded up.
+  Number radii, slab_probe, slab_lane;       ///< With the rounding that is granted.
 
-  HWY_INLINE VectorBounds(const WideNode& node, std::uint32_t first, const WideProbe& probe, float granted) {
-    const Lanes f;
-    const auto rounding = hn::Set(f, granted);
-    cx = hn::Load(f, node.centre[0] + first);
-    cy = hn::Load(f, node.centre[1] + first);
-    cz = hn::Load(f, node.centre[2] + first);
-    dx = hn::Sub(cx, hn::Set(f, probe.centre[0]));
-    dy = hn::Sub(cy, hn::Set(f, probe.centre[1]));
-    dz = hn::Sub(cz, hn::Set(f, probe.centre[2]));
-    ux = hn::Load(f, node.axis[0] + first);
-    uy = hn::Load(f, node.axis[1] + first);
-    uz = hn::Load(f, node.axis[2] + first);
-    axis_x = hn::Set(f, probe.axis[0]);
-    axis_y = hn::Set(f, probe.axis[1]);
-    axis_z = hn::Set(f, probe.axis[2]);
-    radius = hn::Load(f, node.radius + first);
-    cosine = hn::Load(f, node.cosine + first);
-    sine = hn::Load(f, node.sine + first);
-    probe_cosine = hn::Set(f, probe.cosine);
-    probe_sine = hn::Set(f, probe.sine);
+  HWY_INLINE LaneBounds(const WideNode& node, std::uint32_t first, const WideProbe& probe, float granted) {
+    const auto set = [](float x) HWY_ATTR { return Lanes::set(x); };
+    const Number rounding = set(granted);
+    cx = Lanes::load(node.centre[0] + first);
+    cy = Lanes::load(node.centre[1] + first);
+    cz = Lanes::load(node.centre[2] + first);
+    dx = cx - set(probe.centre[0]);
+    dy = cy - set(probe.centre[1]);
+    dz = cz - set(probe.centre[2]);
+    ux = Lanes::load(node.axis[0] + first);
+    uy = Lanes::load(node.axis[1] + first);
+    uz = Lanes::load(node.axis[2] + first);
+    axis_x = set(probe.axis[0]);
+    axis_y = set(probe.axis[1]);
+    axis_z = set(probe.axis[2]);
+    radius = Lanes::load(node.radius + first);
+    cosine = Lanes::load(node.cosine + first);
+    sine = Lanes::load(node.sine + first);
+    probe_cosine = set(probe.cosine);
+    probe_sine = set(probe.sine);
     squared_distance = dot(dx, dy, dz, dx, dy, dz);
     z_probe = dot(dx, dy, dz, axis_x, axis_y, axis_z);
-    z_lane = hn::Neg(dot(dx, dy, dz, ux, uy, uz));
+    z_lane = -dot(dx, dy, dz, ux, uy, uz);
     between = dot(ux, uy, uz, axis_x, axis_y, axis_z);
-    across = hn::Sqrt(hn::Add(hn::Max(hn::Sub(hn::Set(f, 1.0F), hn::Mul(between, between)), hn::Zero(f)),
-                              hn::Set(f, DIRECTION_ROUNDING)));
-    const auto along = hn::Abs(between);
-    const auto thickness = hn::Load(f, node.thickness + first);
-    const auto probe_radius = hn::Set(f, probe.radius), probe_thickness = hn::Set(f, probe.thickness);
-    radii = hn::Add(hn::Add(radius, probe_radius), rounding);
-    slab_probe = hn::Add(hn::Add(probe_thickness, rounding),
-                         hn::Add(hn::Mul(thickness, along), hn::Mul(radius, across)));
-    slab_lane = hn::Add(hn::Add(thickness, rounding),
-                        hn::Add(hn::Mul(probe_thickness, along), hn::Mul(probe_radius, across)));
+    across = root(largest_of(set(1.0F) - between * between, set(0.0F)) + set(DIRECTION_ROUNDING));
+    const Number along = magnitude(between);
+    const Number thickness = Lanes::load(node.thickness + first);
+    const Number probe_radius = set(probe.radius), probe_thickness = set(probe.thickness);
+    radii = (radius + probe_radius) + rounding;
+    slab_probe = (probe_thickness + rounding) + (thickness * along + radius * across);
+    slab_lane = (thickness + rounding) + (probe_thickness * along + probe_radius * across);
   }
 
-  static HWY_INLINE Floats dot(Floats ax, Floats ay, Floats az, Floats bx, Floats by, Floats bz) {
-    return hn::Add(hn::Add(hn::Mul(ax, bx), hn::Mul(ay, by)), hn::Mul(az, bz));
+  static HWY_INLINE Number dot(Number ax, Number ay, Number az, Number bx, Number by, Number bz) {
+    return (ax * bx + ay * by) + az * bz;
   }
 };
 
