@@ -9,9 +9,9 @@
 #define LMDBENCH_LANE_CROSSING_INL
 #endif
 
-#include <benchmarks/triangle_distance/batch/lane_face-inl.h>
-#include <benchmarks/triangle_distance/batch/lane_triangle-inl.h>
-#include <benchmarks/triangle_distance/batch/lane_turned-inl.h>
+#include <lmdbench/geometry/lane_face-inl.h>
+#include <lmdbench/geometry/lane_triangle-inl.h>
+#include <lmdbench/geometry/lane_turned-inl.h>
 
 #include <cstdint>
 

@@ -9,7 +9,7 @@
 #define LMDBENCH_LANE_FACE_INL
 #endif
 
-#include <benchmarks/triangle_distance/batch/lane_triangle-inl.h>
+#include <lmdbench/geometry/lane_triangle-inl.h>
 
 HWY_BEFORE_NAMESPACE();
 namespace lmdbench::HWY_NAMESPACE {

@@ -10,10 +10,10 @@
 #define LMDBENCH_LANE_TRIANGLE_INL
 #endif
 
+#include <lmdbench/geometry/lane_block.h>
 #include <lmdbench/geometry/lane_vector-inl.h>
 #include <lmdbench/geometry/tolerance.h>
 
-#include <benchmarks/triangle_distance/batch/lane_block.h>
 #include <hwy/highway.h>
 
 #include <cstdint>
