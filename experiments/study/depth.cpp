@@ -6,9 +6,9 @@
 
 #include <CLI/CLI.hpp>
 #include <Eigen/Geometry>
-#include <completeness/judge.h>
 #include <fmt/core.h>
 #include <nlohmann/json.hpp>
+#include <study/completeness/judge.h>
 #include <study/studies.h>
 #include <support/bodies.h>
 #include <support/program.h>
