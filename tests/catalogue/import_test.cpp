@@ -208,5 +208,18 @@ TEST(WeldedTest, JoinsEqualPositionsOnlyAndKeepsTheOrder) {
   EXPECT_THAT(result.triangles, ElementsAre(Corners{0, 1, 2}, Corners{3, 2, 0}));
 }
 
+TEST(ImportTest, MaterialsOfAnObjAreNotLookedFor) {
+  const ScratchDirectory folder;
+  const TriangleMesh mesh = single_precision_blob();
+  const std::string plain = to_obj(mesh);
+  const std::size_t faces = plain.find("f ");
+  for (const char* material : {"mtllib lost.mtl\nusemtl none\n", "mtllib LOST.MTL\r\nusemtl\r\n",
+                               "  mtllib\n\tusemtl a\n", "mtllib a b c\nusemtl x \\\n"}) {
+    std::string text = material + plain.substr(0, faces);
+    text += std::string("usemtl one\n") + plain.substr(faces);
+    expect_same_triangles(import_mesh(folder.write("m.obj", text)), mesh, 3e-7);
+  }
+}
+
 }  // namespace
 }  // namespace lmdbench

@@ -116,6 +116,57 @@ TEST(PlanCommand, JsonAndText) {
   EXPECT_TRUE(left_out);
 }
 
+TEST(PlanCommand, FailsAsARunDoesOnWhatIsNotThere) {
+  for (const std::string fault : {"/device=phantom-dektop", "/path/file=nowhere.tum",
+                                  "/moving/mesh=./nowhere.stl", "/fixed/0/mesh=nomesh"}) {
+    const Outcome plan = lmdbench("plan " + SHAPES + "--set " + fault);
+    const Outcome run = lmdbench("run " + SHORT + "--set " + fault + " --out /tmp/never.h5");
+    EXPECT_NE(plan.code, 0) << fault;
+    EXPECT_EQ(plan.code, run.code) << fault;
+    EXPECT_EQ(plan.err, run.err) << fault;
+  }
+}
+
+TEST(PlanCommand, LooksAtTheScene) {
+  const auto plan =
+      nlohmann::json::parse(lmdbench("plan --json " + SHAPES + "--set /force/cutoff_diagonal=1e-9").out);
+  EXPECT_EQ(plan["scene"]["frames"], 801);
+  EXPECT_EQ(plan["scene"]["warnings"].size(), 1u);
+  EXPECT_TRUE(plan["scene"]["expected_seconds"].contains("improved"));
+}
+
+TEST(RunCommand, BrokenLimitsEndWithOneAndKeepTheResult) {
+  const ScratchDirectory scratch;
+  const std::string out = " --out '" + (scratch / "r.h5").string() + "' ";
+  EXPECT_EQ(lmdbench("run " + SHAPES + "--set /frames=320 --set /driver/repetitions=1" + out +
+                     "--set /limits/force_error_n=1000")
+                .code,
+            0);
+  const Outcome broken = lmdbench("run " + SHAPES + "--set /frames=320 --set /driver/repetitions=1" + out +
+                                  "--set /limits/recall=1");
+  EXPECT_EQ(broken.code, 1);
+  EXPECT_THAT(broken.err, HasSubstr("/limits: "));
+  EXPECT_THAT(broken.out, HasSubstr("limit broken: original: recall is"));
+  EXPECT_TRUE(std::filesystem::exists(scratch / "r.h5"));
+}
+
+TEST(InitCommand, WritesAnExperimentThatRuns) {
+  const ScratchDirectory scratch;
+  const Outcome made =
+      lmdbench("init cube wedge --dir '" LMDBENCH_SOURCE_DIR "/meshes' --out new", scratch.path());
+  EXPECT_EQ(made.code, 0) << made.err;
+  EXPECT_THAT(made.out, HasSubstr("/force/cutoff_m"));
+  const Outcome run = lmdbench("run new/cube-wedge.json --set /driver/repetitions=1", scratch.path());
+  EXPECT_EQ(run.code, 0) << run.err;
+  EXPECT_THAT(run.err, Not(HasSubstr("never comes")));
+  const Outcome path = lmdbench(
+      "path info new/cube-wedge.tum --spec new/cube-wedge.path.json --dir '" LMDBENCH_SOURCE_DIR "/meshes'",
+      scratch.path());
+  EXPECT_EQ(path.code, 0) << path.err;
+  EXPECT_EQ(lmdbench("init cube wedge --dir '" LMDBENCH_SOURCE_DIR "/meshes' --out new", scratch.path()).code,
+            2);
+}
+
 /// Two unit cubes; the moving one stands above the fixed one by the pose's z - 1.
 class QueryCommand : public ::testing::Test {
  protected:

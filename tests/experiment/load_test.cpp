@@ -176,7 +176,8 @@ TEST(LoadExperiment, RepeatedKeysAreRefused) {
 
 TEST(LoadExperiment, ForceConstantsMustFitTogether) {
   EXPECT_THAT(message({"/force/cutoff_diagonal=0.1"}), HasSubstr("/force: two cutoffs"));
-  EXPECT_THAT(message({R"(/force={"maximum_force_n": 1})"}), HasSubstr("/force: no cutoff"));
+  EXPECT_FALSE(parse(MINIMAL, {R"(/force={"maximum_force_n": 1})"}).profiles[0].cutoff(1.0).has_value())
+      << "the scene decides";
   EXPECT_THAT(message({"/force/saturation_m=0.01"}), HasSubstr("/force/saturation_m: saturation at 0.01 m"));
   EXPECT_THAT(message({"/force/saturation_m=0.001", "/force/saturation_cutoff=0.5"}),
               HasSubstr("/force: two saturation distances"));
@@ -186,9 +187,9 @@ TEST(LoadExperiment, ForceConstantsMustFitTogether) {
 TEST(LoadExperiment, ForceDistancesScaleWithTheDiagonal) {
   const Experiment experiment = parse(
       MINIMAL, {R"(/force={"cutoff_diagonal": 0.05, "saturation_cutoff": 0.25, "maximum_force_n": 1})"});
-  EXPECT_DOUBLE_EQ(experiment.profiles[0].cutoff(2.0), 0.1);
-  EXPECT_DOUBLE_EQ(experiment.profiles[0].saturation(2.0), 0.025);
-  EXPECT_DOUBLE_EQ(parse(MINIMAL).profiles[0].cutoff(2.0), 0.01);
+  EXPECT_DOUBLE_EQ(experiment.profiles[0].cutoff(2.0).value(), 0.1);
+  EXPECT_DOUBLE_EQ(experiment.profiles[0].saturation(0.1), 0.025);
+  EXPECT_DOUBLE_EQ(parse(MINIMAL).profiles[0].cutoff(2.0).value(), 0.01);
   EXPECT_EQ(parse(MINIMAL).profiles[0].saturation(2.0), 0.0);
 }
 

@@ -74,8 +74,8 @@ TEST(Profiles, MistakesNameTheProfile) {
   EXPECT_THAT(place_of(R"([{"cutoff_m": 0.01, "maximum_force_n": 3}])"), HasSubstr("/force/0"));
   EXPECT_THAT(place_of(fmt::format("[{}, {}]", HARD, HARD)), HasSubstr("/force/1/name"));
   EXPECT_THAT(place_of(fmt::format("[{}, [{}]]", HARD, SOFT)), HasSubstr("/force/1"));
-  EXPECT_THAT(place_of(fmt::format(R"([{}, {{"name": "b", "maximum_force_n": 3}}])", HARD)),
-              HasSubstr("/force/1: no cutoff"));
+  EXPECT_THAT(place_of(fmt::format(R"([{}, {{"name": "b", "cutoff_m": 1, "cutoff_diagonal": 1}}])", HARD)),
+              HasSubstr("/force/1: two cutoffs"));
   EXPECT_THAT(place_of(fmt::format(R"([{}, {{"name": "b", "cutof_m": 1, "maximum_force_n": 3}}])", HARD)),
               HasSubstr("/force/1/cutof_m"));
   EXPECT_THAT(place_of("[]"), HasSubstr("/force"));

@@ -50,7 +50,7 @@ TEST_P(CommittedPath, KeepsItsGapOnTheMeshesItNames) {
       GTEST_SKIP() << "run 'lmdbench mesh build " << mesh.mesh << "' first";
   }
   const auto place = [](const PlacedMesh& mesh) {
-    return scaled_to_diagonal(resolve_mesh(mesh.mesh, ROOT / "meshes").mesh, mesh.diagonal.value());
+    return scaled_to_diagonal(resolve_mesh(mesh.mesh, ROOT / "meshes").mesh, mesh.placement.diagonal.value());
   };
   const PathScene scene = mesh_scene(place(spec_.moving), place(spec_.fixed));
   const Path all_frames = resample(path_, spec_.frame_rate);

@@ -182,5 +182,33 @@ TEST(Resample, CallersMistakesAreRefused) {
     EXPECT_THROW(resample(interpolator, rate), std::invalid_argument);
 }
 
+/// Poses every 10 ms along x at 1 m/s, none for 3 s, then again.
+Path with_a_gap() {
+  Path path;
+  for (int i = 0; i < 20; ++i) path.push_back(at_position(0.01 * i, Vec3(0.01 * i, 0, 0)));
+  for (int i = 0; i < 20; ++i) path.push_back(at_position(3.19 + 0.01 * i, Vec3(0.3, 0.01 * i, 0)));
+  return path;
+}
+
+TEST(Interpolate, AGapIsHeldAndBothSidesKeepTheirOwnVelocity) {
+  const PathInterpolator path(with_a_gap(), Interpolation::CUBIC, 10.0);
+  ASSERT_EQ(path.gaps().size(), 1u);
+  EXPECT_DOUBLE_EQ(path.gaps().front().start, 0.19);
+  EXPECT_NEAR(path.gaps().front().duration, 3.0, 1e-12);
+  EXPECT_NEAR(path.sample_interval(), 0.01, 1e-12);
+  for (const double time : {0.1901, 1.0, 3.1899})
+    EXPECT_EQ(path.at(time).translation, Vec3(0.19, 0, 0)) << time;
+  EXPECT_NEAR(velocity(path, 0.185, 1e-6).x(), 1.0, 1e-6);
+  EXPECT_NEAR(velocity(path, 3.195, 1e-6).y(), 1.0, 1e-6);
+  EXPECT_NEAR(velocity(path, 3.195, 1e-6).x(), 0.0, 1e-6);
+}
+
+TEST(Interpolate, GapsAreInterpolatedWhereNobodyAsksForThem) {
+  const PathInterpolator path(with_a_gap());
+  EXPECT_TRUE(path.gaps().empty());
+  EXPECT_NE(path.at(1.0).translation, Vec3(0.19, 0, 0));
+  EXPECT_TRUE(PathInterpolator(wandering_path(40, 0.02), Interpolation::LINEAR, 10.0).gaps().empty());
+}
+
 }  // namespace
 }  // namespace lmdbench

@@ -50,9 +50,9 @@ std::string complaint_about(const std::string& text) {
 TEST(PathSpec, ReadsEveryKey) {
   const PathSpec spec = parse_path_spec(SPEC, "spec.json");
   EXPECT_EQ(spec.moving.mesh, "bunny-16k");
-  EXPECT_EQ(spec.moving.diagonal, 0.15);
+  EXPECT_EQ(spec.moving.placement.diagonal, 0.15);
   EXPECT_EQ(spec.fixed.mesh, "armadillo");
-  EXPECT_EQ(spec.fixed.diagonal, 0.2);
+  EXPECT_EQ(spec.fixed.placement.diagonal, 0.2);
   EXPECT_EQ(spec.frame_rate, 2000.0);
   EXPECT_EQ(spec.stored_rate, 250.0);
   EXPECT_EQ(spec.seed, 7u);
@@ -72,7 +72,7 @@ TEST(PathSpec, TwoMeshesAreEnough) {
   const PathSpec spec =
       parse_path_spec(R"({ "moving": { "mesh": "a.stl" }, "fixed": { "mesh": "b.stl" } })", "spec.json");
   EXPECT_EQ(spec.moving.mesh, "a.stl");
-  EXPECT_EQ(spec.moving.diagonal, std::nullopt);
+  EXPECT_EQ(spec.moving.placement.diagonal, std::nullopt);
   EXPECT_EQ(spec.frame_rate, 1000.0);
   EXPECT_EQ(spec.stored_rate, 1000.0);
   EXPECT_EQ(spec.start_direction, Vec3::UnitX());
@@ -101,8 +101,8 @@ TEST(PathSpec, ComplaintsNameThePlace) {
   EXPECT_THAT(complaint_about(with("\"seed\": 7", "\"seed\": 1.5")), HasSubstr("/seed (line 6): "));
   EXPECT_THAT(complaint_about(with("\"mesh\": \"armadillo\",", "")), HasSubstr("/fixed (line 3): "));
   EXPECT_THAT(complaint_about(with("\"armadillo\"", "3")), HasSubstr("/fixed/mesh (line 3): "));
-  EXPECT_THAT(complaint_about(with("\"armadillo\"", "\"armadillo\", \"scale\": 2")),
-              HasSubstr("/fixed/scale (line 3): unknown key"));
+  EXPECT_THAT(complaint_about(with("\"armadillo\"", "\"armadillo\", \"size\": 2")),
+              HasSubstr("/fixed/size (line 3): unknown key"));
   EXPECT_THAT(complaint_about(with("0.2 }", "0 }")), HasSubstr("/fixed/diagonal_m (line 3): "));
   EXPECT_THAT(complaint_about(with("0.2 }", "\"0.2\" }")), HasSubstr("/fixed/diagonal_m (line 3): "));
   EXPECT_THAT(complaint_about(with("250", "300")),

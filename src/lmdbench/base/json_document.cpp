@@ -21,7 +21,7 @@ namespace {
 
 JsonDocument::JsonDocument(std::string text, std::string file, const nlohmann::json& schema, ExitCode code,
                            std::vector<std::string> overrides,
-                           const std::function<void(const nlohmann::json&)>& early)
+                           const std::function<void(nlohmann::json&)>& early)
     : text_(std::move(text)), file_(std::move(file)), code_(code), overrides_(std::move(overrides)) {
   locate([&] {
     json_ = parse_json(text_, file_);

@@ -20,11 +20,11 @@ class JsonDocument {
   /// nearest), checks against the schema and adds what is absent and has a default.
   /// @param schema outlives nothing: it is read here only
   /// @param code   of the errors: USAGE for what a user writes to command the program, INPUT_DATA for data
-  /// @param early  what is to be said before the schema is asked, because it knows more; throws
+  /// @param early  what is to be said or added before the schema is asked, because it knows more; throws
   /// @throws UsageError or InputError
   JsonDocument(std::string text, std::string file, const nlohmann::json& schema, ExitCode code,
                std::vector<std::string> overrides = {},
-               const std::function<void(const nlohmann::json&)>& early = {});
+               const std::function<void(nlohmann::json&)>& early = {});
 
   const nlohmann::json& json() const { return json_; }
   nlohmann::json& json() { return json_; }

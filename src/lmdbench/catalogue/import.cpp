@@ -39,7 +39,10 @@ TriangleMesh read_format(const FileContent& content) {
         file, "", fmt::format("'{}' is no extension of a mesh format that is read", extension),
         fmt::format("convert it to OFF, PLY, OBJ or STL (extensions off, {})", fmt::join(known, ", ")));
   if (extension == "ply") check_ply(content.bytes, file);
-  if (extension == "obj") check_obj(content.bytes, file);
+  if (extension == "obj") {
+    check_obj(content.bytes, file);
+    return read_with_assimp(without_materials(content.bytes), extension, file);
+  }
   return read_with_assimp(content.bytes, extension, file);
 }
 

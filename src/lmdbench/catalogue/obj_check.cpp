@@ -57,4 +57,22 @@ void check_obj(std::string_view text, const std::string& file) {
   }
 }
 
+std::string without_materials(std::string_view text) {
+  std::string result(text);
+  for (std::size_t begin = 0; begin < result.size();) {
+    const std::size_t end = std::min(result.find('\n', begin), result.size());
+    const std::size_t word = result.find_first_not_of(" \t", begin);
+    const std::string_view line = std::string_view(result).substr(begin, end - begin);
+    if (word < end) {
+      const std::string_view rest = line.substr(word - begin);
+      // A comment that ends in a backslash must not swallow the next line.
+      if (rest.starts_with("mtllib") || rest.starts_with("usemtl"))
+        std::fill(result.begin() + static_cast<std::ptrdiff_t>(word),
+                  result.begin() + static_cast<std::ptrdiff_t>(end), '#');
+    }
+    begin = end + 1;
+  }
+  return result;
+}
+
 }  // namespace lmdbench

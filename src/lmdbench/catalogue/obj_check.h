@@ -13,4 +13,8 @@ namespace lmdbench {
 /// @throws InputError naming the line
 void check_obj(std::string_view text, const std::string& file);
 
+/// The text with every line about materials made a comment: they are often lost, mean nothing to a surface, and
+/// assimp both complains about them and takes triangles apart by them. Places of all other bytes stay.
+std::string without_materials(std::string_view text);
+
 }  // namespace lmdbench

@@ -15,6 +15,7 @@ namespace lmdbench {
 
 void add_run_command(CLI::App& app, const std::vector<std::string>& argv);
 void add_plan_command(CLI::App& app);
+void add_init_command(CLI::App& app);
 void add_query_command(CLI::App& app);
 /// @param exit_status receives the exit code of the verdict
 void add_compare_command(CLI::App& app, int& exit_status);

@@ -54,6 +54,7 @@ int run_program(int argc, char** argv) {
       "4 the environment lacks something; 70 a bug of lmdbench.");
   add_run_command(app, {argv, argv + argc});
   add_plan_command(app);
+  add_init_command(app);
   add_stability_command(app);
   add_record_command(app);
   add_query_command(app);

@@ -35,9 +35,6 @@ namespace {
 /// the rounded path.
 constexpr int STORED_DECIMALS = 9;
 
-/// In the first line of every generated path: tells it from recorded ones.
-constexpr const char* MADE_BY = "made by 'lmdbench path generate";
-
 constexpr double DEGREES = 180.0 / std::numbers::pi;
 
 struct PathArguments {
@@ -48,15 +45,16 @@ struct PathArguments {
   bool json = false;
 };
 
-TriangleMesh place(const PlacedMesh& placed, const PathArguments& arguments) {
-  const std::filesystem::path beside_spec = std::filesystem::path(arguments.spec).parent_path() / placed.mesh;
-  TriangleMesh mesh = is_mesh_name(placed.mesh) ? resolve_mesh(placed.mesh, arguments.mesh_folder).mesh
+TriangleMesh place(const PlacedMesh& choice, const PathArguments& arguments) {
+  const std::filesystem::path beside_spec = std::filesystem::path(arguments.spec).parent_path() / choice.mesh;
+  TriangleMesh mesh = is_mesh_name(choice.mesh) ? resolve_mesh(choice.mesh, arguments.mesh_folder).mesh
                                                 : resolve_mesh(beside_spec.string()).mesh;
-  return placed.diagonal ? scaled_to_diagonal(std::move(mesh), *placed.diagonal) : mesh;
+  return placed(std::move(mesh), choice.placement);
 }
 
-std::string name_of(const PlacedMesh& placed) {
-  return placed.diagonal ? fmt::format("{} ({:g} m)", placed.mesh, *placed.diagonal) : placed.mesh;
+std::string name_of(const PlacedMesh& choice) {
+  const std::optional<double>& diagonal = choice.placement.diagonal;
+  return diagonal ? fmt::format("{} ({:g} m)", choice.mesh, *diagonal) : choice.mesh;
 }
 
 PathScene load_scene(const PathSpec& spec, const PathArguments& arguments) {
@@ -106,6 +104,9 @@ void print_facts(const std::string& file, const PathFacts& facts, double rate,
         {"poses", facts.pose_count},
         {"start_time_s", facts.start_time},
         {"duration_s", facts.duration},
+        {"sample_interval_s", facts.sample_interval},
+        {"longest_interval_s", facts.longest_interval},
+        {"gaps", facts.gaps},
         {"frame_rate_hz", rate},
         {"frames", facts.frame_count},
         {"length_m", facts.length},
@@ -127,6 +128,8 @@ void print_facts(const std::string& file, const PathFacts& facts, double rate,
   }
   fmt::print("{}: {} poses, {:.6g} s from {:.6g} s; {} frames at {:g} Hz\n", file, facts.pose_count,
              facts.duration, facts.start_time, facts.frame_count, rate);
+  fmt::print("  a pose every {:.4g} s in the median, {:.4g} s at most; {} gaps are held, not interpolated\n",
+             facts.sample_interval, facts.longest_interval, facts.gaps);
   fmt::print("  way {:.4g} m, turning {:.4g} deg\n", facts.length, facts.turning * DEGREES);
   fmt::print("  at most {:.3g} m/s, {:.3g} m/s^2, {:.3g} deg/s, {:.3g} deg/s^2\n", facts.maximum_speed,
              facts.maximum_acceleration, facts.maximum_angular_speed * DEGREES,
@@ -141,7 +144,8 @@ void print_facts(const std::string& file, const PathFacts& facts, double rate,
 /// Paths that `tum_text` wrote here say so in their first line; a recorded one has no such line.
 bool is_generated_path(const std::filesystem::path& file) {
   const std::string head = first_bytes(file);
-  return head.starts_with("# ") && head.substr(0, head.find('\n')).find(MADE_BY) != std::string::npos;
+  return head.starts_with("# ") &&
+         head.substr(0, head.find('\n')).find(GENERATED_PATH_MARK) != std::string::npos;
 }
 
 /// File of a mesh that a specification names, whether it is there or not.
@@ -162,8 +166,9 @@ void generate(const PathArguments& arguments) {
     ProgressBar bar(progress_welcome());
     path = generate_path(spec, scene, progress_on(bar, "generate"));
   }
-  const std::string comment = fmt::format("{} past {}, {} {}'", name_of(spec.moving), name_of(spec.fixed),
-                                          MADE_BY, std::filesystem::path(arguments.spec).filename().string());
+  const std::string comment =
+      fmt::format("{} past {}, {} {}'", name_of(spec.moving), name_of(spec.fixed), GENERATED_PATH_MARK,
+                  std::filesystem::path(arguments.spec).filename().string());
   const std::string text = tum_text(path, comment, STORED_DECIMALS);
   // What counts is what readers will see: the rounded poses, interpolated.
   std::istringstream stream(text);
@@ -183,7 +188,8 @@ void generate(const PathArguments& arguments) {
 }
 
 void info(const PathArguments& arguments) {
-  const PathInterpolator interpolator(read_tum(std::filesystem::path(arguments.path)));
+  const PathInterpolator interpolator(read_tum(std::filesystem::path(arguments.path)), Interpolation::CUBIC,
+                                      USUAL_GAP_INTERVALS);
   double rate = arguments.rate;
   std::optional<GapNote> gaps;
   refuse_too_many_frames(interpolator, rate, std::nullopt, arguments.path);

@@ -2,8 +2,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/base/error.h>
 #include <lmdbench/cli/commands.h>
+#include <lmdbench/cli/progress_bar.h>
+#include <lmdbench/cli/talk.h>
+#include <lmdbench/experiment/contact.h>
+#include <lmdbench/experiment/expected_times.h>
 #include <lmdbench/experiment/experiment.h>
 #include <lmdbench/experiment/plan.h>
+#include <lmdbench/experiment/prepare.h>
 #include <lmdbench/experiment/schema.h>
 #include <lmdbench/methods/registry.h>
 
@@ -42,7 +47,15 @@ void add_plan_command(CLI::App& app) {
     if (options->experiment.empty())
       throw UsageError("", "plan", "no experiment file", "name one: lmdbench plan EXPERIMENT.json");
     const Experiment experiment = load_experiment(options->experiment, options->overrides);
-    const Plan plan = make_plan(experiment);
+    ProgressBar bar(progress_welcome());
+    const PreparedRun prepared = prepare(experiment, [&bar](std::int64_t done, std::int64_t total) {
+      bar.update("path", done, total);
+      return true;
+    });
+    Plan plan = make_plan(experiment);
+    plan.scene = look_at(experiment, prepared, frames_in_contact(prepared.scene(), prepared.input.poses));
+    plan.scene->times = expected_times(experiment, prepared);
+    bar.wipe();
     if (options->json)
       fmt::print("{}\n", plan_json(plan, experiment));
     else

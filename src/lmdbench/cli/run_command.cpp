@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/base/error.h>
 #include <lmdbench/cli/commands.h>
 #include <lmdbench/cli/progress_bar.h>
 #include <lmdbench/cli/talk.h>
@@ -10,6 +11,7 @@
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <spdlog/spdlog.h>
 
 #include <array>
@@ -83,6 +85,11 @@ void run(const RunOptions& options, const std::vector<std::string>& argv) {
     fmt::print("{}{}", options.json ? summary_json(summary) : summary_text(summary),
                options.json ? "\n" : "");
     spdlog::info("wrote {}", out.string());
+    if (!summary.broken_limits.empty())
+      throw Error(
+          ExitCode::CHECK_FAILED, options.experiment, "/limits",
+          fmt::format("{} broken: {}", summary.broken_limits.size(), fmt::join(summary.broken_limits, "; ")),
+          "the result is written: look there, or move the limits");
   } catch (const Interrupted&) {
     bar.wipe();
     const std::string part = out.string() + ".part";

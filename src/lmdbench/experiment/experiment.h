@@ -2,9 +2,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <lmdbench/experiment/acceptance.h>
+#include <lmdbench/experiment/defaults.h>
 #include <lmdbench/experiment/loop_choice.h>
 #include <lmdbench/force/force_law.h>
 #include <lmdbench/geometry/pose.h>
+#include <lmdbench/mesh/placement.h>
 #include <lmdbench/mesh/planar_tolerance.h>
 #include <lmdbench/motion/interpolate.h>
 
@@ -23,7 +26,7 @@ namespace lmdbench {
 /// A mesh of the scene.
 struct MeshChoice {
   std::string mesh;                  ///< Name in the manifest, generated shape or file.
-  std::optional<double> diagonal_m;  ///< Scaled to this bounding-box diagonal; unset: coordinates are metres.
+  Placement placement;               ///< In its own frame.
   Pose pose;                         ///< X_WF of a fixed mesh; identity for the moving one.
   PlanarTolerance planar_tolerance;  ///< Of rounded planes, see flatten.h; a length is in the scene's metres.
 };
@@ -32,7 +35,7 @@ struct MeshChoice {
 /// moving mesh, so the profile exists only once that mesh is loaded.
 struct ForceChoice {
   std::string name;                         ///< Of a profile among several; empty for one alone.
-  std::optional<double> cutoff_m;           ///< Exactly one of the two cutoffs is set.
+  std::optional<double> cutoff_m;           ///< At most one of the two cutoffs is set.
   std::optional<double> cutoff_diagonal;    ///< Share of the moving mesh's diagonal.
   std::optional<double> saturation_m;       ///< At most one of the two saturations is set.
   std::optional<double> saturation_cutoff;  ///< Share of the cutoff.
@@ -41,10 +44,11 @@ struct ForceChoice {
   bool clip_at_maximum =
       false;  ///< The sum is clipped to F_max of one LMD, where that is below the device's limit.
 
-  /// Cutoff [m] for a moving mesh of the given bounding-box diagonal [m].
-  double cutoff(double moving_diagonal) const;
+  /// Cutoff [m] for a moving mesh of the given bounding-box diagonal [m]; unset where the scene decides
+  /// (`default_cutoff`).
+  std::optional<double> cutoff(double moving_diagonal) const;
   /// Saturation distance [m]; 0 where none is given.
-  double saturation(double moving_diagonal) const;
+  double saturation(double cutoff) const;
 };
 
 /// A method of the experiment. The same method may appear twice with other options under another label.
@@ -74,8 +78,9 @@ struct Experiment {
   std::filesystem::path mesh_folder;  ///< Where the mesh manifest is.
   MeshChoice moving;
   std::vector<MeshChoice> fixed;
-  std::filesystem::path path_file;
+  std::filesystem::path path_file;  ///< Empty: the path is made for the scene (`grazing_path`).
   Interpolation interpolation = Interpolation::CUBIC;
+  double gap_intervals = 0.0;  ///< See PathInterpolator.
   double frame_rate_hz = 0.0;
   std::optional<std::int64_t> frames;  ///< Run only this many frames from the start.
   std::vector<ForceChoice> profiles;   ///< At least one.
@@ -88,7 +93,9 @@ struct Experiment {
   std::int64_t fcl_stride_frames = 0;    ///< 0: no cross-check.
   double fcl_tolerance_relative = 0.0;
   bool record_lmds = false;
-  std::string resolved_json;  ///< The file with overrides and defaults, for the record.
+  Acceptance acceptance;
+  std::vector<DefaultNote> defaults;  ///< What the file leaves open and no mesh is needed for.
+  std::string resolved_json;          ///< The file with overrides and defaults, for the record.
 };
 
 /// One `--set /json/pointer=value`; the value is JSON, or else a string.

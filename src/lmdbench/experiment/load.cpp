@@ -15,6 +15,7 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
+#include <utility>
 
 namespace lmdbench {
 namespace {
@@ -31,7 +32,7 @@ MeshChoice mesh_choice(const Json& entry, const std::string& place, const std::s
   const Json& tolerance = entry["planar_tolerance"];
   // A number's own text is among those that the option takes.
   const std::string text = tolerance.is_string() ? tolerance.get<std::string>() : tolerance.dump();
-  return {entry["mesh"].get<std::string>(), optional_value<double>(entry, "diagonal_m"), Pose{},
+  return {entry["mesh"].get<std::string>(), read_placement(entry, file, place), Pose{},
           parse_planar_tolerance(text, file, place + "/planar_tolerance")};
 }
 
@@ -60,9 +61,8 @@ ForceChoice force_choice(const Json& entry, const std::string& place, const std:
   force.maximum_force_n = entry["maximum_force_n"].get<double>();
   force.sharpness = entry["sharpness"].get<double>();
   force.clip_at_maximum = entry["clip"] == "maximum";
-  if (force.cutoff_m.has_value() == force.cutoff_diagonal.has_value())
-    throw UsageError(file, place, force.cutoff_m ? "two cutoffs" : "no cutoff",
-                     "give exactly one of cutoff_m and cutoff_diagonal");
+  if (force.cutoff_m && force.cutoff_diagonal)
+    throw UsageError(file, place, "two cutoffs", "give at most one of cutoff_m and cutoff_diagonal");
   if (force.saturation_m && force.saturation_cutoff)
     throw UsageError(file, place, "two saturation distances",
                      "give at most one of saturation_m and saturation_cutoff");
@@ -143,12 +143,17 @@ Experiment from_json(Json document, const std::filesystem::path& path) {
     experiment.fixed.back().pose =
         pose_of(document["fixed"][i]["pose"], fmt::format("/fixed/{}/pose", i), file);
   }
-  experiment.path_file =
-      (path.parent_path() / document["path"]["file"].get<std::string>()).lexically_normal();
+  if (document["path"].contains("file"))
+    experiment.path_file =
+        (path.parent_path() / document["path"]["file"].get<std::string>()).lexically_normal();
   experiment.interpolation =
       document["path"]["interpolation"] == "linear" ? Interpolation::LINEAR : Interpolation::CUBIC;
+  experiment.gap_intervals = document["path"]["gap_intervals"].get<double>();
   experiment.frame_rate_hz = document["frame_rate_hz"].get<double>();
   experiment.frames = optional_value<std::int64_t>(document, "frames");
+  experiment.device = document["device"].get<std::string>();
+  // Before the forces, whose default is the device's.
+  const Device& device = device_named(experiment.device, file, "/device");
   experiment.profiles = force_choices(document["force"], file);
   for (std::size_t profile = 0; profile < experiment.profiles.size(); ++profile) {
     for (const Json& method : document["methods"]) {
@@ -170,12 +175,12 @@ Experiment from_json(Json document, const std::filesystem::path& path) {
         fmt::format("a search takes {} frames, but the next one starts after {}",
                     experiment.driver.search_latency_frames, experiment.driver.search_every_frames),
         "one thread searches: let the latency be at most search_every_frames");
-  experiment.device = document["device"].get<std::string>();
-  experiment.loop = loop_choice(document["loop"], device_named(experiment.device, file, "/device"), file);
+  experiment.loop = loop_choice(document["loop"], device, file);
   const Json& probes = document["probes"];
   experiment.truth_stride_frames = probes["truth"]["stride_frames"].get<std::int64_t>();
   experiment.fcl_stride_frames = probes["fcl"]["stride_frames"].get<std::int64_t>();
   experiment.fcl_tolerance_relative = probes["fcl"]["tolerance_relative"].get<double>();
+  experiment.acceptance = read_acceptance(document["limits"], experiment, file);
   experiment.record_lmds = document["record"]["lmds"].get<bool>();
   experiment.resolved_json = document.dump(2);
   return experiment;
@@ -183,20 +188,27 @@ Experiment from_json(Json document, const std::filesystem::path& path) {
 
 }  // namespace
 
-double ForceChoice::cutoff(double moving_diagonal) const {
-  return cutoff_m ? *cutoff_m : *cutoff_diagonal * moving_diagonal;
+std::optional<double> ForceChoice::cutoff(double moving_diagonal) const {
+  if (cutoff_m) return cutoff_m;
+  return cutoff_diagonal ? std::optional(*cutoff_diagonal * moving_diagonal) : std::nullopt;
 }
 
-double ForceChoice::saturation(double moving_diagonal) const {
+double ForceChoice::saturation(double cutoff) const {
   if (saturation_m) return *saturation_m;
-  return saturation_cutoff ? *saturation_cutoff * cutoff(moving_diagonal) : 0.0;
+  return saturation_cutoff ? *saturation_cutoff * cutoff : 0.0;
 }
 
 Experiment parse_experiment(const std::string& text, const std::filesystem::path& file,
                             const std::vector<Override>& overrides) {
+  std::vector<DefaultNote> defaults;
   const JsonDocument document(text, file.string(), experiment_schema(), ExitCode::USAGE, overrides,
-                              [&](const Json& json) { check_method_names(json, file.string()); });
-  return document.locate([&] { return from_json(document.json(), file); });
+                              [&](Json& json) {
+                                check_method_names(json, file.string());
+                                defaults = add_file_defaults(json, file);
+                              });
+  Experiment experiment = document.locate([&] { return from_json(document.json(), file); });
+  experiment.defaults = std::move(defaults);
+  return experiment;
 }
 
 Experiment load_experiment(const std::filesystem::path& file, const std::vector<Override>& overrides) {

@@ -124,13 +124,15 @@ std::string plan_text(const Plan& plan, const Experiment& experiment) {
   std::string text = fmt::format("{}: {}\n", experiment.name, experiment.title);
   text += fmt::format("moving {}, fixed", experiment.moving.mesh);
   for (const MeshChoice& fixed : experiment.fixed) text += " " + fixed.mesh;
-  text += fmt::format(", path {}, {:g} frames a second, {} repetitions\n", experiment.path_file.string(),
+  text += fmt::format(", path {}, {:g} frames a second, {} repetitions\n",
+                      experiment.path_file.empty() ? "made for the scene" : experiment.path_file.string(),
                       experiment.frame_rate_hz, experiment.driver.repetitions);
   for (const bool needed : {true, false}) {
     text += needed ? "needed:\n" : "left out:\n";
     for (const PlanItem& item : plan.items)
       if (item.needed == needed) text += fmt::format("  {:<36} {}\n", item.name, item.why);
   }
+  if (plan.scene) text += to_text(*plan.scene);
   text += "methods:\n";
   for (const MethodChoice& choice : experiment.methods) text += method_text(choice);
   return text;
@@ -145,6 +147,7 @@ std::string plan_json(const Plan& plan, const Experiment& experiment) {
   json["left_out"] = nlohmann::ordered_json::array();
   for (const PlanItem& item : plan.items)
     json[item.needed ? "needed" : "left_out"].push_back({{"part", item.name}, {"why", item.why}});
+  if (plan.scene) json["scene"] = to_json(*plan.scene);
   return json.dump(2);
 }
 

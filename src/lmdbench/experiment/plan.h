@@ -3,7 +3,9 @@
 #pragma once
 
 #include <lmdbench/experiment/experiment.h>
+#include <lmdbench/experiment/scene_look.h>
 
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -35,6 +37,7 @@ struct PlanItem {
 /// What a scene needs, what is left out and why. A run makes only the needed parts.
 struct Plan {
   std::vector<PlanItem> items;
+  std::optional<SceneLook> scene;  ///< What the inputs are, where somebody has looked.
 
   bool needs(Part part) const;
 };
@@ -47,7 +50,7 @@ std::string plan_text(const Plan& plan, const Experiment& experiment);
 /// JSON text: {"experiment": resolved experiment, "methods": [{"label", "name", "summary", "promise",
 /// "tracks_locally", "options": [{"key", "value", "default", "description"}],
 /// "counters": [{"name", "description"}]}], "needed": [{"part", "why"}],
-/// "left_out": [...]}.
+/// "left_out": [...]}, and "scene" (see `to_json` of a SceneLook) where the plan has one.
 std::string plan_json(const Plan& plan, const Experiment& experiment);
 
 }  // namespace lmdbench

@@ -1,13 +1,16 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/base/error.h>
+#include <lmdbench/base/file_hash.h>
 #include <lmdbench/base/input_file.h>
 #include <lmdbench/catalogue/manifest.h>
 #include <lmdbench/experiment/prepare.h>
 #include <lmdbench/mesh/placement.h>
 #include <lmdbench/mesh/surface.h>
 #include <lmdbench/methods/registry.h>
+#include <lmdbench/motion/grazing.h>
 #include <lmdbench/motion/interpolate.h>
+#include <lmdbench/motion/mesh_scene.h>
 #include <lmdbench/motion/tum_file.h>
 #include <lmdbench/phantom/device.h>
 #include <lmdbench/snch/minimum_distance.h>
@@ -27,16 +30,16 @@ std::shared_ptr<const Body> load_body(const MeshChoice& choice, const std::strin
                                       const Experiment& experiment, std::vector<MeshNote>& notes) {
   const ResolvedMesh resolved = is_mesh_name(choice.mesh)
                                     ? resolve_mesh(choice.mesh, experiment.mesh_folder)
-                                    : resolve_mesh((experiment.file.parent_path() / choice.mesh).string());
+                                    : resolve_mesh((experiment.file.parent_path() / choice.mesh).lexically_normal().string());
   TriangleMesh mesh = resolved.mesh;
   // In the file's coordinates, which tell how they were rounded; scaling hides that.
-  const double scale = choice.diagonal_m ? *choice.diagonal_m / bounding_box_diagonal(mesh) : 1.0;
+  const double scale = choice.placement.factor(mesh);
   PlanarTolerance tolerance = choice.planar_tolerance;
   if (tolerance.kind == PlanarTolerance::Kind::LENGTH) tolerance.value /= scale;
   FlatteningReport flattening = flatten(mesh, tolerance);
   flattening.tolerance *= scale;
   flattening.largest_move *= scale;
-  if (choice.diagonal_m) mesh = scaled_to_diagonal(std::move(mesh), *choice.diagonal_m);
+  mesh = placed(std::move(mesh), choice.placement);
   const RigidTransform X_WF(choice.pose);
   if (role != "moving")
     for (Vec3& vertex : mesh.vertices) vertex = X_WF.point(vertex);
@@ -47,10 +50,12 @@ std::shared_ptr<const Body> load_body(const MeshChoice& choice, const std::strin
   return body;
 }
 
-Path load_frames(const Experiment& experiment, std::vector<InputFile>& files) {
+Path load_frames(const Experiment& experiment, std::vector<InputFile>& files,
+                 std::vector<RecordingGap>& gaps) {
   const FileContent content = read_input_file(experiment.path_file, {.what = "path"});
   const PathInterpolator path(parse_tum(content.bytes, experiment.path_file.string()),
-                              experiment.interpolation);
+                              experiment.interpolation, experiment.gap_intervals);
+  gaps = path.gaps();
   files.push_back(
       {"path", experiment.path_file, content.sha256, static_cast<std::int64_t>(content.bytes.size())});
   // A path that is cut by "frames" may be longer than any run.
@@ -60,11 +65,46 @@ Path load_frames(const Experiment& experiment, std::vector<InputFile>& files) {
   return resample(path, experiment.frame_rate_hz, wanted);
 }
 
-ForceProfile profile_for(const ForceChoice& force, double moving_diagonal, const std::string& place,
+/// A path for a scene that has none.
+GrazingPath make_path(const Experiment& experiment, const Scene& scene, const Progress& progress) {
+  TriangleMesh fixed;  // all of them as one
+  for (const auto& body : scene.fixed) {
+    const TriangleMesh& mesh = body->surface().mesh;
+    const auto first = static_cast<std::int32_t>(fixed.vertices.size());
+    fixed.vertices.insert(fixed.vertices.end(), mesh.vertices.begin(), mesh.vertices.end());
+    for (const auto& corners : mesh.triangles)
+      fixed.triangles.push_back({first + corners[0], first + corners[1], first + corners[2]});
+  }
+  return grazing_path(
+      mesh_scene(scene.moving->surface().mesh, std::move(fixed)), scene.cutoff, experiment.frame_rate_hz,
+      [&](std::size_t done, std::size_t all) {
+        if (progress && !progress(static_cast<std::int64_t>(done), static_cast<std::int64_t>(all)))
+          throw Interrupted();
+      });
+}
+
+DefaultNote note_of(const GrazingPath& made, double cutoff) {
+  return {"/path/file",
+          fmt::format("a path of {:g} s that is made (seed {}, smallest gap {:.3g} m)", made.spec.duration(),
+                      made.spec.seed, made.smallest_gap),
+          fmt::format(
+              "slides and turns at {:g} to {:g} cutoffs of {:g} m; `lmdbench init` writes one for editing",
+              GRAZING_GAPS_IN_CUTOFFS[1].gap, GRAZING_GAPS_IN_CUTOFFS[2].gap, cutoff)};
+}
+
+Path frames_of(const GrazingPath& made, const Experiment& experiment, std::vector<InputFile>& files) {
+  const std::string text = tum_text(made.path);
+  files.push_back({"path", "", sha256_of_text(text), static_cast<std::int64_t>(text.size())});
+  std::optional<std::size_t> wanted;
+  if (experiment.frames) wanted = static_cast<std::size_t>(*experiment.frames);
+  return resample(PathInterpolator(made.path, experiment.interpolation), experiment.frame_rate_hz, wanted);
+}
+
+ForceProfile profile_for(const ForceChoice& force, double cutoff, const std::string& place,
                          const Experiment& experiment) {
   ForceProfile profile;
-  profile.cutoff = force.cutoff(moving_diagonal);
-  profile.saturation_distance = force.saturation(moving_diagonal);
+  profile.cutoff = cutoff;
+  profile.saturation_distance = force.saturation(cutoff);
   profile.maximum_force = force.maximum_force_n;
   profile.sharpness = force.sharpness;
   if (force.clip_at_maximum) profile.largest_sum = force.maximum_force_n;
@@ -96,21 +136,38 @@ Scene load_scene(const Experiment& experiment, std::vector<MeshNote>& notes) {
   return scene;
 }
 
-PreparedRun prepare(const Experiment& experiment) {
-  // The cheap checks first: a misspelt device should not wait for a large mesh.
+PreparedRun prepare(const Experiment& experiment, const Progress& progress) {
   const Device& device = device_named(experiment.device, experiment.file.string(), "/device");
   std::vector<InputFile> files;
-  const Path frames = load_frames(experiment, files);
+  Path frames;
+  std::vector<RecordingGap> gaps;
+  if (!experiment.path_file.empty()) frames = load_frames(experiment, files, gaps);
 
   std::vector<MeshNote> notes;
   const Scene scene = load_scene(experiment, notes);
   std::vector<PreparedProfile> profiles;
+  std::vector<DefaultNote> defaults = experiment.defaults;
+  std::optional<double> open_cutoff;  // of profiles that give none
   for (std::size_t i = 0; i < experiment.profiles.size(); ++i) {
     const ForceChoice& choice = experiment.profiles[i];
     const std::string place = choice.name.empty() ? "/force" : fmt::format("/force/{}", i);
-    profiles.push_back(
-        {choice.name, profile_for(choice, notes.front().report.diagonal, place, experiment), scene});
+    std::optional<double> cutoff = choice.cutoff(notes.front().report.diagonal);
+    if (!cutoff) {
+      if (!open_cutoff) open_cutoff = default_cutoff(scene, defaults);
+      cutoff = open_cutoff;
+    }
+    profiles.push_back({choice.name, profile_for(choice, *cutoff, place, experiment), scene});
     profiles.back().scene.cutoff = profiles.back().force.cutoff;
+  }
+  std::optional<GrazingPath> made_path;
+  if (frames.empty()) {
+    // Near enough for every profile.
+    const auto hardest = std::min_element(
+        profiles.begin(), profiles.end(),
+        [](const PreparedProfile& a, const PreparedProfile& b) { return a.force.cutoff < b.force.cutoff; });
+    made_path = make_path(experiment, hardest->scene, progress);
+    frames = frames_of(*made_path, experiment, files);
+    defaults.push_back(note_of(*made_path, hardest->force.cutoff));
   }
 
   PreparedRun prepared{.profiles = std::move(profiles),
@@ -125,7 +182,10 @@ PreparedRun prepare(const Experiment& experiment) {
                        .meshes = std::move(notes),
                        .files = std::move(files),
                        .starts_touching = false,
-                       .warnings = {}};
+                       .warnings = {},
+                       .path_gaps = std::move(gaps),
+                       .made_path = std::move(made_path),
+                       .defaults = std::move(defaults)};
   prepared.input.reference_M = bounding_box_centre(prepared.scene().moving->surface().mesh);
   for (const TimedPose& frame : frames) {
     prepared.input.poses.push_back(frame.pose);
@@ -159,8 +219,8 @@ PreparedRun prepare(const Experiment& experiment) {
 
 std::vector<std::filesystem::path> input_files(const Experiment& experiment) {
   const std::filesystem::path folder = experiment.file.parent_path();
-  std::vector<std::filesystem::path> files{experiment.file, experiment.path_file,
-                                           experiment.mesh_folder / "manifest.json"};
+  std::vector<std::filesystem::path> files{experiment.file, experiment.mesh_folder / "manifest.json"};
+  if (!experiment.path_file.empty()) files.push_back(experiment.path_file);
   const auto add = [&](const MeshChoice& choice) {
     files.push_back(is_mesh_name(choice.mesh) ? experiment.mesh_folder / (choice.mesh + ".off")
                                               : folder / choice.mesh);

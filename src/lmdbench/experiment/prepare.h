@@ -7,6 +7,7 @@
 #include <lmdbench/lmd/scene.h>
 #include <lmdbench/mesh/flatten.h>
 #include <lmdbench/mesh/validity.h>
+#include <lmdbench/motion/grazing.h>
 #include <lmdbench/record/provenance.h>
 
 #include <cstdint>
@@ -41,9 +42,12 @@ struct PreparedRun {
   LockstepInput input;
   std::vector<double> times;  ///< Of the frames, from the start of the path [s].
   std::vector<MeshNote> meshes;
-  std::vector<InputFile> files;       ///< For the provenance.
-  bool starts_touching = false;       ///< Triangles touch in the first frame.
-  std::vector<std::string> warnings;  ///< What was done to the meshes and flaws that methods can live with.
+  std::vector<InputFile> files;         ///< For the provenance.
+  bool starts_touching = false;         ///< Triangles touch in the first frame.
+  std::vector<std::string> warnings;    ///< What was done to the meshes and flaws that methods can live with.
+  std::vector<RecordingGap> path_gaps;  ///< Intervals of the path in which the mesh is held.
+  std::optional<GrazingPath> made_path;  ///< Where the experiment names no path.
+  std::vector<DefaultNote> defaults;     ///< What the file leaves open, with the values of this scene.
 
   /// The meshes under the first profile's cutoff.
   const Scene& scene() const { return profiles.front().scene; }
@@ -54,10 +58,12 @@ struct PreparedRun {
 /// @throws InputError for a mesh that cannot be used
 Scene load_scene(const Experiment& experiment, std::vector<MeshNote>& notes);
 
-/// Loads meshes and path. Open and non-manifold meshes and a start in contact are noted, not refused.
+/// Loads meshes and path; makes a path where the experiment names none. Open and non-manifold meshes and a start
+/// in contact are noted, not refused.
+/// @param progress of making a path; may stop it by returning false, which throws Interrupted
 /// @throws InputError for a mesh or path that cannot be used, UsageError for a profile that does not
 ///         fit the mesh
-PreparedRun prepare(const Experiment& experiment);
+PreparedRun prepare(const Experiment& experiment, const Progress& progress = {});
 
 /// Files that the experiment will read, as far as its text tells: itself, path, manifest, meshes; some may be
 /// missing. For outputs, which must replace none of them.

@@ -39,6 +39,9 @@ void note_findings(const Experiment& experiment, RunResult& result) {
           fmt::format("{}: touching triangles in {} of {} frames; there an LMD keeps its last direction",
                       label, count, result.prepared.times.size()));
   }
+  for (std::size_t i = 0; i < result.records.size(); ++i)
+    if (const auto warning = clipping_warning(result.records[i], result.track_of(i).in_contact))
+      result.warnings.push_back(to_text(*warning));
   if (experiment.driver.repetitions == 1)
     result.warnings.push_back("a single repetition: its times include the warm-up");
   for (const Track& track : result.tracks) {
@@ -88,7 +91,8 @@ RunResult run_and_keep(const Experiment& experiment, const RunProgress& progress
     if (!progress) return {};
     return [&progress, name](std::int64_t done, std::int64_t total) { return progress(name, done, total); };
   };
-  RunResult result{make_plan(experiment), prepare(experiment), {}, {}, {}, {}, false, {}, {}, 0};
+  RunResult result{
+      make_plan(experiment), prepare(experiment, phase("path")), {}, {}, {}, {}, false, {}, {}, 0};
   make_tracks(experiment, result);
   PreparedRun& prepared = result.prepared;
   result.warnings = prepared.warnings;
@@ -109,6 +113,8 @@ RunResult run_and_keep(const Experiment& experiment, const RunProgress& progress
   if (keeper) result.resumed_frames = keeper->resumed_frames();
 
   result.in_contact = frames_in_contact(prepared.scene(), prepared.input.poses);
+  result.plan.scene = look_at(experiment, prepared, result.in_contact);
+  for (const SceneWarning& warning : result.plan.scene->warnings) result.warnings.push_back(to_text(warning));
   for (Track& track : result.tracks) {
     const PreparedProfile& profile = prepared.profiles[track.profile];
     LockstepInput input = prepared.input;

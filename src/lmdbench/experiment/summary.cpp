@@ -204,6 +204,7 @@ RunSummary summarise(const Experiment& experiment, const RunResult& result) {
   summary.measured_repetitions = std::max<std::int64_t>(experiment.driver.repetitions - 1, 1);
   summary.cutoff_m = result.prepared.scene().cutoff;
   summary.warnings = result.warnings;
+  summary.defaults = result.prepared.defaults;
   for (std::size_t i = 0; i < result.records.size(); ++i) {
     const MethodRecord& record = result.records[i];
     MethodSummary method;
@@ -233,6 +234,7 @@ RunSummary summarise(const Experiment& experiment, const RunResult& result) {
       summary.fcl_agreeing += frame.agrees ? 1 : 0;
     }
   }
+  summary.broken_limits = broken_limits(experiment.acceptance, summary);
   return summary;
 }
 
@@ -252,7 +254,9 @@ std::string summary_text(const RunSummary& summary) {
     for (const auto& [who, count] : summary.fcl_exceptions)
       text += fmt::format("     {}: {} out of tolerance\n", who, count);
   }
+  text += defaults_text(summary.defaults);
   for (const std::string& warning : summary.warnings) text += "note: " + warning + "\n";
+  for (const std::string& limit : summary.broken_limits) text += "limit broken: " + limit + "\n";
   return text;
 }
 
@@ -280,6 +284,8 @@ std::string summary_json(const RunSummary& summary) {
                    {"exceptions", summary.fcl_exceptions},
                    {"tolerance_relative", summary.fcl_tolerance_relative}};
   json["warnings"] = summary.warnings;
+  json["broken_limits"] = summary.broken_limits;
+  json["defaults"] = defaults_json(summary.defaults);
   return json.dump(2);  // NaN and infinity become null
 }
 

@@ -42,6 +42,8 @@ struct RunSummary {
 
   double fcl_tolerance_relative = UNSET;
   std::vector<std::string> warnings;
+  std::vector<std::string> broken_limits;  ///< Of the experiment's "limits".
+  std::vector<DefaultNote> defaults;       ///< What the experiment file leaves open.
 };
 
 RunSummary summarise(const Experiment& experiment, const RunResult& result);

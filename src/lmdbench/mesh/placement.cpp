@@ -1,9 +1,13 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/base/error.h>
 #include <lmdbench/geometry/tolerance.h>
 #include <lmdbench/mesh/placement.h>
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <cmath>
 
 namespace lmdbench {
 
@@ -21,6 +25,36 @@ void refuse_extreme_size(const TriangleMesh& mesh, const std::string& name) {
                      fmt::format("is {:g} m large, less than {:g}: products of such lengths vanish", diagonal,
                                  SMALLEST_DIAGONAL),
                      REMEDY);
+}
+
+Placement read_placement(const nlohmann::json& entry, const std::string& file, const std::string& pointer) {
+  Placement placement;
+  if (entry.contains("diagonal_m")) placement.diagonal = entry["diagonal_m"].get<double>();
+  if (entry.contains("scale")) placement.scale = entry["scale"].get<double>();
+  if (entry.contains("centre")) placement.centre = entry["centre"].get<bool>();
+  if (placement.diagonal && placement.scale)
+    throw UsageError(file, pointer + "/scale", "stands beside diagonal_m, which scales too",
+                     "give one of the two");
+  return placement;
+}
+
+void write_placement(const Placement& placement, nlohmann::ordered_json& entry) {
+  if (placement.diagonal) entry["diagonal_m"] = *placement.diagonal;
+  if (placement.scale) entry["scale"] = *placement.scale;
+  if (placement.centre) entry["centre"] = *placement.centre;
+}
+
+TriangleMesh placed(TriangleMesh mesh, const Placement& placement) {
+  const double factor = placement.factor(mesh);
+  if (placement.diagonal && !(std::isfinite(factor) && factor > 0.0))
+    throw InputError("", "", "the mesh has no extent and cannot be scaled",
+                     "give a mesh with at least one triangle of some size");
+  // Where neither moves nor scales, the coordinates keep their bits all the same: less 0, times 1.
+  const Vec3 origin = placement.centres() ? bounding_box_centre(mesh) : Vec3::Zero();
+  for (Vec3& vertex : mesh.vertices) vertex = factor * (vertex - origin);
+  mesh.planar_tolerance *= factor;
+  refuse_extreme_size(mesh, "");
+  return mesh;
 }
 
 }  // namespace lmdbench

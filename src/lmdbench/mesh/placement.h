@@ -2,11 +2,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <lmdbench/base/error.h>
 #include <lmdbench/mesh/triangle_mesh.h>
 
-#include <cmath>
+#include <nlohmann/json_fwd.hpp>
+
+#include <optional>
 #include <string>
+#include <utility>
 
 namespace lmdbench {
 
@@ -16,24 +18,42 @@ namespace lmdbench {
 /// @throws InputError
 void refuse_extreme_size(const TriangleMesh& mesh, const std::string& name);
 
-/// The mesh as experiments and paths place it ("diagonal_m"): moved until the centre of its
-/// axis-aligned bounding box is the origin of its frame, then scaled about the origin until the
-/// box's diagonal has the given length. Every reader of a path must place its meshes with this
-/// function, or the path's poses do not fit.
+/// How experiments and paths place a mesh in its frame. Every reader of a path must place its meshes with
+/// `placed`, or the path's poses do not fit.
+struct Placement {
+  std::optional<double> diagonal = std::nullopt;  ///< Of the bounding box after scaling [m].
+  std::optional<double> scale =
+      std::nullopt;  ///< Metres a unit of the file; 1 without it. Not beside a diagonal.
+  std::optional<bool> centre =
+      std::nullopt;  ///< Whether the box's centre becomes the origin; with a diagonal yes, else no.
+
+  bool centres() const { return centre.value_or(diagonal.has_value()); }
+  /// Metres a unit of the mesh's coordinates; not finite for a diagonal of a mesh without extent.
+  double factor(const TriangleMesh& mesh) const {
+    return diagonal ? *diagonal / bounding_box_diagonal(mesh) : scale.value_or(1.0);
+  }
+};
+
+/// The keys "diagonal_m", "scale" and "centre" of a mesh in an experiment or a path specification.
+/// @param pointer of the entry, for the message
+/// @throws UsageError for a scale beside a diagonal
+Placement read_placement(const nlohmann::json& entry, const std::string& file, const std::string& pointer);
+
+/// Adds the keys that `read_placement` reads.
+void write_placement(const Placement& placement, nlohmann::ordered_json& entry);
+
+/// The mesh at its place: moved until the centre of its axis-aligned bounding box is the origin of its frame
+/// where the placement centres, then scaled about the origin.
+/// @throws InputError when the mesh has no extent for a diagonal, or gets coordinates that products of lengths
+///         do not bear (`refuse_extreme_size`)
+TriangleMesh placed(TriangleMesh mesh, const Placement& placement);
+
+/// The mesh centred and scaled to a diagonal: `placed` with nothing else.
 /// @param diagonal metres, > 0
 /// @throws InputError when the mesh has no extent (no vertices, or all of them in one place) or gets coordinates
 ///         that products of lengths do not bear (`refuse_extreme_size`)
 inline TriangleMesh scaled_to_diagonal(TriangleMesh mesh, double diagonal) {
-  const double own_diagonal = bounding_box_diagonal(mesh);
-  if (!(own_diagonal > 0.0) || !std::isfinite(diagonal / own_diagonal))
-    throw InputError("", "", "the mesh has no extent and cannot be scaled",
-                     "give a mesh with at least one triangle of some size");
-  const Vec3 centre = bounding_box_centre(mesh);
-  const double factor = diagonal / own_diagonal;
-  for (Vec3& vertex : mesh.vertices) vertex = factor * (vertex - centre);
-  mesh.planar_tolerance *= factor;
-  refuse_extreme_size(mesh, "");
-  return mesh;
+  return placed(std::move(mesh), {.diagonal = diagonal});
 }
 
 }  // namespace lmdbench

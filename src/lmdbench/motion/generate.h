@@ -49,6 +49,9 @@ double first_reach(const PathScene& scene, const Vec3& direction_W, const Eigen:
 /// the first and after the last.
 double wanted_gap(const std::vector<GapPoint>& gaps, double time);
 
+/// In the first line of every generated path: tells it from recorded ones.
+inline constexpr const char* GENERATED_PATH_MARK = "made by 'lmdbench path generate";
+
 /// Makes a path:
 ///  1. The direction from the fixed mesh to the moving one wanders over the sphere, and the moving mesh turns
 ///     about its own centre (`Wander`); both are smooth and depend on the seed alone.

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 #include <utility>
 
@@ -54,22 +55,54 @@ Eigen::Quaterniond bezier(const Eigen::Quaterniond& q0, const Vec3& step_w0, con
 
 }  // namespace
 
-PathInterpolator::PathInterpolator(Path path, Interpolation interpolation)
-    : path_(std::move(path)), interpolation_(interpolation) {
+PathInterpolator::PathInterpolator(Path path, Interpolation interpolation, double gap_intervals)
+    : path_(std::move(path)),
+      interpolation_(interpolation),
+      sample_interval_(std::numeric_limits<double>::quiet_NaN()) {
   if (path_.empty()) throw std::invalid_argument("a path needs at least one pose");
+  find_gaps(gap_intervals);
   if (interpolation_ == Interpolation::LINEAR) return;
+  std::size_t first = 0;
+  for (std::size_t i = 0; i < path_.size(); ++i) {
+    const bool ends = i + 1 == path_.size() || held_[i];
+    if (!ends) continue;
+    add_slopes(first, i);
+    first = i + 1;
+  }
+}
+
+void PathInterpolator::find_gaps(double gap_intervals) {
+  std::vector<double> steps;
+  for (std::size_t i = 0; i + 1 < path_.size(); ++i) steps.push_back(path_[i + 1].time - path_[i].time);
+  held_.assign(steps.size(), false);
+  if (steps.empty()) return;
+  std::vector<double> sorted = steps;
+  const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
+  std::nth_element(sorted.begin(), middle, sorted.end());
+  sample_interval_ = *middle;
+  for (std::size_t i = 0; i < steps.size(); ++i) {
+    held_[i] = gap_intervals > 0.0 && steps[i] > gap_intervals * sample_interval_;
+    if (held_[i]) gaps_.push_back({path_[i].time, steps[i]});
+  }
+}
+
+/// Slopes of the poses first to last, between which there is no gap.
+void PathInterpolator::add_slopes(std::size_t first, std::size_t last) {
   std::vector<double> steps;
   std::vector<Vec3> secants;
   std::vector<Vec3> angular_secants;
-  for (std::size_t i = 0; i + 1 < path_.size(); ++i) {
+  for (std::size_t i = first; i < last; ++i) {
     const Pose& a = path_[i].pose;
     const Pose& b = path_[i + 1].pose;
     steps.push_back(path_[i + 1].time - path_[i].time);
     secants.push_back((b.translation - a.translation) / steps.back());
     angular_secants.push_back(rotation_vector_of(a.rotation.conjugate() * b.rotation) / steps.back());
   }
-  velocities_ = parabola_slopes(steps, secants);
-  angular_velocities_ = parabola_slopes(steps, angular_secants);
+  const auto append = [](std::vector<Vec3>& all, const std::vector<Vec3>& slopes) {
+    all.insert(all.end(), slopes.begin(), slopes.end());
+  };
+  append(velocities_, parabola_slopes(steps, secants));
+  append(angular_velocities_, parabola_slopes(steps, angular_secants));
 }
 
 Pose PathInterpolator::at(double time) const {
@@ -78,7 +111,7 @@ Pose PathInterpolator::at(double time) const {
   if (next == path_.begin()) return path_.front().pose;
   const auto index = static_cast<std::size_t>(next - path_.begin()) - 1;
   const TimedPose& a = path_[index];
-  if (next == path_.end() || time == a.time) return a.pose;
+  if (next == path_.end() || time == a.time || held_[index]) return a.pose;
   const TimedPose& b = *next;
   const double step = b.time - a.time;
   const double u = (time - a.time) / step;

@@ -18,7 +18,20 @@ enum class Interpolation : std::uint8_t {
   CUBIC    ///< Velocity and angular velocity are continuous (C1): what a hand does, the default.
 };
 
+/// Intervals this many times the usual one are gaps of a recording, where nothing else is said.
+inline constexpr double USUAL_GAP_INTERVALS = 10.0;
+
+/// An interval in which a recording has no pose.
+struct RecordingGap {
+  double start = 0.0;     ///< Time of the last pose before it [s].
+  double duration = 0.0;  ///< seconds
+};
+
 /// A path at any time.
+///
+/// Gaps: an interval longer than so many usual (median) ones is not interpolated. Nobody knows what the hand did
+/// there, and a cubic through it would invent centimetres of motion: the last pose is held until the next one,
+/// and velocities on both sides come from their own side.
 ///
 /// CUBIC, translation: cubic Hermite between neighbouring poses; the velocity at a pose is the slope of the
 /// parabola through it and its two neighbours, at the ends of the outermost such parabola: exact for
@@ -36,19 +49,30 @@ enum class Interpolation : std::uint8_t {
 class PathInterpolator {
  public:
   /// @pre the path has at least one pose and strictly increasing times (as `read_tum` gives)
-  explicit PathInterpolator(Path path, Interpolation interpolation = Interpolation::CUBIC);
+  /// @param gap_intervals  intervals longer than so many median ones are gaps; 0: none is
+  explicit PathInterpolator(Path path, Interpolation interpolation = Interpolation::CUBIC,
+                            double gap_intervals = 0.0);
 
   double start_time() const { return path_.front().time; }
   double end_time() const { return path_.back().time; }
   const Path& path() const { return path_; }
+  /// Median interval between poses [s]; NaN for a single pose.
+  double sample_interval() const { return sample_interval_; }
+  const std::vector<RecordingGap>& gaps() const { return gaps_; }
 
   /// Pose at a time [s]: at a pose's own time that pose bit for bit, before the start the first, after the
   /// end the last. The quaternion's sign follows the pose that opens the interval.
   Pose at(double time) const;
 
  private:
+  void find_gaps(double gap_intervals);
+  void add_slopes(std::size_t first, std::size_t last);
+
   Path path_;
   Interpolation interpolation_;
+  double sample_interval_;
+  std::vector<RecordingGap> gaps_;
+  std::vector<bool> held_;                ///< For each interval: whether it is a gap.
   std::vector<Vec3> velocities_;          ///< m/s at each pose; empty for LINEAR
   std::vector<Vec3> angular_velocities_;  ///< rad/s at each pose, in the mesh's frame; empty for LINEAR
 };

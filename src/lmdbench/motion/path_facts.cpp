@@ -30,6 +30,11 @@ PathFacts path_facts(const PathInterpolator& interpolator, double rate) {
   PathFacts facts;
   facts.pose_count = interpolator.path().size();
   facts.frame_count = frames.size();
+  facts.sample_interval = interpolator.sample_interval();
+  facts.gaps = interpolator.gaps().size();
+  for (std::size_t i = 1; i < interpolator.path().size(); ++i)
+    facts.longest_interval =
+        std::max(facts.longest_interval, interpolator.path()[i].time - interpolator.path()[i - 1].time);
   facts.start_time = interpolator.start_time();
   facts.duration = interpolator.end_time() - interpolator.start_time();
   facts.lower_corner = facts.upper_corner = frames.front().pose.translation;

@@ -10,12 +10,15 @@ namespace lmdbench {
 
 /// What a path is like, seen at a frame rate.
 struct PathFacts {
-  std::size_t pose_count = 0;   ///< As stored.
-  std::size_t frame_count = 0;  ///< At the frame rate.
-  double start_time = 0.0;      ///< seconds
-  double duration = 0.0;        ///< seconds
-  double length = 0.0;          ///< Way of the mesh frame's origin [m].
-  double turning = 0.0;         ///< Way of the rotation [rad].
+  std::size_t pose_count = 0;     ///< As stored.
+  std::size_t frame_count = 0;    ///< At the frame rate.
+  double start_time = 0.0;        ///< seconds
+  double sample_interval = 0.0;   ///< Median between stored poses [s]; NaN for a single pose.
+  double longest_interval = 0.0;  ///< seconds
+  std::size_t gaps = 0;           ///< Intervals that are held, not interpolated.
+  double duration = 0.0;          ///< seconds
+  double length = 0.0;            ///< Way of the mesh frame's origin [m].
+  double turning = 0.0;           ///< Way of the rotation [rad].
   // Largest finite differences between neighbouring frames; NaN where there are too few frames.
   double maximum_speed = 0.0;                 ///< m/s
   double maximum_acceleration = 0.0;          ///< m/s^2

@@ -27,8 +27,10 @@ std::optional<double> optional_number(const Json& object, const char* key) {
   return found == object.end() ? std::nullopt : std::optional(found->get<double>());
 }
 
-PlacedMesh placed_mesh(const Json& entry) {
-  return {.mesh = entry["mesh"].get<std::string>(), .diagonal = optional_number(entry, "diagonal_m")};
+PlacedMesh placed_mesh(const JsonDocument& document, const char* key, const std::string& name) {
+  const Json& entry = document.json()[key];
+  return {.mesh = entry["mesh"].get<std::string>(),
+          .placement = document.locate([&] { return read_placement(entry, name, fmt::format("/{}", key)); })};
 }
 
 double stored_rate(const JsonDocument& document, double frame_rate) {
@@ -79,8 +81,8 @@ PathSpec parse_path_spec(const std::string& text, const std::string& name) {
   const JsonDocument document(text, name, schema, ExitCode::USAGE);
   const Json& json = document.json();
   PathSpec spec;
-  spec.moving = placed_mesh(json["moving"]);
-  spec.fixed = placed_mesh(json["fixed"]);
+  spec.moving = placed_mesh(document, "moving", name);
+  spec.fixed = placed_mesh(document, "fixed", name);
   spec.frame_rate = json["frame_rate_hz"].get<double>();
   spec.stored_rate = stored_rate(document, spec.frame_rate);
   spec.seed = json["seed"].get<std::uint64_t>();
@@ -97,6 +99,32 @@ PathSpec parse_path_spec(const std::string& text, const std::string& name) {
                               spec.frame_rate, spec.duration() * spec.frame_rate, limit_of(Limit::FRAMES)),
                   "shorten the gaps' times, lower the rate, or " + raise_remedy(Limit::FRAMES));
   return spec;
+}
+
+std::string path_spec_text(const PathSpec& spec) {
+  using Ordered = nlohmann::ordered_json;
+  const auto mesh = [](const PlacedMesh& choice) {
+    Ordered entry{{"mesh", choice.mesh}};
+    write_placement(choice.placement, entry);
+    return entry;
+  };
+  const auto degrees = [](double angle) { return std::stod(fmt::format("{:.12g}", angle / DEGREE)); };
+  Ordered json{
+      {"moving", mesh(spec.moving)},
+      {"fixed", mesh(spec.fixed)},
+      {"frame_rate_hz", spec.frame_rate},
+      {"stored_rate_hz", spec.stored_rate},
+      {"seed", spec.seed},
+      {"start_direction", {spec.start_direction.x(), spec.start_direction.y(), spec.start_direction.z()}},
+      {"slide_rate_deg_per_s", degrees(spec.slide_rate)},
+      {"turn_rate_deg_per_s", degrees(spec.turn_rate)}};
+  if (spec.radial_speed) json["radial_speed_m_per_s"] = *spec.radial_speed;
+  if (spec.radial_acceleration) json["radial_acceleration_m_per_s2"] = *spec.radial_acceleration;
+  json["gap_floor"] = spec.gap_floor;
+  json["gaps"] = Ordered::array();
+  for (const GapPoint& point : spec.gaps)
+    json["gaps"].push_back({{"time_s", point.time}, {"gap", point.gap}});
+  return json.dump(2) + "\n";
 }
 
 PathSpec read_path_spec(const std::filesystem::path& file) {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <lmdbench/geometry/types.h>
+#include <lmdbench/mesh/placement.h>
 #include <lmdbench/motion/majorant.h>
 
 #include <cstdint>
@@ -13,11 +14,10 @@
 
 namespace lmdbench {
 
-/// A mesh of a path's scene, placed as experiments place theirs: with a diagonal by `scaled_to_diagonal`, without one
-/// its coordinates are metres.
+/// A mesh of a path's scene, placed as experiments place theirs.
 struct PlacedMesh {
-  std::string mesh;                ///< Name in the mesh manifest, or a mesh file.
-  std::optional<double> diagonal;  ///< metres; its own without
+  std::string mesh;  ///< Name in the mesh manifest, or a mesh file.
+  Placement placement;
 };
 
 /// Wanted gap between the meshes at a time. From point to point the gap's logarithm makes a minimum-jerk step
@@ -62,5 +62,8 @@ PathSpec read_path_spec(const std::filesystem::path& file);
 
 /// The same from text; `name` stands for the file in messages.
 PathSpec parse_path_spec(const std::string& text, const std::string& name);
+
+/// JSON text of a specification, which reads back to it (angles to twelve digits).
+std::string path_spec_text(const PathSpec& spec);
 
 }  // namespace lmdbench

@@ -1,0 +1,52 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/catalogue/manifest.h>
+#include <lmdbench/cli/commands.h>
+#include <lmdbench/cli/progress_bar.h>
+#include <lmdbench/cli/talk.h>
+#include <lmdbench/experiment/new_experiment.h>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include <memory>
+#include <string>
+
+namespace lmdbench {
+
+void add_init_command(CLI::App& app) {
+  struct InitOptions {
+    std::string moving;
+    std::string fixed;
+    std::string out = ".";
+    std::string mesh_folder = DEFAULT_MESH_FOLDER;
+  };
+  auto* command = app.add_subcommand(
+      "init", "Write an experiment for two meshes, with a path that grazes: ready to run and to edit");
+  const auto options = std::make_shared<InitOptions>();
+  command->add_option("MOVING", options->moving, "mesh that moves: a file, or a name of the manifest")
+      ->required();
+  command->add_option("FIXED", options->fixed, "mesh that stands")->required();
+  command->add_option("--out,-o", options->out, "folder of the new files")->capture_default_str();
+  command->add_option("--dir", options->mesh_folder, "folder of manifest.json and of the built meshes")
+      ->capture_default_str();
+  command->callback([options] {
+    ProgressBar bar(progress_welcome());
+    const NewExperiment made =
+        new_experiment(options->moving, options->fixed, options->out, options->mesh_folder,
+                       [&bar](std::int64_t done, std::int64_t total) {
+                         bar.update("path", done, total);
+                         return true;
+                       });
+    bar.wipe();
+    write_new_experiment(made);
+    fmt::print("{}\n{}\n{}\n", made.experiment_file.string(), made.specification_file.string(),
+               made.path_file.string());
+    for (const DefaultNote& choice : made.choices)
+      fmt::print("  {:<24} {} ({})\n", choice.key, choice.value, choice.from);
+    fmt::print("edit them, then: lmdbench run {}\nanother path: lmdbench path generate {} --out {}\n",
+               made.experiment_file.string(), made.specification_file.string(), made.path_file.string());
+  });
+}
+
+}  // namespace lmdbench

@@ -1,0 +1,34 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace lmdbench {
+
+struct Experiment;
+struct RunSummary;
+
+/// "limits" of an experiment file: what a run must keep to.
+struct Acceptance {
+  std::vector<std::string> methods;               ///< Labels; empty: all.
+  std::optional<double> recall;                   ///< At least.
+  std::optional<double> force_error_n;            ///< At most, over the probed frames.
+  std::optional<std::int64_t> fcl_disagreements;  ///< At most, frames.
+  std::optional<std::int64_t> late_frames;        ///< At most, frames in contact above 1 ms.
+};
+
+/// @param experiment with its methods and probes
+/// @throws UsageError for a label that no method has and for a limit on what is not measured
+Acceptance read_acceptance(const nlohmann::json& entry, const Experiment& experiment,
+                           const std::string& file);
+
+/// A sentence a broken limit, with the figure. A figure that could not be measured breaks its limit.
+std::vector<std::string> broken_limits(const Acceptance& acceptance, const RunSummary& summary);
+
+}  // namespace lmdbench

@@ -1,0 +1,48 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/experiment/expected_times.h>
+#include <lmdbench/methods/registry.h>
+
+#include <algorithm>
+#include <chrono>
+
+namespace lmdbench {
+namespace {
+
+/// Mean seconds of a search at frames spread over the path.
+double search_seconds(Method& method, const std::vector<Pose>& poses) {
+  const auto count = static_cast<std::int64_t>(poses.size());
+  const std::int64_t samples = std::min(TIMED_FRAMES, count);
+  const auto begin = std::chrono::steady_clock::now();
+  for (std::int64_t k = 0; k < samples; ++k) {
+    LmdSet lmds;
+    WorkCounters counters;
+    method.search(poses[static_cast<std::size_t>((2 * k + 1) * count / (2 * samples))], lmds, counters);
+  }
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count() /
+         static_cast<double>(samples);
+}
+
+}  // namespace
+
+std::vector<ExpectedTime> expected_times(const Experiment& experiment, const PreparedRun& prepared) {
+  const auto frames = static_cast<double>(prepared.input.poses.size());
+  std::vector<ExpectedTime> times;
+  for (const MethodChoice& choice : experiment.methods) {
+    const auto method = make_method(choice.name, prepared.profiles[choice.profile].scene, choice.options);
+    const double searches = method->description().tracks_locally
+                                ? frames / static_cast<double>(experiment.driver.search_every_frames)
+                                : frames;
+    times.push_back({choice.label, static_cast<double>(experiment.driver.repetitions) * searches *
+                                       search_seconds(*method, prepared.input.poses)});
+  }
+  if (experiment.truth_stride_frames > 0) {
+    const auto truth = make_method("exhaustive", prepared.scene());
+    // Two searches a probed frame: the next frame's force tells the true jump.
+    times.push_back({"truth", 2.0 * frames / static_cast<double>(experiment.truth_stride_frames) *
+                                  search_seconds(*truth, prepared.input.poses)});
+  }
+  return times;
+}
+
+}  // namespace lmdbench

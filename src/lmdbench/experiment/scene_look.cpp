@@ -1,0 +1,220 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/experiment/prepare.h>
+#include <lmdbench/experiment/scene_look.h>
+#include <lmdbench/snch/minimum_distance.h>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+namespace lmdbench {
+namespace {
+
+/// How often a closed surface winds around a point: the sum of its triangles' signed solid angles (Van Oosterom
+/// and Strackee 1983) over 4 pi; 0 outside, 1 inside, -1 inside of one that is inside out.
+double winding_number(const Vec3& point, const TriangleMesh& mesh) {
+  double angle = 0.0;
+  for (const auto& corners : mesh.triangles) {
+    const Vec3 a = mesh.vertices[static_cast<std::size_t>(corners[0])] - point;
+    const Vec3 b = mesh.vertices[static_cast<std::size_t>(corners[1])] - point;
+    const Vec3 c = mesh.vertices[static_cast<std::size_t>(corners[2])] - point;
+    const double la = a.norm(), lb = b.norm(), lc = c.norm();
+    angle +=
+        2.0 * std::atan2(a.dot(b.cross(c)), la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb);
+  }
+  return angle / (4.0 * std::numbers::pi);
+}
+
+bool encloses(const SceneLook::Mesh& note, const TriangleMesh& mesh, const Vec3& point) {
+  return note.closed && std::abs(winding_number(point, mesh)) > 0.5;
+}
+
+void look_at_sizes(SceneLook& look) {
+  const auto by_diagonal = [](const SceneLook::Mesh& a, const SceneLook::Mesh& b) {
+    return a.diagonal < b.diagonal;
+  };
+  const auto [least, most] = std::minmax_element(look.meshes.begin(), look.meshes.end(), by_diagonal);
+  if (most->diagonal > UNLIKELY_SIZE_RATIO * least->diagonal)
+    look.warnings.push_back(
+        {fmt::format("{} {} is {:.4g} m large, {} {} {:.4g} m: {:.0f} times as much", most->role, most->name,
+                     most->diagonal, least->role, least->name, least->diagonal,
+                     most->diagonal / least->diagonal),
+         fmt::format("where one is in millimetres, give it \"scale\": 0.001; else a diagonal_m")});
+  if (least->diagonal > UNLIKELY_SIZE)
+    look.warnings.push_back({fmt::format("the smallest mesh, {} {}, is {:.4g} m large", least->role,
+                                         least->name, least->diagonal),
+                             "where coordinates are millimetres, give every mesh \"scale\": 0.001"});
+}
+
+/// Distances do not tell inside from outside.
+void look_inside(SceneLook& look, const PreparedRun& prepared) {
+  const TriangleMesh& moving = prepared.scene().moving->surface().mesh;
+  const std::vector<Pose>& poses = prepared.input.poses;
+  const auto count = static_cast<std::int64_t>(poses.size());
+  const std::int64_t samples = std::min(INSIDE_SAMPLES, count);
+  for (std::size_t i = 0; i < prepared.scene().fixed.size(); ++i) {
+    const TriangleMesh& fixed = prepared.scene().fixed[i]->surface().mesh;
+    std::int64_t enclosed = 0, inside = 0, first_enclosed = -1, first_inside = -1;
+    for (std::int64_t k = 0; k < samples; ++k) {
+      const std::int64_t frame = samples == 1 ? 0 : k * (count - 1) / (samples - 1);
+      const RigidTransform X_WM(poses[static_cast<std::size_t>(frame)]);
+      const Pose& pose = poses[static_cast<std::size_t>(frame)];
+      const Vec3 fixed_M = pose.rotation.conjugate() * (fixed.vertices.front() - pose.translation);
+      if (encloses(look.meshes.front(), moving, fixed_M) && enclosed++ == 0) first_enclosed = frame;
+      if (encloses(look.meshes[i + 1], fixed, X_WM.point(moving.vertices.front())) && inside++ == 0)
+        first_inside = frame;
+    }
+    const std::string& name = look.meshes[i + 1].name;
+    if (enclosed > 0)
+      look.warnings.push_back(
+          {fmt::format(
+               "the moving mesh ({:.4g} m) encloses a vertex of {} {} ({:.4g} m) in {} of {} frames looked "
+               "at, first in frame {}",
+               look.meshes.front().diagonal, look.meshes[i + 1].role, name, look.meshes[i + 1].diagonal,
+               enclosed, samples, first_enclosed),
+           "check the units of both (scale, diagonal_m) and the path; without a path one is made that stays "
+           "outside"});
+    if (inside > 0)
+      look.warnings.push_back(
+          {fmt::format(
+               "the path is inside {} {} in {} of {} frames looked at, first in frame {}: LMDs there are "
+               "those of two surfaces that have passed through each other",
+               look.meshes[i + 1].role, name, inside, samples, first_inside),
+           "move the path outside; without a path one is made that stays there"});
+  }
+}
+
+void look_at_path(SceneLook& look, const PreparedRun& prepared) {
+  if (!prepared.path_gaps.empty()) {
+    const auto longest = std::max_element(
+        prepared.path_gaps.begin(), prepared.path_gaps.end(),
+        [](const RecordingGap& a, const RecordingGap& b) { return a.duration < b.duration; });
+    double total = 0.0;
+    for (const RecordingGap& gap : prepared.path_gaps) total += gap.duration;
+    look.warnings.push_back(
+        {fmt::format(
+             "the path has {} gaps of {:.4g} s together, the longest {:.4g} s from {:.6g} s on: the mesh is "
+             "held there",
+             prepared.path_gaps.size(), total, longest->duration, longest->start),
+         "record it again, cut it there, or set /path/gap_intervals to 0 to interpolate over gaps"});
+  }
+  if (look.frames_in_contact > 0) return;
+  double bound = std::numeric_limits<double>::infinity();
+  for (std::size_t frame = 0; frame < prepared.input.poses.size(); ++frame) {
+    for (const auto& fixed : prepared.scene().fixed) {
+      const NearestPair pair =
+          nearest_pair(prepared.scene().moving->surface(), prepared.scene().moving->prepared<Hierarchy>(),
+                       fixed->surface(), fixed->prepared<Hierarchy>(), prepared.input.poses[frame], bound);
+      if (pair.triangle_moving < 0 || !(pair.distance < bound)) continue;
+      bound = pair.distance;
+      look.nearest_frame = static_cast<std::int64_t>(frame);
+    }
+  }
+  look.nearest = bound;
+  look.warnings.push_back(
+      {fmt::format("the path never comes within the cutoff of {:.4g} m: {:.4g} m at its nearest, in frame "
+                   "{}, {:.4g} m "
+                   "short",
+                   look.cutoff, look.nearest, look.nearest_frame, look.nearest - look.cutoff),
+       "raise the cutoff, bring the path nearer, check scale and diagonal_m, or leave the path out: one is "
+       "made"});
+}
+
+}  // namespace
+
+std::string to_text(const SceneWarning& warning) {
+  return fmt::format("{} (remedy: {})", warning.what, warning.remedy);
+}
+
+SceneLook look_at(const Experiment& experiment, const PreparedRun& prepared,
+                  const std::vector<bool>& in_contact) {
+  SceneLook look;
+  for (const MeshNote& note : prepared.meshes)
+    look.meshes.push_back(
+        {note.role, note.name, note.report.triangles, note.report.diagonal, note.report.closed});
+  look.cutoff = prepared.scene().cutoff;
+  look.saturation = prepared.profiles.front().force.saturation_distance;
+  look.maximum_force = prepared.profiles.front().force.maximum_force;
+  look.force_limit = prepared.input.device.limit(prepared.profiles.front().force.largest_sum);
+  look.frames = static_cast<std::int64_t>(in_contact.size());
+  look.frames_in_contact = std::count(in_contact.begin(), in_contact.end(), true);
+  look.defaults = prepared.defaults;
+  look_at_sizes(look);
+  // In a closed loop the path is what the hand means: it may well lie inside.
+  if (!experiment.loop.closed) {
+    look_inside(look, prepared);
+    look_at_path(look, prepared);
+  }
+  return look;
+}
+
+std::optional<SceneWarning> clipping_warning(const MethodRecord& record,
+                                             const std::vector<bool>& in_contact) {
+  std::int64_t contact = 0, clipped = 0;
+  for (std::size_t frame = 0; frame < record.frames.size(); ++frame) {
+    if (!in_contact[frame]) continue;
+    ++contact;
+    clipped += record.frames[frame].force_clipped ? 1 : 0;
+  }
+  if (static_cast<double>(clipped) <= CLIPPED_SHARE * static_cast<double>(contact)) return std::nullopt;
+  return SceneWarning{
+      fmt::format("{}: the device clips the force in {:.0f} % of the frames in contact ({} of {}), which "
+                  "hides what the method found",
+                  record.label, 100.0 * static_cast<double>(clipped) / static_cast<double>(contact), clipped,
+                  contact),
+      "lower /force/maximum_force_n, or take the device \"ideal\""};
+}
+
+std::string to_text(const SceneLook& look) {
+  std::string text = "scene:\n";
+  for (const SceneLook::Mesh& mesh : look.meshes)
+    text += fmt::format("  {:<10} {}: {} triangles, {:.4g} m, {}\n", mesh.role, mesh.name, mesh.triangles,
+                        mesh.diagonal, mesh.closed ? "closed" : "open");
+  text += fmt::format(
+      "  cutoff {:.4g} m, saturation {:.4g} m, {:g} N an LMD at most, the sum clipped to {:g} N\n",
+      look.cutoff, look.saturation, look.maximum_force, look.force_limit);
+  text += fmt::format("  {} frames, {} of them in contact\n", look.frames, look.frames_in_contact);
+  double total = 0.0;
+  for (const ExpectedTime& time : look.times) {
+    text += fmt::format("  about {:.2g} s for {}\n", time.seconds, time.stage);
+    total += time.seconds;
+  }
+  if (!look.times.empty()) text += fmt::format("  about {:.2g} s in all\n", total);
+  text += defaults_text(look.defaults);
+  for (const SceneWarning& warning : look.warnings) text += "warning: " + to_text(warning) + "\n";
+  return text;
+}
+
+nlohmann::ordered_json to_json(const SceneLook& look) {
+  using Json = nlohmann::ordered_json;
+  Json json;
+  json["meshes"] = Json::array();
+  for (const SceneLook::Mesh& mesh : look.meshes)
+    json["meshes"].push_back({{"role", mesh.role},
+                              {"name", mesh.name},
+                              {"triangles", mesh.triangles},
+                              {"diagonal_m", mesh.diagonal},
+                              {"closed", mesh.closed}});
+  json["cutoff_m"] = look.cutoff;
+  json["saturation_m"] = look.saturation;
+  json["maximum_force_n"] = look.maximum_force;
+  json["force_limit_n"] = look.force_limit;  // infinity becomes null
+  json["frames"] = look.frames;
+  json["frames_in_contact"] = look.frames_in_contact;
+  json["nearest_m"] = look.nearest;  // NaN becomes null
+  json["defaults"] = defaults_json(look.defaults);
+  json["warnings"] = Json::array();
+  for (const SceneWarning& warning : look.warnings)
+    json["warnings"].push_back({{"what", warning.what}, {"remedy", warning.remedy}});
+  if (look.times.empty()) return json;
+  json["expected_seconds"] = Json::object();
+  for (const ExpectedTime& time : look.times) json["expected_seconds"][time.stage] = time.seconds;
+  return json;
+}
+
+}  // namespace lmdbench

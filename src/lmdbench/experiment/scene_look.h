@@ -1,0 +1,80 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <lmdbench/experiment/defaults.h>
+
+#include <nlohmann/json_fwd.hpp>
+
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+/// A look at the inputs before a run: what they are, and what they should not be. Nothing here stops a run, for
+/// every odd scene is somebody's experiment; but none passes in silence.
+namespace lmdbench {
+
+struct Experiment;
+struct MethodRecord;
+struct PreparedRun;
+
+/// Something that is likely not meant, with its figure.
+struct SceneWarning {
+  std::string what;
+  std::string remedy;
+};
+/// "what (remedy: ...)".
+std::string to_text(const SceneWarning& warning);
+
+/// Diagonals that differ by more than this are likely in different units.
+inline constexpr double UNLIKELY_SIZE_RATIO = 100.0;
+/// A scene whose smallest mesh is larger than this is likely not in metres [m].
+inline constexpr double UNLIKELY_SIZE = 10.0;
+/// Frames in which it is looked whether one mesh is inside the other: evenly spread over the path.
+inline constexpr std::int64_t INSIDE_SAMPLES = 32;
+/// A larger share of clipped frames in contact is worth a word: there a force says nothing of its LMDs.
+inline constexpr double CLIPPED_SHARE = 0.1;
+
+/// A stage's time before it is run.
+struct ExpectedTime {
+  std::string stage;
+  double seconds = 0.0;
+};
+
+struct SceneLook {
+  struct Mesh {
+    std::string role;
+    std::string name;
+    std::int64_t triangles = 0;
+    double diagonal = 0.0;  ///< metres
+    bool closed = false;
+  };
+  std::vector<Mesh> meshes;
+  double cutoff = 0.0;         ///< metres
+  double saturation = 0.0;     ///< metres
+  double maximum_force = 0.0;  ///< Of one LMD [N].
+  double force_limit = 0.0;    ///< The sum is clipped to it [N].
+  std::int64_t frames = 0;
+  std::int64_t frames_in_contact = 0;
+  /// Where no frame is in contact: how near the path comes [m], and in which frame.
+  double nearest = std::numeric_limits<double>::quiet_NaN();
+  std::int64_t nearest_frame = -1;
+  std::vector<DefaultNote> defaults;
+  std::vector<SceneWarning> warnings;
+  std::vector<ExpectedTime> times;  ///< Empty where nobody asked.
+};
+
+/// @param in_contact  one a frame of the path (contact.h)
+SceneLook look_at(const Experiment& experiment, const PreparedRun& prepared,
+                  const std::vector<bool>& in_contact);
+
+/// Unset where no more than CLIPPED_SHARE of the frames in contact are clipped.
+std::optional<SceneWarning> clipping_warning(const MethodRecord& record, const std::vector<bool>& in_contact);
+
+std::string to_text(const SceneLook& look);
+/// Keys as the members above; "warnings": [{"what", "remedy"}].
+nlohmann::ordered_json to_json(const SceneLook& look);
+
+}  // namespace lmdbench

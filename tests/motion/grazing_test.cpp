@@ -1,0 +1,58 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/base/error.h>
+#include <lmdbench/catalogue/shapes.h>
+#include <lmdbench/mesh/placement.h>
+#include <lmdbench/motion/grazing.h>
+#include <lmdbench/motion/interpolate.h>
+#include <lmdbench/motion/mesh_scene.h>
+
+#include <gtest/gtest.h>
+
+namespace lmdbench {
+namespace {
+
+/// Meshes of like and unlike sizes, far from their origins.
+PathScene scene(double moving_diagonal, double fixed_diagonal) {
+  TriangleMesh moving = scaled_to_diagonal(make_box({1, 2, 2}), moving_diagonal);
+  for (Vec3& vertex : moving.vertices) vertex += Vec3(0.3, 0.1, 0);
+  return mesh_scene(std::move(moving), scaled_to_diagonal(make_torus(1.0, 0.4, 24, 12), fixed_diagonal));
+}
+
+TEST(Grazing, EveryHapticFrameStaysOutsideAndSomeAreNear) {
+  for (const auto& [moving, fixed] : {std::pair(0.1, 0.15), std::pair(0.01, 0.15), std::pair(0.15, 0.02)}) {
+    const PathScene pair = scene(moving, fixed);
+    const double cutoff = 0.02 * std::min(moving, fixed);
+    const GrazingPath made = grazing_path(pair, cutoff, 1000.0);
+    const GapMeasure gaps = measure_gaps(resample(PathInterpolator(made.path), 1000.0), pair.distance);
+    EXPECT_GE(gaps.smallest(), GRAZING_FLOOR_IN_CUTOFFS * cutoff) << moving;
+    EXPECT_LE(gaps.smallest(), 0.5 * cutoff) << moving;
+    EXPECT_EQ(gaps.smallest(), made.smallest_gap);
+    EXPECT_GT(gaps.gaps.front(), cutoff) << "begins out of contact";
+    EXPECT_GT(gaps.gaps.back(), cutoff);
+    EXPECT_GT(gaps.frames_within(cutoff), gaps.gaps.size() / 4) << moving;
+  }
+}
+
+TEST(Grazing, ItsSpecificationReadsBackAndMakesTheSamePath) {
+  const PathScene pair = scene(0.1, 0.15);
+  GrazingPath made = grazing_path(pair, 0.002, 1000.0);
+  made.spec.moving = {.mesh = "box.off", .placement = {.scale = 0.001}};
+  made.spec.fixed = {.mesh = "torus", .placement = {.centre = true}};
+  const PathSpec spec = parse_path_spec(path_spec_text(made.spec), "spec.json");
+  EXPECT_EQ(spec.moving.placement.scale, 0.001);
+  EXPECT_EQ(spec.fixed.placement.centre, true);
+  const Path again = generate_path(spec, pair);
+  ASSERT_EQ(again.size(), made.path.size());
+  for (std::size_t k = 0; k < again.size(); ++k)
+    EXPECT_EQ(again[k].pose.translation, made.path[k].pose.translation) << k;
+}
+
+TEST(Grazing, MeshesThatCannotMeetAreRefused) {
+  PathScene never = scene(0.1, 0.15);
+  never.distance = [](const Pose&) { return 0.0; };  // the one inside the other wherever they are
+  EXPECT_THROW(grazing_path(never, 0.002, 1000.0), InputError);
+}
+
+}  // namespace
+}  // namespace lmdbench
