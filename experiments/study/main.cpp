@@ -18,5 +18,7 @@ int main(int argc, char** argv) {
   study::add_compare(app, chosen);
   study::add_depth(app, chosen);
   study::add_integrators(app, chosen);
+  study::add_stability(app, chosen);
+  study::add_passivity(app, chosen);
   return experiments::run_program(app, argc, argv, [&chosen] { return chosen(); });
 }

@@ -24,7 +24,7 @@ using testing::ScratchDirectory;
 const std::string WALL = LMDBENCH_SOURCE_DIR "/experiments/wall.json";
 
 Experiment wall(std::vector<Override> overrides = {}) {
-  overrides.insert(overrides.begin(), "/frames=600");
+  overrides.insert(overrides.begin(), {"/frames=600", "/loop/push_n=[0, 0, -6]"});
   return load_experiment(WALL, overrides);
 }
 

@@ -147,7 +147,8 @@ TEST(Profiles, ResultKeepsEachGroupsProfile) {
 TEST(ClosedLoopFcl, IsComparedAtTheDevicesPoses) {
   const ScratchDirectory scratch;
   const auto file = scratch / "wall.h5";
-  const Experiment experiment = load_experiment(WALL, {"/frames=400", "/probes/fcl/stride_frames=50"});
+  const Experiment experiment =
+      load_experiment(WALL, {"/frames=400", "/loop/push_n=[0, 0, -6]", "/probes/fcl/stride_frames=50"});
   const RunResult run = run_experiment_to_file(experiment, file, {"lmdbench", "run"});
   const FclCheck& check = run.track_of(0).fcl.value();
   ASSERT_EQ(check.frames.size(), 8u);

@@ -68,14 +68,46 @@ TEST(StabilitySearch, HandMovesTheBoundaryAsItsExactOne) {
 }
 
 TEST(StabilitySearch, DeviceThatClipsFirstSaysSo) {
-  // The Desktop renders 7.9 N at most; 11 mm deep that is 718 N/m, below the boundary.
-  const StabilityRow row = search({"/device=phantom-desktop"});
+  // The Desktop renders 7.9 N at most; 11 mm deep that is 717 N/m, below the boundary.
+  const StabilityRow row =
+      search({"/device=phantom-desktop", "/loop/push_n=[0, 0, 0]", "/force/cutoff_m=0.031"});
   EXPECT_EQ(row.clean_until, "device_force");
-  EXPECT_NEAR(row.critical_stiffness_n_per_m, 7.9 / 0.011, 0.01 * 7.9 / 0.011);
+  EXPECT_NEAR(row.critical_stiffness_n_per_m, 7.9 / 0.01102, 0.01 * 7.9 / 0.01102);
+}
+
+TEST(StabilitySearch, PushIsCarriedOrThereIsNoCleanStiffness) {
+  // 78.7 N/m over a reach of 20 mm carry 1.57 N: what is soft enough not to shake lets a push of 2 N through.
+  const auto row = [](double push) {
+    return search({"/loop/delay_frames=10", fmt::format("/loop/push_n=[0, 0, {}]", -push)});
+  };
+  EXPECT_NEAR(row(1.5).critical_stiffness_n_per_m, 78.7445, 0.08);
+  const StabilityRow sinking = row(2.0);
+  EXPECT_EQ(sinking.clean_until, "never");
+  EXPECT_TRUE(std::isnan(sinking.critical_stiffness_n_per_m));
+}
+
+TEST(StabilitySearch, DeviceRestsWhereTheContactCarriesThePush) {
+  for (const char* const law : {"linear", "exponential"}) {
+    for (const double push : {0.5, 3.0, 9.0}) {
+      const Experiment experiment = load_experiment(
+          WALL, {fmt::format("/methods/0/force_law={}", law), fmt::format("/loop/push_n=[0, 0, {}]", -push)});
+      const PreparedRun prepared = prepare(experiment);
+      const StabilityTrial trial =
+          try_stiffness(experiment, prepared.input, lockstep_methods(experiment, prepared).at(0), {});
+      ASSERT_TRUE(trial.carried && trial.in_contact);
+      EXPECT_NEAR(trial.force_at_rest_W.z(), push, 1e-6 * push) << law;
+      // F = F_max (e^(k s) - 1) / (e^k - 1): its slope grows with the force, k (F + F_max / (e^k - 1)) / cutoff.
+      const double slope =
+          std::string(law) == "linear" ? 500.0 : 4.0 * (push + 10.0 / std::expm1(4.0)) / 0.02;
+      EXPECT_NEAR(trial.stiffness_n_per_m, slope, 1e-5 * slope) << law;
+    }
+  }
 }
 
 TEST(StabilitySearch, PathOutOfContactIsNoContact) {
   EXPECT_EQ(search({"/force/cutoff_m=0.001"}).clean_until, "no_contact");
+  EXPECT_EQ(search({"/force/cutoff_m=0.001", "/loop/push_n=[0, 0, 0]"}).clean_until, "no_contact");
+  EXPECT_EQ(search({"/loop/push_n=[0, 0, 1]"}).clean_until, "no_contact") << "pushed away from the wall";
 }
 
 TEST(StabilitySearch, OpenLoopIsRefused) {

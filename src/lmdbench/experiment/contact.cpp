@@ -4,6 +4,7 @@
 #include <lmdbench/snch/minimum_distance.h>
 
 #include <algorithm>
+#include <limits>
 
 namespace lmdbench {
 
@@ -16,6 +17,16 @@ std::vector<bool> frames_in_contact(const Scene& scene, const std::vector<Pose>&
                              fixed->surface(), fixed->template prepared<Hierarchy>(), X_WM, scene.cutoff);
     }));
   return in_contact;
+}
+
+double clearance(const Scene& scene, const Pose& X_WM) {
+  double least = std::numeric_limits<double>::infinity();
+  for (const auto& fixed : scene.fixed) {
+    const NearestPair pair = nearest_pair(scene.moving->surface(), scene.moving->prepared<Hierarchy>(),
+                                          fixed->surface(), fixed->prepared<Hierarchy>(), X_WM, least);
+    if (pair.triangle_moving >= 0) least = std::min(least, pair.distance);
+  }
+  return least;
 }
 
 }  // namespace lmdbench

@@ -15,4 +15,7 @@ namespace lmdbench {
 /// distance 0 are "touching", a part of it.
 std::vector<bool> frames_in_contact(const Scene& scene, const std::vector<Pose>& poses);
 
+/// Exact minimum distance [m] to any of the fixed meshes, however far; 0 where triangles touch or intersect.
+double clearance(const Scene& scene, const Pose& X_WM);
+
 }  // namespace lmdbench

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/crosscheck/fcl_crosscheck.h>
+#include <lmdbench/experiment/contact.h>
 #include <lmdbench/experiment/fcl_probe.h>
-#include <lmdbench/snch/minimum_distance.h>
 
 #include <algorithm>
 #include <cmath>
@@ -11,21 +11,6 @@
 #include <tuple>
 
 namespace lmdbench {
-namespace {
-
-/// Exact minimum distance to any of the fixed meshes.
-double exact_minimum(const Scene& scene, const Pose& X_WM) {
-  double least = std::numeric_limits<double>::infinity();
-  for (const auto& fixed : scene.fixed) {
-    const NearestPair pair = nearest_pair(scene.moving->surface(), scene.moving->prepared<Hierarchy>(),
-                                          fixed->surface(), fixed->prepared<Hierarchy>(), X_WM, least);
-    if (pair.triangle_moving >= 0) least = std::min(least, pair.distance);
-  }
-  return least;
-}
-
-}  // namespace
-
 FclCheck probe_fcl(const Scene& scene, const LockstepInput& input, const std::vector<LockstepMethod>& methods,
                    const std::vector<std::int64_t>& frames, double tolerance_relative,
                    const Progress& progress) {
@@ -48,7 +33,7 @@ FclCheck probe_fcl(const Scene& scene, const LockstepInput& input, const std::ve
     row.triangle_moving = theirs.triangle_moving;
     row.triangle_fixed = theirs.triangle_fixed;
     row.fixed_body = theirs.fixed_body;
-    row.lmdbench_distance = exact_minimum(scene, X_WM);
+    row.lmdbench_distance = clearance(scene, X_WM);
     const bool we_separate = row.lmdbench_distance > 0.0;
     if (theirs.separated && we_separate)
       row.relative_difference = std::abs(theirs.distance - row.lmdbench_distance) / row.lmdbench_distance;

@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <utility>
@@ -18,6 +19,8 @@ namespace {
 
 /// Growth that stands for a stiffness that the device cannot render: any positive number.
 constexpr double CLIPPED_GROWTH = 1.0;
+/// Growth that stands for a contact too soft to carry the push: the critical stiffness lies above.
+constexpr double SINKING_GROWTH = -1.0;
 
 /// A search on one method.
 class Search {
@@ -26,21 +29,21 @@ class Search {
       : experiment_(experiment),
         prepared_(prepared),
         method_(std::move(method)),
-        unit_force_(method_.profile.maximum_force),
         progress_(std::move(progress)) {}
 
   void run(double first_stiffness, StabilityRow& row) {
-    const StabilityTrial given = try_scale(1.0);
+    double scale = 1.0;
+    StabilityTrial given = try_scale(scale);
+    for (int i = 0; i < MOST_BRACKETINGS && !given.carried; ++i) given = try_scale(scale *= BRACKET_FACTOR);
     if (!given.in_contact) {
       row.clean_until = "no_contact";
       return;
     }
-    stiffness_of_unit_ = given.stiffness_n_per_m;
-    const double start = first_stiffness > 0.0 ? first_stiffness : stiffness_of_unit_;
-    double low = start;
+    double low = first_stiffness > 0.0 ? scale * first_stiffness / given.stiffness_n_per_m : scale;
     double growth_low = growth(low);
     double high = low;
     double growth_high = growth_low;
+    // Scales of F_max bracket the growth's change of sign.
     for (int i = 0; i < MOST_BRACKETINGS && growth_low > 0.0; ++i) {
       high = std::exchange(low, low / BRACKET_FACTOR);
       growth_high = std::exchange(growth_low, growth(low));
@@ -49,29 +52,28 @@ class Search {
       low = std::exchange(high, high * BRACKET_FACTOR);
       growth_low = std::exchange(growth_high, growth(high));
     }
+    if (growth_low < 0.0 && growth_high > 0.0) refine(low, high, growth_low, growth_high);
     if (best_ > 0.0) row.critical_stiffness_n_per_m = best_;
-    row.clean_until = best_ == 0.0 ? "never" : growth_high <= 0.0 ? "nothing" : "";
-    if (!row.clean_until.empty()) return;
-    if (growth_low < 0.0) refine(low, high, growth_low, growth_high);
-    row.critical_stiffness_n_per_m = best_;
-    row.clean_until = broken_by_;
+    row.clean_until = best_ == 0.0 ? "never" : growth_high <= 0.0 ? "nothing" : broken_by_;
   }
 
  private:
   StabilityTrial try_scale(double scale) {
     LockstepMethod scaled = method_;
-    scaled.profile.maximum_force = unit_force_ * scale;
+    scaled.profile.maximum_force *= scale;
+    scaled.profile.largest_sum *= scale;
     return try_stiffness(experiment_, prepared_.input, scaled, progress_);
   }
 
-  /// Positive where the contact of that stiffness is not clean.
-  double growth(double stiffness) {
-    const StabilityTrial trial = try_scale(stiffness / stiffness_of_unit_);
+  /// Positive where the contact under that scale of F_max is not clean.
+  double growth(double scale) {
+    const StabilityTrial trial = try_scale(scale);
+    if (!trial.carried) return SINKING_GROWTH;
     const bool clean = !trial.clipped && trial.outcome.clean();
     if (clean) {
-      best_ = std::max(best_, stiffness);
-    } else if (worst_ == 0.0 || stiffness < worst_) {
-      worst_ = stiffness;
+      best_ = std::max(best_, trial.stiffness_n_per_m);
+    } else if (worst_ == 0.0 || scale < worst_) {
+      worst_ = scale;
       broken_by_ = trial.clipped ? "device_force" : to_string(trial.outcome.fastest);
     }
     return trial.clipped ? CLIPPED_GROWTH : trial.outcome.growth;
@@ -80,16 +82,14 @@ class Search {
   void refine(double low, double high, double growth_low, double growth_high) {
     std::uintmax_t iterations = MOST_REFINEMENTS;
     boost::math::tools::toms748_solve(
-        [this](double k) { return growth(k); }, low, high, growth_low, growth_high,
+        [this](double scale) { return growth(scale); }, low, high, growth_low, growth_high,
         [](double a, double b) { return std::abs(b - a) <= STIFFNESS_TOLERANCE * std::abs(a); }, iterations);
   }
 
   const Experiment& experiment_;
   const PreparedRun& prepared_;
   LockstepMethod method_;
-  double unit_force_;
   Progress progress_;
-  double stiffness_of_unit_ = 0.0;
   double best_ = 0.0;   ///< Largest clean stiffness.
   double worst_ = 0.0;  ///< Smallest one that is not; 0: none yet.
   std::string broken_by_;
@@ -113,10 +113,13 @@ std::vector<StabilityRow> find_critical_stiffness(const Experiment& experiment, 
   common.bound_n_per_m = sufficient_stiffness(sampled);
 
   std::vector<StabilityRow> rows;
-  for (LockstepMethod& method : lockstep_methods(experiment, prepared)) {
+  std::vector<LockstepMethod> methods = lockstep_methods(experiment, prepared);
+  for (std::size_t i = 0; i < methods.size(); ++i) {
+    LockstepMethod& method = methods[i];
+    const std::string& name = experiment.profiles[experiment.methods[i].profile].name;
     StabilityRow row = common;
-    row.method = method.label;
-    row.profile = method.profile.law == ForceLaw::LINEAR ? "linear" : "exponential";
+    row.method = experiment.methods[i].entry;
+    row.profile = !name.empty() ? name : method.profile.law == ForceLaw::LINEAR ? "linear" : "exponential";
     std::int64_t trials = 0;
     Progress counted;
     if (progress)

@@ -12,7 +12,7 @@
 #include <vector>
 
 /// The largest clean stiffness of a closed loop, method by method: `lmdbench stability`. The stiffness of the contact at
-/// the path's first pose is varied through F_max of the force law; each is tried as `stability_trial.h` says and judged
+/// rest is varied through F_max of the force law; each is tried as `stability_trial.h` says and judged
 /// as `cleanliness.h` says. Growth changes its sign at the critical stiffness, which is bracketed by factors of
 /// BRACKET_FACTOR and found to STIFFNESS_TOLERANCE by TOMS 748.
 namespace lmdbench {
@@ -24,8 +24,9 @@ inline constexpr int MOST_REFINEMENTS = 40;
 
 /// Result of one search.
 struct StabilityRow {
-  std::string method;   ///< Label.
-  std::string profile;  ///< Its force law.
+  std::string method;  ///< Label of its entry in the experiment.
+  std::string
+      profile;  ///< Name of its force profile; its force law where there is one profile without a name.
   std::int64_t delay_frames = 0;
   double servo_rate_hz = UNSET;
   double mass_kg = UNSET;
@@ -36,7 +37,8 @@ struct StabilityRow {
   double bound_n_per_m = UNSET;  ///< The sufficient bound b / (T/2 + t_d).
   /// What ends the clean range: "amplitude", "energy" or "force_above_30_hz", whichever grows fastest just above it;
   /// "device_force" where the device clips the resting force first; "nothing" where the search found no end,
-  /// "never" where no stiffness was clean, "no_contact" where the first pose has no force and stiffness.
+  /// "never" where no stiffness was clean (or none that carries the push), "no_contact" where the first pose, or all
+  /// that the push can reach, has no force and stiffness.
   std::string clean_until;
 };
 

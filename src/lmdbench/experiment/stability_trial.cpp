@@ -1,10 +1,15 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/experiment/stability_trial.h>
+#include <lmdbench/lmd/method_description.h>
+
+#include <boost/math/tools/toms748_solve.hpp>
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <deque>
+#include <functional>
 #include <memory>
 #include <numbers>
 #include <optional>
@@ -15,6 +20,9 @@ namespace {
 
 constexpr std::int64_t BLOCK_FRAMES = 256;  ///< Between two looks whether the trial is over.
 constexpr int CYCLES = SKIPPED_CYCLES + 2 * WINDOW_CYCLES;
+
+constexpr int REST_STEPS = 64;  ///< A cutoff is searched in so many steps for the pose that carries the push.
+constexpr int REST_BITS = 30;   ///< Precision of that pose.
 
 /// Growth that stands for a swing that died down or escaped: ten times the amplitude a window.
 constexpr double DECIDED_GROWTH = std::numbers::ln10;
@@ -98,6 +106,47 @@ class TrialPoses final : public PoseSource {
   double last_lively_ = 0.0;
 };
 
+/// The last of the frames in which the method is held at a pose.
+FrameRecord held_at(const Pose& X_WM, LockstepInput held, const LockstepMethod& method,
+                    const DriverChoice& driver) {
+  held.poses.front() = X_WM;
+  return run_lockstep({method}, held, driver, {}).front().frames.back();
+}
+
+/// Moves the pose along the push to where the contact carries it. Whole steps find the place, TOMS 748 the pose.
+/// @return nothing where no pose within a cutoff of the first one does
+std::optional<Pose> rest_under_push(const Pose& start, const Vec3& push_W,
+                                    const std::function<FrameRecord(const Pose&)>& held, double cutoff) {
+  const double load = push_W.norm();
+  const Vec3 along_W = push_W / load;
+  const auto pose_at = [&](double way) {
+    Pose X_WM = start;
+    X_WM.translation += way * along_W;
+    return X_WM;
+  };
+  const auto excess = [&](double way) { return -held(pose_at(way)).force.dot(along_W) - load; };
+  double there = 0.0;
+  double excess_there = excess(there);
+  const double step = (excess_there < 0.0 ? 1.0 : -1.0) * cutoff / REST_STEPS;
+  for (int i = 0; i < REST_STEPS; ++i) {
+    const double next = there + step;
+    const double excess_next = excess(next);
+    if ((excess_there < 0.0) != (excess_next < 0.0)) {
+      const bool forward = step > 0.0;
+      std::uintmax_t iterations = 100;
+      const auto [low, high] = boost::math::tools::toms748_solve(
+          excess, forward ? there : next, forward ? next : there, forward ? excess_there : excess_next,
+          forward ? excess_next : excess_there, boost::math::tools::eps_tolerance<double>(REST_BITS),
+          iterations);
+      // The deeper end carries the push: the shallower one may be out of contact.
+      return pose_at(high);
+    }
+    there = next;
+    excess_there = excess_next;
+  }
+  return std::nullopt;
+}
+
 double moving_mass(const DeviceDynamics& dynamics) {
   const bool rigid_hand = dynamics.hand && !dynamics.hand->has_grip();
   return dynamics.mass_kg + (rigid_hand ? dynamics.hand->mass_kg : 0.0);
@@ -111,17 +160,29 @@ StabilityTrial try_stiffness(const Experiment& experiment, const LockstepInput& 
   DriverChoice driver = experiment.driver;
   driver.repetitions = 1;
   driver.block_frames = BLOCK_FRAMES;
-  const std::int64_t hold_frames = driver.search_every_frames + driver.search_latency_frames + 1;
+  // A method that searches in every frame knows the contact at once.
+  const bool searches_now_and_then = method.make()->description().tracks_locally;
+  const std::int64_t hold_frames =
+      searches_now_and_then ? driver.search_every_frames + driver.search_latency_frames + 1 : 1;
   LockstepInput held = input;
   held.keep_lmds = nullptr;
   held.poses.resize(1);
   held.make_poses = nullptr;
   held.frames = hold_frames;
-  const FrameRecord at_rest = run_lockstep({method}, held, driver, {}).front().frames.back();
 
   StabilityTrial trial;
+  if (!loop.push_n.isZero(0.0)) {
+    const std::optional<Pose> pose = rest_under_push(
+        held.poses.front(), loop.push_n,
+        [&](const Pose& X_WM) { return held_at(X_WM, held, method, driver); }, method.profile.cutoff);
+    trial.carried = pose.has_value();
+    if (!trial.carried) return trial;
+    held.poses.front() = *pose;
+  }
+  const FrameRecord at_rest = held_at(held.poses.front(), held, method, driver);
   trial.stiffness_n_per_m = at_rest.effective_stiffness;
   trial.clipped = at_rest.force_clipped;
+  trial.force_at_rest_W = at_rest.force;
   Rest rest{held.poses.front(), at_rest.force, 0.0, 0.0, 0.0};
   rest.range_m = std::min(method.profile.cutoff - at_rest.minimum_distance,
                           at_rest.minimum_distance - method.profile.saturation_distance);

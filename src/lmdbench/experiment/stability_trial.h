@@ -7,10 +7,11 @@
 #include <lmdbench/experiment/lockstep.h>
 
 /// One trial of a stiffness: the device rests in contact and is tapped.
-///  1. It is held at the first pose of the path until the method has an LMD set there and its force has gone through
-///     the delay.
-///  2. It is let go, pushed by just the force that balances the contact, so that it rests at that pose whatever the
-///     stiffness (the experiment's own push is not used), and tapped along the contact force: its speed changes so that
+///  1. It is held where it is to rest until the method has an LMD set there and its force has gone through the delay. With a
+///     push that is where the contact's force along the push balances it, found by moving the path's first pose along the
+///     push; without one it is that pose itself.
+///  2. It is let go, pushed by just the force that balances the contact (the push, and across it what the hand would give), and
+///     tapped along the contact force: its speed changes so that
 ///     it would swing by TAP_SHARE of the way that the contact leaves it on either side.
 ///  3. The trial ends after SKIPPED_CYCLES + 2 WINDOW_CYCLES oscillations, when the swing has died down, when it has left the
 ///     contact's range, or after MOST_SWING_FRAMES.
@@ -26,7 +27,9 @@ inline constexpr std::int64_t MOST_SWING_FRAMES = 1'000'000;
 struct StabilityTrial {
   double stiffness_n_per_m = UNSET;  ///< K_eff of the resting contact.
   bool in_contact = false;  ///< There is a force and a stiffness at rest; without them nothing below is set.
+  bool carried = true;      ///< The contact carries the push before it saturates; else nothing below is set.
   bool clipped = false;     ///< The device clips the force at rest: it cannot render this stiffness here.
+  Vec3 force_at_rest_W = Vec3::Zero();  ///< [N]
   Cleanliness outcome;
   std::int64_t frames = 0;  ///< From the tap on.
 };
