@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-FileCopyrightText: The lmdbench authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Hard against soft on one contact, open and closed loop: runs experiments/bunny-closed.json with both cutoffs and both
-kinds of loop, and with LMD sets of several ages in the closed one; leaves hard-soft.md (tables) and a figure (hard-soft.svg,
+"""Hard against soft on one contact, open and closed loop: runs experiments/bunny-closed.json, whose two force profiles each run puts
+through the same poses, with both kinds of loop, and with LMD sets of several ages in the closed one; leaves hard-soft.md (tables) and a figure (hard-soft.svg,
 hard-soft.png) of force, spectrum, stiffness and clearance."""
 
 import argparse
@@ -17,7 +17,7 @@ from lmdbench_results import Result, ResultError, run_script
 
 import matplotlib.pyplot as plt
 
-CUTOFFS = {"hard": 0.005, "soft": 0.05}  # share of the moving mesh's diagonal
+PROFILES = ("hard", "soft")
 KINDS = ("open", "closed")
 AGES_FRAMES = (1, 5, 20, 50, 100)
 BUZZ_HZ = 30.0  # a hand feels what is above as buzzing
@@ -45,11 +45,11 @@ def buzz(force, rate):
     return float(np.sqrt(power))
 
 
-def figures_of(group, scene, rate, contact):
-    """What the tables tell of one method."""
+def figures_of(group, rate, contact):
+    """What the tables tell of one method under one profile."""
     force = group["force"][:]
     length = np.linalg.norm(force, axis=1)
-    maximum = float(scene.attrs["maximum_force_n"])
+    maximum = float(group.attrs["maximum_force_n"])
     jumps = np.linalg.norm(np.diff(force, axis=0), axis=1) > 0.25 * maximum
     fallen = (length[1:] == 0) & (length[:-1] > 0) & contact[1:]
     seconds = max(contact.sum() / rate, 1.0 / rate)
@@ -67,16 +67,28 @@ def figures_of(group, scene, rate, contact):
     }
 
 
-def contact_of(h5, group):
-    return (group["loop/in_contact"] if "loop" in group else h5["/scene/in_contact"])[:].astype(bool)
+def contact_of(group):
+    return (group["loop/in_contact"] if "loop" in group else group["in_contact"])[:].astype(bool)
 
 
-def lines_of(name, h5):
-    """One line a method of a run."""
+def text_attribute(group, name):
+    value = group.attrs[name]
+    return value.decode() if isinstance(value, bytes) else str(value)
+
+
+def groups_of(h5, profile):
+    """{method: group} under a profile, in the order of reports."""
+    groups = {label.removesuffix("-" + profile): group for label, group in h5["/methods"].items()
+              if text_attribute(group, "profile") == profile}
+    return dict(sorted(groups.items()))
+
+
+def lines_of(name, h5, profile):
+    """One line a method of a run under a profile."""
     rate = float(h5["/scene"].attrs["frame_rate_hz"])
     lines, columns = [], []
-    for label, group in h5["/methods"].items():
-        values = figures_of(group, h5["/scene"], rate, contact_of(h5, group))
+    for label, group in groups_of(h5, profile).items():
+        values = figures_of(group, rate, contact_of(group))
         columns = list(values)
         lines.append(f"| {name} | {label} | " + " | ".join("-" if np.isnan(v) else f"{v:.3g}" for v in values.values())
                      + " |")
@@ -85,8 +97,8 @@ def lines_of(name, h5):
 
 def table(runs, first):
     lines = []
-    for name, h5 in runs.items():
-        columns, more = lines_of(name, h5)
+    for name, (h5, profile) in runs.items():
+        columns, more = lines_of(name, h5, profile)
         lines += more
     return "\n".join([f"| {first} | method | " + " | ".join(columns) + " |", "|---|---|" + "---|" * len(columns)] + lines)
 
@@ -94,12 +106,12 @@ def table(runs, first):
 def draw(runs, directory):
     style.use_style()
     figure, axes = plt.subplots(4, 4, figsize=(style.TWO_COLUMNS_IN, 6.4), layout="constrained", sharex="row")
-    for column, (name, h5) in enumerate(runs.items()):
+    for column, (name, (h5, profile)) in enumerate(runs.items()):
         rate = float(h5["/scene"].attrs["frame_rate_hz"])
         time = h5["/path/time"][:]
         shown = (time >= WINDOW_S[0]) & (time <= WINDOW_S[1])
         axes[0, column].set_title(name)
-        for label, group in h5["/methods"].items():
+        for label, group in groups_of(h5, profile).items():
             force = group["force"][:]
             colour = style.METHOD_COLOURS[int(group.attrs["method_order"]) % len(style.METHOD_COLOURS)]
             options = {"color": colour, "label": label, "linewidth": 0.6}
@@ -149,21 +161,25 @@ def main(argv):
     os.makedirs(options.runs, exist_ok=True)
     os.makedirs(options.out, exist_ok=True)
 
-    def result(name, settings):
-        return run(options.program, options.experiment, os.path.join(options.runs, f"{name}.h5"), settings)
+    opened = {}
 
-    kinds = {f"{profile}, {kind}": result(f"{profile}-{kind}", {"/force/cutoff_diagonal": cutoff, "/loop/kind": kind})
-             for profile, cutoff in CUTOFFS.items() for kind in KINDS}
+    def result(name, settings):
+        if name not in opened:
+            opened[name] = run(options.program, options.experiment, os.path.join(options.runs, f"{name}.h5"), settings)
+        return opened[name]
+
+    loops = {kind: result(kind, {"/loop/kind": kind}) for kind in KINDS}
+    kinds = {f"{profile}, {kind}": (loops[kind], profile) for profile in PROFILES for kind in KINDS}
     ages = {}
-    for profile, cutoff in CUTOFFS.items():
+    for profile in PROFILES:
         for age in AGES_FRAMES:
             for prediction in ("none", "linear"):
-                ages[f"{profile}, {age} frames{', predicted' if prediction == 'linear' else ''}"] = result(
-                    f"{profile}-{age}-{prediction}",
-                    {"/force/cutoff_diagonal": cutoff, "/driver/search_every_frames": age,
+                ages[f"{profile}, {age} frames{', predicted' if prediction == 'linear' else ''}"] = (result(
+                    f"{age}-{prediction}",
+                    {"/driver/search_every_frames": age,
                      "/driver/search_latency_frames": age, "/driver/prediction": prediction,
                      "/methods": [{"name": "original", "force_law": "linear"},
-                                  {"name": "improved", "force_law": "exponential"}]})
+                                  {"name": "improved", "force_law": "exponential"}]}), profile)
     with open(os.path.join(options.out, "hard-soft.md"), "w", encoding="ascii") as file:
         file.write(TEXT.format(kinds=table(kinds, "profile, loop"), ages=table(ages, "profile, age")))
     draw(kinds, options.out)

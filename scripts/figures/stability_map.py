@@ -1,0 +1,209 @@
+#!/usr/bin/env python3
+# SPDX-FileCopyrightText: The lmdbench authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Stability maps from the raw runs of 'lmdbench-study stability' (files of one JSON object a line): which stiffness stays clean over
+the age of the LMD set, by scene, profile and method. Leaves stability-map.md and a figure (stability-map.svg, stability-map.png)."""
+
+import argparse
+import json
+import math
+import os
+
+import numpy as np
+
+import figure_style as style
+from lmdbench_results import ResultError, run_script
+
+import matplotlib.pyplot as plt
+
+METHODS = ("original", "improved", "certified", "nearest")
+DETAIL_N_PER_M = (1500, 5000, 16000)
+DETAIL_AGE_FRAMES = 20  # of methods that track
+# (key, title, scale, digits) of the means of the detail table
+MEASURES = (
+    ("amplitude_m", "amplitude, mm", 1e3), ("frequency_hz", "frequency, Hz", 1), ("force_above_30_hz_n", "above 30 Hz, N", 1),
+    ("energy_created_j", "energy created, mJ", 1e3), ("power_created_w", "power created, mW", 1e3),
+    ("clearance_m", "smallest clearance, mm", 1e3), ("penetration_share", "touching, % of looks", 100),
+    ("effective_stiffness_p99_n_per_m", "K_eff 99 %, N/m", 1), ("jumps", "jumps", 1), ("dropouts", "dropouts", 1))
+
+
+def read_runs(files):
+    """{(scene, profile, method, age): {stiffness: [run, ...]}}"""
+    points = {}
+    for file in files:
+        with open(file, encoding="utf-8") as stream:
+            for number, line in enumerate(stream, 1):
+                try:
+                    run = json.loads(line)
+                    key = (run["scene"].removeprefix("stability-"), run["profile"], run["method"], run["age_frames"])
+                except (ValueError, KeyError) as error:
+                    raise ResultError(f"{file}: line {number}: is not a run ({error}) (remedy: name what "
+                                      "'lmdbench-study stability' printed)") from error
+                points.setdefault(key, {}).setdefault(run["stiffness_n_per_m"], []).append(run)
+    return points
+
+
+def wilson(count, total, z=1.959964):
+    """95 % interval of a share (Wilson's score)."""
+    share = count / total
+    centre = share + z * z / (2 * total)
+    half = z * math.sqrt(share * (1 - share) / total + z * z / (4 * total * total))
+    return max(0.0, (centre - half) / (1 + z * z / total)), min(1.0, (centre + half) / (1 + z * z / total))
+
+
+STUDENT_975 = {1: 12.706, 2: 4.303, 4: 2.776, 9: 2.262, 14: 2.145, 19: 2.093, 29: 2.045}
+
+
+def mean_and_half(values):
+    """Mean and half of its 95 % interval (Student's t)."""
+    values = np.asarray(values, dtype=float)
+    if values.size < 2:
+        return float(values.mean()), math.nan
+    known = [n for n in STUDENT_975 if n <= values.size - 1]
+    return float(values.mean()), STUDENT_975[max(known)] * float(values.std(ddof=1)) / math.sqrt(values.size)
+
+
+def verdict(runs):
+    """'30 [0.89, 1]' and where not all are clean, why."""
+    total = len(runs)
+    clean = sum(run["clean"] for run in runs)
+    low, high = wilson(clean, total)
+    text = f"{clean} [{low:.2f}, {high:.2f}]"
+    shaking, through = sum(run["shaking"] for run in runs), sum(run["through"] for run in runs)
+    return text + (f", shakes {shaking}" if shaking else "") + (f", through {through}" if through else "")
+
+
+def clean_range(by_stiffness):
+    """Stiffnesses at which every run is clean: (least, most), or None."""
+    clean = [stiffness for stiffness, runs in by_stiffness.items() if all(run["clean"] for run in runs)]
+    return (min(clean), max(clean)) if clean else None
+
+
+def ordered(points):
+    scenes = list(dict.fromkeys(key[0] for key in points))
+    return sorted(points, key=lambda key: (scenes.index(key[0]), key[1], METHODS.index(key[2]) if key[2] in METHODS else 9, key[3]))
+
+
+def headline(points):
+    """Largest clean stiffness: a line a scene and profile, a column a method and age."""
+    columns = sorted({(key[2], key[3]) for key in points},
+                     key=lambda c: (METHODS.index(c[0]) if c[0] in METHODS else 9, c[1]))
+    lines = ["| scene | profile | " + " | ".join(f"{m}, {a} ms" for m, a in columns) + " |", "|---|---|" + "---|" * len(columns)]
+    for scene, profile in dict.fromkeys((key[0], key[1]) for key in ordered(points)):
+        cells = []
+        for method, age in columns:
+            by_stiffness = points.get((scene, profile, method, age))
+            found = clean_range(by_stiffness) if by_stiffness else None
+            cells.append("not run" if not by_stiffness else f"{found[1]:g}" if found else "none")
+        lines.append(f"| {scene} | {profile} | " + " | ".join(cells) + " |")
+    return "\n".join(lines)
+
+
+def counts(points):
+    stiffnesses = sorted({s for by in points.values() for s in by})
+    lines = ["| scene | profile | method | age, ms | " + " | ".join(f"{s:g} N/m" for s in stiffnesses) + " |",
+             "|---|---|---|---|" + "---|" * len(stiffnesses)]
+    for key in ordered(points):
+        by = points[key]
+        lines.append(f"| {key[0]} | {key[1]} | {key[2]} | {key[3]} | "
+                     + " | ".join(verdict(by[s]) if s in by else "-" for s in stiffnesses) + " |")
+    return "\n".join(lines)
+
+
+def details(points):
+    lines = ["| scene | profile | method, age | K, N/m | " + " | ".join(title for _, title, _ in MEASURES) + " |",
+             "|---|---|---|---|" + "---|" * len(MEASURES)]
+    for key in ordered(points):
+        if key[3] not in (0, DETAIL_AGE_FRAMES) or (key[3] == 0 and key[2] in METHODS[:2]):
+            continue
+        for stiffness in DETAIL_N_PER_M:
+            runs = points[key].get(stiffness)
+            if not runs:
+                continue
+            cells = []
+            for name, _, scale in MEASURES:
+                mean, half = mean_and_half([run[name] for run in runs])
+                cells.append(f"{scale * mean:.3g} +- {scale * half:.2g}")
+            lines.append(f"| {key[0]} | {key[1]} | {key[2]}, {key[3]} ms | {stiffness:g} | " + " | ".join(cells) + " |")
+    return "\n".join(lines)
+
+
+def draw(points, directory):
+    style.use_style()
+    rows = list(dict.fromkeys((key[0], key[1]) for key in ordered(points)))
+    methods = [m for m in METHODS if any(key[2] == m for key in points)]
+    figure, axes = plt.subplots(len(rows), len(methods), figsize=(style.TWO_COLUMNS_IN, 0.9 * len(rows) + 0.6),
+                                layout="constrained", squeeze=False)
+    for row, (scene, profile) in enumerate(rows):
+        for column, method in enumerate(methods):
+            axis = axes[row, column]
+            ages = sorted(key[3] for key in points if key[:3] == (scene, profile, method))
+            stiffnesses = sorted({s for a in ages for s in points[scene, profile, method, a]})
+            if not ages:
+                axis.set_axis_off()
+                continue
+            share = np.array([[np.mean([run["clean"] for run in points[scene, profile, method, a][s]])
+                               if s in points[scene, profile, method, a] else np.nan for s in stiffnesses] for a in ages])
+            image = axis.imshow(share, origin="lower", aspect="auto", vmin=0, vmax=1, cmap="viridis")
+            axis.set_xticks(range(len(stiffnesses)), [f"{s / 1000:g}" for s in stiffnesses] if row == len(rows) - 1 else [])
+            axis.set_yticks(range(len(ages)), ages)
+            if row == 0:
+                axis.set_title(method)
+            if column == 0:
+                axis.set_ylabel(f"{scene}\n{profile}")
+    for axis in axes[-1]:
+        axis.set_xlabel("stiffness, N/mm")
+    figure.colorbar(image, ax=axes, label="share of clean runs; upward: age, ms", shrink=0.6)
+    return style.save(figure, directory, "stability-map")
+
+
+TEXT = """# Stability maps
+
+Made by `scripts/figures/stability_map.py` from {runs} closed loops of `lmdbench-study stability` (what a run is and what is measured
+stands in `src/lmdbench/experiment/stability_map.h`). A device of 0.075 kg in the hand `postural-arm` at 1 kHz is pressed into the
+contact by {load} N while the hand trembles, {seeds} tremors a point. Stiffness is K_eff of the exact set at the first pose; all methods get
+the same F_max. Age: a search starts every so many frames and its set arrives as many later; `certified` and `nearest` search in
+every frame. Shakes: contact lost after it had settled, or more than a tenth of the load above 30 Hz. Through: the meshes touch, so
+the stiffness did not carry the load. Clean: neither. Intervals are 95 % (Wilson's for shares, Student's for means). The exact boundary of one linear contact with
+this hand is 12,932 N/m.
+
+![share of clean runs over stiffness and age](stability-map.png)
+
+## Largest clean stiffness, N/m
+
+The largest of the stiffnesses tried at which all runs are clean.
+
+{headline}
+
+## Clean runs
+
+{counts}
+
+## What was measured
+
+Means over the tremors, methods that track at an age of {age} ms.
+
+{details}
+"""
+
+
+def main(argv):
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("runs", nargs="+", metavar="RUNS.jsonl", help="what 'lmdbench-study stability' printed")
+    parser.add_argument("--out", default="results/figures", help="folder of the tables and the figure")
+    options = parser.parse_args(argv)
+    points = read_runs(options.runs)
+    if not points:
+        raise ResultError(f"{options.runs[0]}: holds no run (remedy: run 'lmdbench-study stability')")
+    os.makedirs(options.out, exist_ok=True)
+    every = [runs for by in points.values() for runs in by.values()]
+    with open(os.path.join(options.out, "stability-map.md"), "w", encoding="ascii") as file:
+        file.write(TEXT.format(runs=sum(len(runs) for runs in every), seeds=max(len(runs) for runs in every), load=1,
+                               age=DETAIL_AGE_FRAMES, headline=headline(points), counts=counts(points),
+                               details=details(points)))
+    draw(points, options.out)
+    return 0
+
+
+if __name__ == "__main__":
+    raise SystemExit(run_script(main))
