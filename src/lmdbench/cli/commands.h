@@ -23,5 +23,6 @@ void add_doctor_command(CLI::App& app);
 void add_stability_command(CLI::App& app);
 void add_record_command(CLI::App& app);
 void add_report_command(CLI::App& app);
+void add_work_precision_command(CLI::App& app, const std::vector<std::string>& argv);
 
 }  // namespace lmdbench

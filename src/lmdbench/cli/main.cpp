@@ -62,6 +62,7 @@ int run_program(int argc, char** argv) {
   add_compare_command(app, exit_status);
   add_doctor_command(app);
   add_report_command(app);
+  add_work_precision_command(app, {argv, argv + argc});
   add_mesh_command(app);
   add_path_command(app);
   try {

@@ -14,7 +14,9 @@
 
 #include <algorithm>
 #include <chrono>
+#include <numeric>
 #include <optional>
+#include <random>
 #include <utility>
 #include <vector>
 
@@ -147,6 +149,7 @@ class MethodRun {
     result.torque = wrench.torque;
     result.effective_stiffness = wrench.stiffness;
     result.lmd_count = static_cast<std::int64_t>(lmds.size());
+    result.tracked_count = static_cast<std::int64_t>(working.size());
     result.minimum_distance = minimum_distance(lmds);
 
     for (int axis = 0; axis < 3; ++axis) result_hash_.add(result.force[axis]);
@@ -221,6 +224,11 @@ std::vector<MethodRecord> run_lockstep(const std::vector<LockstepMethod>& method
   const std::int64_t total = frame_count * method_count * driver.repetitions;
   std::vector<MethodRecord> records;
   std::int64_t done = 0;
+  // In a fixed order one method would always find the caches that the same other one left: random, and the same in
+  // every run, since only times depend on it.
+  std::vector<std::size_t> turns(methods.size());
+  std::iota(turns.begin(), turns.end(), std::size_t{0});
+  std::mt19937 shuffled(0);
   LockstepInput later_input =
       input;  // only the first repetition keeps LMD lists: the hash proves the others equal
   later_input.keep_lmds = nullptr;
@@ -237,12 +245,10 @@ std::vector<MethodRecord> run_lockstep(const std::vector<LockstepMethod>& method
     runs.reserve(methods.size());
     for (const LockstepMethod& method : methods)
       runs.emplace_back(method, repetition == 0 ? input : later_input, driver);
-    std::int64_t block = 0;
-    for (std::int64_t begin = 0; begin < frame_count; begin += driver.block_frames, ++block) {
+    for (std::int64_t begin = 0; begin < frame_count; begin += driver.block_frames) {
       const std::int64_t end = std::min(begin + driver.block_frames, frame_count);
-      for (std::int64_t turn = 0; turn < method_count; ++turn) {
-        const bool reversed = (repetition + block) % 2 != 0;  // ABBA
-        const auto method = static_cast<std::size_t>(reversed ? method_count - 1 - turn : turn);
+      std::shuffle(turns.begin(), turns.end(), shuffled);
+      for (const std::size_t method : turns) {
         for (std::int64_t frame = begin; frame < end; ++frame) {
           runs[method].step(frame);
           if (keeper != nullptr) runs[method].keep(*keeper, repetition, method);

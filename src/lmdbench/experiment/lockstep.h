@@ -59,8 +59,8 @@ class Interrupted {};
 
 class RunKeeper;
 
-/// Runs every method along all poses (in a closed loop: each on a device of its own), `repetitions` times. Methods take turns block by block, in alternating
-/// order, so that drifts of the machine's speed hit all alike; every repetition starts from fresh instances.
+/// Runs every method along all poses (in a closed loop: each on a device of its own), `repetitions` times. Methods take turns block by block, in random
+/// order, so that drifts of the machine's speed and what another method leaves in the caches hit all alike; every repetition starts from fresh instances.
 /// @param keeper keeps every frame as it is measured and knows those of an interrupted run; may be nullptr
 /// @throws Error with ExitCode::INTERNAL when a repetition's forces, LMDs or counters differ from the
 ///         first one's

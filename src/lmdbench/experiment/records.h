@@ -25,6 +25,7 @@ struct FrameRecord {
   bool force_clipped = false;
   bool force_above_continuous = false;         ///< More than the device's motors stand for long.
   std::int64_t lmd_count = 0;                  ///< LMDs within the cutoff.
+  std::int64_t tracked_count = 0;              ///< LMDs of the set in use, beyond the cutoff or not.
   double lmd_count_before_reduction = UNSET;   ///< Candidates of the search that the set in use comes from.
   double minimum_distance = UNSET;             ///< metres
   double lmd_age = UNSET;                      ///< Since the pose that the set in use was searched at [s].

@@ -47,19 +47,27 @@ inline void set_direction(Lmd& lmd, const Vec3& last_direction) {
                       : last_direction;
 }
 
+/// L1 as Fig. 5 (b) and (c) show it: the triangles that contain the feature. Of a face that is itself alone.
+struct IncidentTriangles {
+  TriangleList operator()(const Surface& surface, const FeatureId& feature) const {
+    return surface.incident_triangles(feature);
+  }
+};
+
 /// Walks `start` to its local minimum.
 /// @param evaluate (triangle_moving, triangle_fixed) -> TrackedPair at the current pose
 /// @param steps    rounds of L1..L4, is added to
-template <class Evaluate>
+/// @param neighbours (surface, feature) -> TriangleList of L1
+template <class Evaluate, class Neighbours = IncidentTriangles>
 WalkEnd walk_to_minimum(const Surface& moving, const Surface& fixed, const Lmd& start, Evaluate&& evaluate,
-                        std::uint64_t& steps) {
+                        std::uint64_t& steps, Neighbours&& neighbours = {}) {
   WalkEnd end{start, false};
   for (bool first_round = true;; first_round = false) {
     ++steps;
     TrackedPair shortest;
     bool any = false;
-    for (const std::int32_t t_moving : moving.incident_triangles(end.lmd.feature_moving)) {
-      for (const std::int32_t t_fixed : fixed.incident_triangles(end.lmd.feature_fixed)) {
+    for (const std::int32_t t_moving : neighbours(moving, end.lmd.feature_moving)) {
+      for (const std::int32_t t_fixed : neighbours(fixed, end.lmd.feature_fixed)) {
         const TrackedPair pair = evaluate(t_moving, t_fixed);
         if (!any || is_shorter(pair.lmd.distance, shortest.lmd.distance)) {
           shortest = pair;

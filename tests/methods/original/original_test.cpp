@@ -160,6 +160,59 @@ TEST_F(OriginalTest, MissesWhatALargeTriangleHides) {
   EXPECT_TRUE(search(scene, pose, 1.0).empty());
 }
 
+/// Fig. 5 (a) read both ways. Two plates of the same triangles, one above the other: a pair of face centres that a
+/// sideways motion has left behind finds a nearer pair only across an edge.
+TEST_F(OriginalTest, APairOfFaceCentresMovesOnOnlyWithItsEdgeNeighbours) {
+  TriangleMesh plate;  // a strip of triangles in the plane z = 0, normals up
+  constexpr int LENGTH = 12;
+  for (int i = 0; i < LENGTH; ++i) plate.vertices.emplace_back(0.5 * i, i % 2 == 0 ? 0.0 : 0.9, 0.0);
+  for (int i = 0; i + 2 < LENGTH; ++i)
+    plate.triangles.push_back(i % 2 == 0 ? std::array{i, i + 2, i + 1} : std::array{i, i + 1, i + 2});
+  TriangleMesh upper = plate;
+  for (auto& triangle : upper.triangles) std::swap(triangle[1], triangle[2]);
+  const Scene scene = make_scene(upper, plate, 1.0);
+  Lmd centres;
+  centres.feature_moving = {FeatureKind::FACE, 2};
+  centres.feature_fixed = {FeatureKind::FACE, 6};
+  centres.triangle_moving = 2;
+  centres.triangle_fixed = 6;
+  Pose pose;
+  pose.translation = {0.0, 0.0, 0.1};
+  const auto tracked = [&](FaceNeighbourhood neighbourhood) {
+    OriginalOptions options;
+    options.face_neighbourhood = neighbourhood;
+    LmdSet lmds{centres};
+    Original(scene, options).track(pose, lmds, work_);
+    return lmds.at(0);
+  };
+  const Lmd own = tracked(FaceNeighbourhood::OWN);
+  const Lmd wide = tracked(FaceNeighbourhood::EDGE_NEIGHBOURS);
+  EXPECT_NEAR(wide.distance, 0.1, 1e-9) << "the plates are 0.1 apart everywhere";
+  EXPECT_GE(own.distance, wide.distance);
+  EXPECT_NEAR(tracked(FaceNeighbourhood::EDGE_NEIGHBOURS).direction.z(), -1.0, 1e-9);
+}
+
+TEST(FaceNeighbours, AreTheFaceAndWhatLiesAcrossItsEdges) {
+  const Surface sphere = build_surface(make_sphere(1.0, 1));
+  const FaceNeighbours neighbours(sphere);
+  for (std::int32_t t = 0; t < static_cast<std::int32_t>(sphere.mesh.triangles.size()); ++t) {
+    const TriangleList faces = neighbours.of(t);
+    ASSERT_EQ(faces.size(), 4u) << "a closed mesh";
+    EXPECT_EQ(faces.front(), t);
+    for (std::size_t k = 1; k < faces.size(); ++k) {
+      int shared = 0;
+      for (const std::int32_t a : sphere.mesh.triangles[static_cast<std::size_t>(t)])
+        for (const std::int32_t b : sphere.mesh.triangles[static_cast<std::size_t>(faces[k])])
+          shared += a == b ? 1 : 0;
+      EXPECT_EQ(shared, 2) << "face " << t << " and " << faces[k];
+    }
+  }
+  TriangleMesh alone;
+  alone.vertices = {Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0)};
+  alone.triangles = {{0, 1, 2}};
+  EXPECT_EQ(FaceNeighbours(build_surface(alone)).of(0).size(), 1u) << "nothing is across a boundary";
+}
+
 TEST_F(OriginalTest, TrackingNeverLengthensAPairAtRest) {
   std::mt19937_64 random(12);
   const Scene scene = make_scene(make_blob(0.04, 0.01, 3), make_torus(0.05, 0.02, 24, 12), 0.015);

@@ -8,7 +8,10 @@ namespace lmdbench {
 
 NLOHMANN_JSON_SERIALIZE_ENUM(LineCone,
                              {{LineCone::ONE_SIDED, "one-sided"}, {LineCone::TWO_SIDED, "two-sided"}})
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(OriginalOptions, g5_tolerance_deg, line_cone, literal_g3)
+NLOHMANN_JSON_SERIALIZE_ENUM(FaceNeighbourhood, {{FaceNeighbourhood::OWN, "own"},
+                                                 {FaceNeighbourhood::EDGE_NEIGHBOURS, "edge-neighbours"}})
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(OriginalOptions, g5_tolerance_deg, line_cone, face_neighbourhood,
+                                   literal_g3)
 
 const MethodDescription& original_method() {
   using Counter = Original::Counter;
@@ -32,6 +35,12 @@ const MethodDescription& original_method() {
            {"line_cone",
             {{"enum", {LineCone::ONE_SIDED, LineCone::TWO_SIDED}},
              {"description", "whether the dual solution-line cone is a ray or a line"}}},
+           {"face_neighbourhood",
+            {{"enum", {FaceNeighbourhood::OWN, FaceNeighbourhood::EDGE_NEIGHBOURS}},
+             {"description",
+              "where tracking looks from a point inside a triangle (Fig. 5 (a)): the triangle alone, or the "
+              "three "
+              "across its edges as well"}}},
            {"literal_g3",
             {{"type", "boolean"}, {"description", "ablation: read the inequality of G3 as printed"}}}},
           OriginalOptions{}),

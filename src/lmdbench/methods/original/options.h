@@ -13,6 +13,13 @@ enum class LineCone : std::uint8_t {
   TWO_SIDED   ///< A line: either end may lie in the cone.
 };
 
+/// Which triangles L1 looks at for a contact point inside a triangle (paper, Fig. 5 (a)). The drawing can be read both
+/// ways; with the triangle alone a pair of two face centres never leaves its triangles, and only the next search does.
+enum class FaceNeighbourhood : std::uint8_t {
+  OWN,             ///< The triangle itself.
+  EDGE_NEIGHBOURS  ///< The three across its edges as well.
+};
+
 /// Free choices of the original algorithm; defaults are those of the reports. Members are called as in
 /// experiment files.
 struct OriginalOptions {
@@ -22,6 +29,7 @@ struct OriginalOptions {
   /// features counting as found: the one that favours the original.
   double g5_tolerance_deg = 0.3 * 180.0 / std::numbers::pi;
   LineCone line_cone = LineCone::ONE_SIDED;
+  FaceNeighbourhood face_neighbourhood = FaceNeighbourhood::OWN;
   bool literal_g3 = false;  ///< Ablation of decision E2: keep what the printed inequality keeps.
 };
 

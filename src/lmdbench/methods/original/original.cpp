@@ -37,6 +37,9 @@ Original::Original(Scene scene, const OriginalOptions& options)
     hierarchies_fixed_.push_back(&body->prepared<Hierarchy>());
     verify_fixed_.emplace_back(body->surface(), radians(options.g5_tolerance_deg));
   }
+  if (options.face_neighbourhood == FaceNeighbourhood::OWN) return;
+  faces_moving_.emplace(scene_.moving->surface());
+  for (const auto& body : scene_.fixed) faces_fixed_.emplace_back(body->surface());
 }
 
 Lmd Original::feature_point_pair(const RigidTransform& X_WM, std::int32_t fixed_body, std::int32_t t_moving,
@@ -105,7 +108,14 @@ void Original::track(const Pose& X_WM, LmdSet& lmds, WorkCounters& counters) {
     const auto evaluate = [&](std::int32_t t_moving, std::int32_t t_fixed) {
       return TrackedPair{feature_point_pair(transform, lmd.fixed_body, t_moving, t_fixed, counters)};
     };
-    lmd = walk_to_minimum(scene_.moving->surface(), fixed, lmd, evaluate, counters[Counter::TRACKING_STEPS])
+    const auto neighbours = [&](const Surface& surface, const FeatureId& feature) {
+      if (!faces_moving_ || feature.kind != FeatureKind::FACE) return surface.incident_triangles(feature);
+      const bool is_moving = &surface == &scene_.moving->surface();
+      return (is_moving ? *faces_moving_ : faces_fixed_[static_cast<std::size_t>(lmd.fixed_body)])
+          .of(feature.index);
+    };
+    lmd = walk_to_minimum(scene_.moving->surface(), fixed, lmd, evaluate, counters[Counter::TRACKING_STEPS],
+                          neighbours)
               .lmd;
   }
   drop_duplicates(lmds, counters);

@@ -5,10 +5,12 @@
 #include <lmdbench/lmd/method.h>
 #include <lmdbench/lmd/scene.h>
 #include <lmdbench/methods/original/direction_verification.h>
+#include <lmdbench/methods/original/face_neighbours.h>
 #include <lmdbench/methods/original/options.h>
 #include <lmdbench/snch/traversal.h>
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 namespace lmdbench {
@@ -57,6 +59,8 @@ class Original : public Method {
   std::vector<const Hierarchy*> hierarchies_fixed_;  ///< One a fixed body.
   DirectionVerification verify_moving_;
   std::vector<DirectionVerification> verify_fixed_;  ///< One a fixed body.
+  std::optional<FaceNeighbours> faces_moving_;       ///< Set where the option asks for them, as the next.
+  std::vector<FaceNeighbours> faces_fixed_;          ///< One a fixed body.
   DualTraversal traversal_;
 };
 

@@ -1,0 +1,69 @@
+# SPDX-FileCopyrightText: The lmdbench authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Intervals that keep a verdict from resting on one event: exact Poisson limits of a count, and the bootstrap over paths
+or over blocks of frames. Seeded, so that the same data give the same interval."""
+
+import math
+
+import numpy as np
+
+LEVEL = 0.95
+RESAMPLES = 2000
+
+
+def poisson_tail(count, mean):
+    """P(X >= count) of a Poisson variable with this mean."""
+    if count <= 0:
+        return 1.0
+    if mean <= 0.0:
+        return 0.0
+    terms = [math.exp(k * math.log(mean) - mean - math.lgamma(k + 1)) for k in range(int(count))]
+    return max(0.0, 1.0 - math.fsum(terms))
+
+
+def bisect(function, low, high, wanted):
+    """Where an increasing function has the wanted value."""
+    for _ in range(100):
+        middle = 0.5 * (low + high)
+        low, high = (middle, high) if function(middle) < wanted else (low, middle)
+    return 0.5 * (low + high)
+
+
+def poisson_interval(count, level=LEVEL):
+    """(low, high) of the mean behind a count (Garwood 1936)."""
+    tail = 0.5 * (1.0 - level)
+    highest = count + 10.0 * math.sqrt(count + 1.0) + 20.0
+    low = 0.0 if count <= 0 else bisect(lambda mean: poisson_tail(count, mean), 0.0, highest, tail)
+    high = bisect(lambda mean: poisson_tail(count + 1, mean), 0.0, highest, 1.0 - tail)
+    return low, high
+
+
+def bootstrap(samples, statistic, level=LEVEL, seed=1):
+    """(low, high) of statistic(list of samples) over resampled lists."""
+    samples = list(samples)
+    if len(samples) < 2:
+        return math.nan, math.nan
+    random = np.random.default_rng(seed)
+    values = [statistic([samples[i] for i in random.integers(0, len(samples), len(samples))]) for _ in range(RESAMPLES)]
+    values = [value for value in values if math.isfinite(value)]
+    if not values:
+        return math.nan, math.nan
+    return tuple(float(value) for value in np.quantile(values, (0.5 * (1.0 - level), 0.5 * (1.0 + level))))
+
+
+class Rate:
+    """Events per second, from counts and times of one or more paths. Events of one path come in bursts, so where there
+    are paths enough the wider of the Poisson interval and the bootstrap over paths counts."""
+
+    def __init__(self, counts, seconds):
+        self.count = float(np.sum(counts))
+        self.seconds = float(np.sum(seconds))
+        self.value = self.count / self.seconds if self.seconds > 0 else math.nan
+        low, high = (limit / self.seconds for limit in poisson_interval(self.count)) if self.seconds > 0 else (math.nan, math.nan)
+        if len(counts) >= 5:
+            spread = bootstrap(list(zip(counts, seconds)), lambda rows: sum(c for c, _ in rows) / sum(s for _, s in rows))
+            low, high = min(low, spread[0]), max(high, spread[1])
+        self.low, self.high = low, high
+
+    def __str__(self):
+        return f"{self.value:.3g} [{self.low:.2g}, {self.high:.2g}]"

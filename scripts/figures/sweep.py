@@ -1,0 +1,254 @@
+#!/usr/bin/env python3
+# SPDX-FileCopyrightText: The lmdbench authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Error against run time of a sweep (`lmdbench work-precision`), log-log, a panel a scene: each series a line over its
+axes, the Pareto front in grey, points without any error and points that fail in lanes of their own. And the tables:
+which method at which budget, where one gets cheaper than another, and every point."""
+
+import argparse
+import math
+import os
+
+import numpy as np
+
+import figure_style as style
+from lmdbench_results import run_script
+from sweep_results import Sweep, crossing, front
+
+import matplotlib.pyplot as plt
+from matplotlib.lines import Line2D
+from matplotlib.ticker import FixedLocator, FuncFormatter, NullFormatter
+
+MARKERS = ("o", "s", "D", "^", "v", "P", "X", "<")
+BUDGETS_MS = (3.0, 5.0, 10.0, 20.0, 50.0, 100.0, 200.0, 500.0)  # processor time of a second of haptics
+LANE = 0.35  # height of the lanes for errors of 0 and for failures, in decades
+
+
+def cost(point):
+    return 1e3 * point.number("processor_share")
+
+
+def error(point):
+    return 100.0 * point.force_error
+
+
+QUANTITIES = (
+    ("force", "RMS force error [% of $F_{max}$]", error),
+    ("missed", "missed share of true LMDs [%]", lambda point: 100.0 * (1.0 - point.number("recall"))),
+)
+
+
+def colours_of(sweep):
+    """By series: methods of the paper keep the colours of the other figures."""
+    used, colours = set(), {}
+    for series in sweep.series:
+        point = sweep.of(series=series)[0]
+        if series == point.method:
+            colours[series] = style.METHOD_COLOURS[int(point.number("method_order")) % len(style.METHOD_COLOURS)]
+            used.add(colours[series])
+    free = iter([colour for colour in style.METHOD_COLOURS if colour not in used] * 4)
+    return {series: colours.get(series) or next(free) for series in sweep.series}
+
+
+def levels(points, value):
+    """(low, high) decades of the positive errors, and the places of the two lanes."""
+    positive = [value(point) for point in points if not point.trouble and value(point) > 0 and np.isfinite(value(point))]
+    low = math.floor(math.log10(min(positive)) * 2 - 0.2) / 2 if positive else -1.0
+    high = math.log10(max(positive)) + 0.12 if positive else 2.0
+    return low, high, 10 ** (low - LANE / 2), 10 ** (high + LANE / 2)
+
+
+def draw_panel(axes, points, value, colours, markers):
+    low, high, zero, failed = levels(points, value)
+    has_zero = any(not point.trouble and value(point) == 0 for point in points)
+    has_failed = any(point.trouble for point in points)
+    axes.set_xscale("log")
+    axes.set_yscale("log")
+    bottom = 10 ** (low - LANE) if has_zero else 10**low
+    top = 10 ** (high + LANE) if has_failed else 10**high
+    axes.set_ylim(bottom, top)
+    for begin, end in ((bottom, 10**low), (10**high, top)):
+        if end > begin:
+            axes.axhspan(begin, end, color="#F0F0F0", lw=0, zorder=0)
+    decades = [10.0**power for power in range(math.ceil(low), math.floor(high) + 1)]
+    names = {zero: "0", failed: "failed"}
+    axes.yaxis.set_major_locator(FixedLocator([zero] * has_zero + decades + [failed] * has_failed))
+    axes.yaxis.set_major_formatter(FuncFormatter(lambda at, _: names.get(at, f"{at:g}")))
+    axes.yaxis.set_minor_locator(FixedLocator([step * decade for decade in [10 ** (math.ceil(low) - 1), *decades]
+                                               for step in range(2, 10) if 10**low <= step * decade < 10**high]))
+    axes.yaxis.set_minor_formatter(NullFormatter())
+    axes.xaxis.set_major_formatter(FuncFormatter(lambda at, _: f"{at:g}"))
+
+    def place(point):
+        return failed if point.trouble else max(value(point), zero) if value(point) > 0 else zero
+
+    best = front(points, cost, value)
+    if best:
+        steps = [(cost(best[0]), top)]
+        for point in best:
+            steps += [(cost(point), steps[-1][1]), (cost(point), place(point))]
+        axes.plot([x for x, _ in steps] + [axes.get_xlim()[1] * 1e3], [y for _, y in steps] + [steps[-1][1]],
+                  color=style.PALE_GREY, lw=3.0, zorder=1, solid_capstyle="butt")
+    for series in dict.fromkeys(point.series for point in points):
+        line = sorted((point for point in points if point.series == series and np.isfinite(cost(point))
+                       and np.isfinite(value(point)) or point.series == series and point.trouble), key=cost)
+        drawn = [point for point in line if np.isfinite(cost(point))]
+        axes.plot([cost(point) for point in drawn], [place(point) for point in drawn], color=colours[series], lw=0.8,
+                  marker=markers[series], ms=4.2, mec="white", mew=0.4, zorder=3)
+        for point in drawn:
+            if point.trouble:
+                axes.plot(cost(point), failed, marker="x", color=colours[series], ms=5, zorder=4)
+        periods = [point for point in drawn if point.axis("search_every_frames") is not None]
+        for point in (periods[0], periods[-1]) if len(periods) > 1 else ():
+            axes.annotate(f"{point.axis('search_every_frames')}", (cost(point), place(point)), xytext=(3, 3),
+                          textcoords="offset points", fontsize=5.5, color=colours[series], zorder=5)
+
+
+def draw(sweep):
+    style.use_style()
+    colours = colours_of(sweep)
+    markers = dict(zip(sweep.series, MARKERS * 4))
+    scenes = sweep.scenes
+    figure, grid = plt.subplots(len(QUANTITIES), len(scenes), squeeze=False, sharex="col",
+                                figsize=(style.TWO_COLUMNS_IN, 0.9 + 2.1 * len(QUANTITIES)),
+                                gridspec_kw={"left": 0.085, "right": 0.99, "bottom": 0.085, "top": 0.84, "wspace": 0.2,
+                                             "hspace": 0.08})
+    for column, scene in enumerate(scenes):
+        points = sweep.of(scene=scene)
+        costs = [cost(point) for point in points if np.isfinite(cost(point))]
+        for row, (_, label, value) in enumerate(QUANTITIES):
+            axes = grid[row][column]
+            if costs:
+                axes.set_xlim(min(costs) / 1.5, max(costs) * 1.5)
+            draw_panel(axes, points, value, colours, markers)
+            if column == 0:
+                axes.set_ylabel(label)
+        grid[0][column].set_title(scene, loc="left", fontsize=8)
+        grid[-1][column].set_xlabel("processor time [ms/s]")
+    keys = [Line2D([], [], color=colours[series], marker=markers[series], ms=4.2, mec="white", mew=0.4, lw=0.8, label=series)
+            for series in sweep.series]
+    keys.append(Line2D([], [], color=style.PALE_GREY, lw=3, label="Pareto front"))
+    figure.text(0.085, 0.965, "Error against processor time of a second in contact, lower left is better; numbers: frames from "
+                "a search to the next", fontsize=7.5, fontweight="bold")
+    figure.legend(handles=keys, loc="upper left", bbox_to_anchor=(0.075, 0.955), ncol=7, handlelength=1.8, columnspacing=1.4,
+                  borderpad=0.1)
+    return figure
+
+
+def shown(value, digits=3):
+    return f"{value:.{digits}g}" if math.isfinite(value) else "-"
+
+
+def budget_table(sweep):
+    lines = ["| scene | " + " | ".join(f"{budget:g} ms/s" for budget in BUDGETS_MS) + " |",
+             "|---|" + "---|" * len(BUDGETS_MS)]
+    for scene in sweep.scenes:
+        cells = []
+        for budget in BUDGETS_MS:
+            able = [point for point in sweep.of(scene=scene) if not point.trouble and cost(point) <= budget]
+            best = min(able, key=lambda point: (error(point), cost(point)), default=None)
+            cells.append(f"{best.text()}: {shown(error(best))} %" if best else "none")
+        lines.append(f"| {scene} | " + " | ".join(cells) + " |")
+    return lines
+
+
+def crossings(sweep, cheaper="improved", reference="certified"):
+    lines = ["| scene | processor time: every ... frames | median frame: every ... frames | force error there [% of F_max] "
+             "| recall there [%] |", "|---|---|---|---|---|"]
+    for scene in sweep.scenes:
+        exact = next((point for point in sweep.of(scene=scene, series=reference) if not point.trouble), None)
+        points = [point for point in sweep.of(scene=scene, series=cheaper)]
+        if exact is None or not points:
+            continue
+        by_cost = crossing(points, cost(exact), cost)
+        by_median = crossing(points, exact.number("frame_time_median_s"), lambda point: point.number("frame_time_median_s"))
+        beyond = next((point for point in sorted(points, key=lambda point: point.period) if point.period >= by_cost), None)
+        at = f"{shown(error(beyond))} (at {beyond.period})" if beyond else "-"
+        recall = f"{shown(100 * beyond.number('recall'))} (at {beyond.period})" if beyond else "-"
+        lines.append(f"| {scene} | {shown(by_cost, 2)} | {shown(by_median, 2)} | {at} | {recall} |")
+    return lines
+
+
+COLUMNS = (
+    ("processor time [ms/s]", cost),
+    ("frame, median [us]", lambda p: 1e6 * p.number("frame_time_median_s")),
+    ("99 % [us]", lambda p: 1e6 * p.number("frame_time_p99_s")),
+    ("largest [us]", lambda p: 1e6 * p.number("frame_time_maximum_s")),
+    ("above 1 ms", lambda p: p.number("frames_late")),
+    ("force error, RMS [% of F_max]", error),
+    ("99 %", lambda p: 100 * p.number("force_error_p99_n") / p.number("maximum_force_n")),
+    ("largest", lambda p: 100 * p.number("force_error_maximum_n") / p.number("maximum_force_n")),
+    ("angle, median [deg]", lambda p: math.degrees(p.number("force_angle_error_median_rad"))),
+    ("torque, RMS [mN m]", lambda p: 1e3 * p.number("torque_error_rms_n_m")),
+    ("recall [%]", lambda p: 100 * p.number("recall")),
+    ("with neighbours [%]", lambda p: 100 * p.number("recall_adjacent")),
+    ("precision [%]", lambda p: 100 * p.number("precision")),
+    ("nearest distance, largest error [um]", lambda p: 1e6 * p.number("minimum_distance_error_maximum_m")),
+    ("false jumps [1/s]", lambda p: p.number("false_jumps") / p.number("seconds_in_contact")),
+    ("missed jumps [1/s]", lambda p: p.number("missed_jumps") / p.number("seconds_in_contact")),
+    ("true jumps [1/s]", lambda p: p.number("true_jumps") / p.number("seconds_in_contact")),
+    ("births + deaths [1/s]", lambda p: (p.number("births") + p.number("deaths")) / p.number("seconds_in_contact")),
+    ("true ones [1/s]", lambda p: (p.number("true_births") + p.number("true_deaths")) / p.number("seconds_in_contact")),
+)
+
+
+def point_table(sweep, scene):
+    lines = ["| point | " + " | ".join(name for name, _ in COLUMNS) + " |", "|---|" + "---|" * len(COLUMNS)]
+    best = {point.index for point in front(sweep.of(scene=scene), cost, error)}
+    for point in sorted(sweep.of(scene=scene), key=lambda point: (bool(point.failure), cost(point))):
+        name = f"**{point.text()}**" if point.index in best else point.text()
+        if point.failure:
+            lines.append(f"| {name}: failed, {point.failure} |" + " |" * len(COLUMNS))
+            continue
+        lines.append(f"| {name}{' (' + point.trouble + ')' if point.trouble else ''} | "
+                     + " | ".join(shown(value(point)) for _, value in COLUMNS) + " |")
+    return lines
+
+
+def markdown(sweep, picture):
+    measured = [point for point in sweep.points if not point.failure]
+    checked = sum(int(point.number("truth_checked_frames")) for point in {p.scene: p for p in measured}.values())
+    wrong = max((int(point.number("truth_wrong_frames")) for point in measured), default=0)
+    lines = [
+        "# Error against run time", "",
+        f"{sweep.title}. Made by `lmdbench work-precision experiments/sweeps/{sweep.name}.json` and "
+        f"`scripts/figures/sweep.py results/{sweep.name}.h5` at commit {sweep.commit()} on {sweep.machine.get('processor', 'one machine')}. "
+        "Truth stands in every frame: the sets of `certified`, which in "
+        f"{checked} frames of the scenes were compared with `exhaustive` ({wrong or 'none'} differ). Forces are compared under each method's "
+        "own law. Points take turns in random order; a frame counts with the median of its repetitions. Reading the clock costs "
+        f"{1e9 * sweep.clock_overhead:.0f} ns of every time. `certified` uses vector instructions, `original` and `improved` are "
+        "scalar: part of the distance between them is that.", ""]
+    if picture:
+        lines += [f"![Error against run time]({picture})", ""]
+    lines += ["## Which method at which budget", "",
+              "Least RMS force error [% of F_max of one LMD] within so much processor time of a second in contact, searches included:", "",
+              *budget_table(sweep), ""]
+    table = crossings(sweep)
+    if len(table) > 2:
+        lines += ["## Where `improved` gets cheaper than `certified`", "",
+                  "The rarer its searches, the cheaper `improved` is and the older its sets. It costs less than `certified` where it "
+                  "searches more rarely than every", "", *table, ""]
+    for scene in sweep.scenes:
+        lines += [f"## {scene}", "", "Bold: on the Pareto front of force error and processor time.", "", *point_table(sweep, scene), ""]
+    return "\n".join(lines)
+
+
+def main(argv):
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("sweep", metavar="SWEEP.h5", help="what `lmdbench work-precision` wrote")
+    parser.add_argument("--out", required=True, metavar="DIR", help="directory of NAME.svg, NAME.png and NAME.md")
+    parser.add_argument("--name", default=None, help="name of the files; that of the sweep without it")
+    arguments = parser.parse_args(argv)
+    sweep = Sweep(arguments.sweep)
+    name = arguments.name or sweep.name
+    for file in style.save(draw(sweep), arguments.out, name):
+        print(file)
+    table = os.path.join(arguments.out, f"{name}.md")
+    with open(table, "w", encoding="utf-8") as stream:
+        stream.write(markdown(sweep, f"{name}.png"))
+    print(table)
+    return 0
+
+
+if __name__ == "__main__":
+    raise SystemExit(run_script(main))

@@ -1,0 +1,141 @@
+# SPDX-FileCopyrightText: The lmdbench authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Reading what `lmdbench work-precision` wrote: a point a row, with its axes and numbers."""
+
+import json
+import math
+
+import h5py
+import numpy as np
+
+from lmdbench_results import FORMAT, FORMAT_VERSION, ResultError
+
+MISSES_ALL = "finds no true LMD"
+
+
+class Point:
+    """A method with the values of its axes in a scene; numbers by name, NaN for what was not measured."""
+
+    def __init__(self, sweep, index):
+        self.sweep = sweep
+        self.index = index
+        self.scene, self.series, self.method, self.force_law, self.failure, self.result_hash = (
+            sweep.texts[name][index] for name in ("scene", "series", "method", "force_law", "failure", "result_hash"))
+        self.axes = json.loads(sweep.texts["axes"][index])
+
+    def number(self, name):
+        return float(self.sweep.columns[name][self.index])
+
+    def counter(self, name):
+        column = self.sweep.counters.get(name)
+        return float(column[self.index]) if column is not None else math.nan
+
+    def axis(self, name):
+        """The value of the axis whose place ends in the name; None where the point has no such axis."""
+        return next((value for place, value in self.axes.items() if place.rsplit("/", 1)[-1] == name), None)
+
+    @property
+    def experiment(self):
+        return json.loads(self.sweep.texts["experiment"][self.index])
+
+    @property
+    def force_error(self):
+        """Root mean square of the force error as a share of F_max of one LMD."""
+        return self.number("force_error_rms_n") / self.number("maximum_force_n")
+
+    @property
+    def trouble(self):
+        """Why the point stands in the lane of failures; empty where it does not."""
+        if self.failure:
+            return self.failure
+        if not math.isfinite(self.number("force_error_rms_n")):
+            return "force is not finite"
+        return MISSES_ALL if self.number("recall") == 0.0 else ""
+
+    @property
+    def period(self):
+        """Frames from a search to the next; 1 for a method that searches in every frame."""
+        return self.experiment["driver"]["search_every_frames"] if self.number("candidates") > 0 else 1
+
+    def text(self):
+        shown = {place.rsplit("/", 1)[-1]: value for place, value in self.axes.items()}
+        if shown.get("search_every_frames") == shown.get("search_latency_frames"):
+            shown.pop("search_latency_frames", None)
+        names = {"search_every_frames": "a search every {} frames"}
+        parts = [names.get(name, name.replace("_", " ") + " {}").format(value) for name, value in shown.items()]
+        return self.series + (", " + ", ".join(parts) if parts else "")
+
+
+class Sweep:
+    """One file of `lmdbench work-precision`, read as a whole."""
+
+    def __init__(self, file):
+        self.file = str(file)
+        remedy = "(remedy: name a file that `lmdbench work-precision` wrote)"
+        try:
+            with h5py.File(self.file, "r") as h5:
+                attribute = h5.attrs.get("format", "")
+                if (attribute.decode() if isinstance(attribute, bytes) else attribute) != FORMAT or "sweep" not in h5:
+                    raise ResultError(f"{self.file}: is no sweep of lmdbench {remedy}")
+                if int(h5.attrs["format_version"]) != FORMAT_VERSION:
+                    raise ResultError(f"{self.file}: has another format version than this script reads {remedy}")
+                self.texts, self.columns = {}, {}
+                for name, dataset in h5["points"].items():
+                    values = dataset[()]
+                    if dataset.dtype.kind == "O":
+                        self.texts[name] = [value.decode() if isinstance(value, bytes) else str(value) for value in values]
+                    else:
+                        self.columns[name] = values
+                self.counters = {name: dataset[()] for name, dataset in h5.get("counters", {}).items()}
+                text = {name: value.decode() if isinstance(value, bytes) else value for name, value in h5["sweep"].attrs.items()}
+                provenance = {name: value.decode() if isinstance(value, bytes) else value
+                              for name, value in h5["provenance"].attrs.items()}
+                machine = h5["provenance/machine"].attrs if "provenance/machine" in h5 else {}
+                self.machine = {name: value.decode() if isinstance(value, bytes) else value for name, value in machine.items()}
+        except OSError as error:
+            raise ResultError(f"{self.file}: cannot be read: {error} {remedy}")
+        self.name, self.title = text["name"], text["title"]
+        self.clock_overhead = float(text["clock_overhead_s"])
+        self.provenance = provenance
+        self.points = [Point(self, index) for index in range(len(self.texts["scene"]))]
+
+    @property
+    def scenes(self):
+        return list(dict.fromkeys(point.scene for point in self.points))
+
+    @property
+    def series(self):
+        return list(dict.fromkeys(point.series for point in self.points))
+
+    def of(self, scene=None, series=None):
+        return [point for point in self.points if scene in (None, point.scene) and series in (None, point.series)]
+
+    def samples(self, point, name):
+        with h5py.File(self.file, "r") as h5:
+            return h5[f"samples/{point.index}/{name}"][()]
+
+    def commit(self):
+        return str(self.provenance.get("git_commit", "unknown"))[:12]
+
+
+def front(points, cost, error):
+    """Points that no other one beats in both, by falling error."""
+    usable = sorted((point for point in points if not point.trouble and np.isfinite(cost(point)) and np.isfinite(error(point))),
+                    key=lambda point: (cost(point), error(point)))
+    best, kept = math.inf, []
+    for point in usable:
+        if error(point) < best:
+            kept.append(point)
+            best = error(point)
+    return kept
+
+
+def crossing(points, reference, value):
+    """Period of search at which the value of a series falls below that of the reference, interpolated log-log between
+    the points on both sides; NaN where it does not within the points."""
+    line = sorted(((point.period, value(point)) for point in points if not point.trouble))
+    for (before, high), (after, low) in zip(line, line[1:]):
+        if high > reference >= low:
+            share = math.log(high / reference) / math.log(high / low)
+            return math.exp(math.log(before) + share * math.log(after / before))
+    return math.nan

@@ -1,0 +1,178 @@
+# SPDX-FileCopyrightText: The lmdbench authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Sweeps: fronts, crossings, intervals and verdicts on data whose answers are known; figures and tables as files."""
+
+import json
+import math
+import os
+import sys
+import tempfile
+import unittest
+
+HERE = os.path.dirname(os.path.abspath(__file__))
+sys.path[:0] = [HERE, os.path.join(HERE, "..")]
+
+import h5py  # noqa: E402
+import numpy as np  # noqa: E402
+
+import claim_regions  # noqa: E402
+import intervals  # noqa: E402
+import sweep  # noqa: E402
+import sweep_results  # noqa: E402
+from lmdbench_results import ResultError  # noqa: E402
+
+NUMBERS = ("recall", "recall_adjacent", "precision", "force_error_rms_n", "force_error_p99_n", "force_error_maximum_n",
+           "force_angle_error_median_rad", "torque_error_rms_n_m", "minimum_distance_error_maximum_m", "false_jumps", "missed_jumps",
+           "true_jumps", "jumps", "switches", "true_switches", "births", "deaths", "true_births", "true_deaths", "seconds_in_contact",
+           "processor_share", "frame_time_median_s", "frame_time_p99_s", "frame_time_maximum_s", "frames_late", "candidates", "kept",
+           "maximum_force_n", "method_order", "truth_checked_frames", "truth_wrong_frames", "reduction_ratio_maximum")
+
+
+def row(series, every=20, cost=1e-2, error=0.3, recall=0.9, failure="", scene="hard", **numbers):
+    method = series.split("-")[0]
+    experiment = {"driver": {"search_every_frames": every, "search_latency_frames": every}, "moving": {"mesh": "bunny-16k"},
+                  "force": {"cutoff_diagonal": 0.005},
+                  "methods": [{"name": method, "visibility": "off", "reduction": "published"}]}
+    if method == "original":
+        experiment["methods"][0]["g5_tolerance_deg"] = 17.0
+    values = dict.fromkeys(NUMBERS, math.nan)
+    if not failure:
+        values.update(recall=recall, recall_adjacent=recall, precision=1.0, force_error_rms_n=error * 2, processor_share=cost,
+                      frame_time_median_s=cost * 1e-3, seconds_in_contact=10.0, candidates=0.0 if method == "certified" else 100.0,
+                      kept=10.0, truth_checked_frames=4, truth_wrong_frames=0)
+    values.update(maximum_force_n=2.0, method_order={"original": 0, "improved": 1, "certified": 2}[method], **numbers)
+    axes = {} if method == "certified" else {"/driver/search_every_frames": every, "/driver/search_latency_frames": every}
+    return {"scene": scene, "series": series, "method": method, "force_law": "linear", "axes": json.dumps(axes), "failure": failure,
+            "result_hash": "0", "experiment": json.dumps(experiment), **values}
+
+
+def write_sweep(file, rows, name="test"):
+    with h5py.File(file, "w") as h5:
+        h5.attrs["format"], h5.attrs["format_version"] = "lmdbench-result", 2
+        h5.create_group("provenance").attrs["git_commit"] = "0123456789abcdef"
+        h5.create_group("sweep").attrs.update({"name": name, "title": "a title", "clock_overhead_s": 3e-8})
+        for key in rows[0]:
+            column = [entry[key] for entry in rows]
+            h5[f"points/{key}"] = column if isinstance(column[0], str) else np.array(column, dtype=float)
+
+
+ROWS = [row("improved", 1, cost=1.0, error=0.01), row("improved", 10, cost=0.1, error=0.1), row("improved", 100, cost=0.01, error=0.4),
+        row("original", 10, cost=0.2, error=0.5), row("original", 100, cost=0.02, error=0.0, recall=0.0),
+        row("certified", cost=0.03, error=0.0, recall=1.0), row("improved-other", failure="mesh is missing")]
+
+
+class SweepFile(unittest.TestCase):
+    def setUp(self):
+        self.folder = tempfile.TemporaryDirectory()
+        self.addCleanup(self.folder.cleanup)
+        self.file = os.path.join(self.folder.name, "test.h5")
+
+    def read(self, rows=None, name="test"):
+        write_sweep(self.file, rows or ROWS, name)
+        return sweep_results.Sweep(self.file)
+
+    def test_front_holds_what_nothing_beats_in_both(self):
+        best = sweep_results.front(self.read().of(scene="hard"), sweep.cost, sweep.error)
+        self.assertEqual([point.text() for point in best], ["improved, a search every 100 frames", "certified"])
+
+    def test_a_point_without_any_true_lmd_is_a_failure_however_small_its_error(self):
+        point = self.read().points[4]
+        self.assertEqual(point.trouble, sweep_results.MISSES_ALL)
+        self.assertEqual(self.read().points[6].trouble, "mesh is missing")
+
+    def test_crossing_is_interpolated_between_the_points_on_both_sides(self):
+        points = self.read().of(series="improved")
+        # cost is 1 / period: it falls below 0.03 s/s at a period of 1 / 0.03
+        self.assertAlmostEqual(sweep_results.crossing(points, 0.03, lambda p: p.number("processor_share")), 1 / 0.03, places=6)
+        self.assertTrue(math.isnan(sweep_results.crossing(points, 1e-9, lambda p: p.number("processor_share"))))
+
+    def test_figure_and_tables_become_files_and_failures_stay_in_them(self):
+        write_sweep(self.file, ROWS)
+        out = os.path.join(self.folder.name, "out")
+        self.assertEqual(sweep.main([self.file, "--out", out]), 0)
+        for suffix in ("svg", "png"):
+            self.assertGreater(os.path.getsize(os.path.join(out, f"test.{suffix}")), 10_000)
+        with open(os.path.join(out, "test.md"), encoding="utf-8") as stream:
+            text = stream.read()
+        self.assertIn("failed, mesh is missing", text)
+        self.assertIn("**certified**", text)
+        self.assertIn("| hard | 33 |", text)  # the crossing
+        self.assertIn("at commit 0123456789ab", text)
+        budget = next(line for line in text.splitlines() if line.startswith("| hard | none"))
+        self.assertIn("improved, a search every 100 frames: 40 %", budget)  # 10 and 20 ms/s
+        self.assertIn("certified: 0 %", budget)
+
+    def test_the_same_sweep_makes_the_same_bytes_of_svg(self):
+        write_sweep(self.file, ROWS)
+        texts = []
+        for name in ("a", "b"):
+            sweep.main([self.file, "--out", os.path.join(self.folder.name, name)])
+            with open(os.path.join(self.folder.name, name, "test.svg"), "rb") as stream:
+                texts.append(stream.read())
+        self.assertEqual(*texts)
+
+    def test_another_file_is_refused(self):
+        with h5py.File(self.file, "w") as h5:
+            h5.attrs["format"] = "lmdbench-result"
+        with self.assertRaisesRegex(ResultError, "is no sweep"):
+            sweep_results.Sweep(self.file)
+
+
+class Intervals(unittest.TestCase):
+    def test_poisson_limits_are_garwoods(self):
+        for count, low, high in ((0, 0.0, 3.6889), (1, 0.0253, 5.5716), (10, 4.7954, 18.3904), (100, 81.364, 121.627)):
+            found = intervals.poisson_interval(count)
+            self.assertAlmostEqual(found[0], low, places=2)
+            self.assertAlmostEqual(found[1], high, places=2)
+
+    def test_bootstrap_over_paths_widens_what_comes_in_bursts(self):
+        even = intervals.Rate([10] * 6, [1.0] * 6)
+        bursts = intervals.Rate([60, 0, 0, 0, 0, 0], [1.0] * 6)
+        self.assertEqual(even.value, bursts.value)
+        self.assertGreater(bursts.high, even.high)
+        self.assertLess(bursts.low, even.low)
+
+    def test_bootstrap_is_the_same_every_time(self):
+        data = list(range(20))
+        self.assertEqual(intervals.bootstrap(data, np.mean), intervals.bootstrap(data, np.mean))
+
+
+class Verdicts(unittest.TestCase):
+    def test_one_event_decides_nothing(self):
+        self.assertEqual(claim_regions.decide(0.5, 1.5, at_least=1.0), claim_regions.OPEN)
+        self.assertEqual(claim_regions.decide(1.1, 1.5, at_least=1.0), claim_regions.HOLDS)
+        self.assertEqual(claim_regions.decide(0.5, 0.9, at_least=1.0), claim_regions.FAILS)
+        self.assertEqual(claim_regions.decide(1.2, 1.4, at_least=1.0, at_most=1.3), claim_regions.OPEN)
+        self.assertEqual(claim_regions.decide(math.nan, 1.0, at_least=1.0), claim_regions.OPEN)
+
+    def test_words(self):
+        holds, fails, undecided = claim_regions.HOLDS, claim_regions.FAILS, claim_regions.OPEN
+        self.assertEqual(claim_regions.verdict({"a": holds, "b": undecided}), "reproduced")
+        self.assertEqual(claim_regions.verdict({"a": fails}), "not reproduced")
+        self.assertEqual(claim_regions.verdict({"a": fails, "b": holds, "c": holds}), "holds where b; c")
+        self.assertTrue(claim_regions.verdict({"a": undecided}).startswith("undecided"))
+
+    def test_k1_compares_with_improved_under_the_same_schedule_and_cutoff(self):
+        with tempfile.TemporaryDirectory() as folder:
+            file = os.path.join(folder, "k1.h5")
+            many = [row("original", 20, switches=100.0, true_switches=2.0, jumps=300.0, true_jumps=4.0, false_jumps=290.0) for _ in range(3)]
+            few = [row("improved", 20, switches=1.0, true_switches=2.0, jumps=3.0, true_jumps=4.0, false_jumps=1.0) for _ in range(3)]
+            rare = [row("original", 100, switches=0.0, true_switches=2.0, jumps=3.0, true_jumps=4.0, false_jumps=1.0)]
+            also = [row("improved", 100, switches=1.0, true_switches=2.0, jumps=3.0, true_jumps=4.0, false_jumps=1.0)]
+            write_sweep(file, many + few + rare + also, "claim-k1")
+            text, cells = claim_regions.k1(sweep_results.Sweep(file))
+        self.assertEqual(list(cells.values()), [claim_regions.HOLDS, claim_regions.FAILS])
+        self.assertIn("10 [", "\n".join(text))
+
+    def test_k5_and_the_summary(self):
+        with tempfile.TemporaryDirectory() as folder:
+            file = os.path.join(folder, "k5.h5")
+            write_sweep(file, [row("improved", reduction_ratio_maximum=20.0), row("improved", reduction_ratio_maximum=90.0)], "claim-k10")
+            _, cells = claim_regions.k5(sweep_results.Sweep(file))
+            self.assertEqual(len(cells), 1, "two points of one setting")
+            write_sweep(file, [row("improved", reduction_ratio_maximum=20.0)], "claim-k5")
+            self.assertEqual(list(claim_regions.k5(sweep_results.Sweep(file))[1].values()), [claim_regions.HOLDS])
+
+
+if __name__ == "__main__":
+    unittest.main()

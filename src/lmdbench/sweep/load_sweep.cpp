@@ -1,0 +1,148 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/base/error.h>
+#include <lmdbench/base/input_file.h>
+#include <lmdbench/base/json_document.h>
+#include <lmdbench/sweep/schema_text.h>
+#include <lmdbench/sweep/sweep.h>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <set>
+
+namespace lmdbench {
+namespace {
+
+using Json = nlohmann::json;
+using Axes = std::vector<std::pair<std::string, std::string>>;
+
+/// A place of the sweep in the experiment, whose only method the series' one is.
+std::string in_experiment(const std::string& place) {
+  constexpr std::string_view METHOD = "/method/";
+  return place.starts_with(METHOD) ? "/methods/0/" + place.substr(METHOD.size()) : place;
+}
+
+void add_overrides(std::vector<Override>& overrides, const Json& values) {
+  for (const auto& [place, value] : values.items())
+    overrides.push_back(in_experiment(place) + "=" + value.dump());
+}
+
+/// Every combination of the axes' values.
+/// @param place of the axes in the sweep file
+std::vector<Axes> combinations(const Json& axes, const JsonDocument& document, const std::string& place) {
+  std::vector<Axes> result{{}};
+  for (std::size_t i = 0; i < axes.size(); ++i) {
+    const Json& together = axes[i];
+    if (together.empty())
+      document.fail(fmt::format("{}/{}", place, i), "an axis without a place",
+                    "name a place of the experiment and its values");
+    const std::size_t length = together.front().size();
+    for (const auto& [name, values] : together.items())
+      if (values.size() != length)
+        document.fail(
+            fmt::format("{}/{}", place, i),
+            fmt::format("{} has {} values, another place {}", name, values.size(), length),
+            "places of one object take their values together: give them equally many, or an object each");
+    if (result.size() * length > MOST_SWEEP_POINTS)
+      document.fail(fmt::format("{}/{}", place, i), fmt::format("more than {} points", MOST_SWEEP_POINTS),
+                    "sweep fewer values");
+    std::vector<Axes> longer;
+    for (const Axes& begun : result)
+      for (std::size_t value = 0; value < length; ++value) {
+        longer.push_back(begun);
+        for (const auto& [name, values] : together.items())
+          longer.back().emplace_back(name, values[value].dump());
+      }
+    result = std::move(longer);
+  }
+  return result;
+}
+
+SweepPoint make_point(const std::filesystem::path& file, const Json& sweep, const Json& series,
+                      const Axes& axes) {
+  Json method = series["method"];
+  method["label"] = series["label"];
+  std::vector<Override> overrides{"/methods=" + Json::array({method}).dump(),
+                                  "/probes={\"truth\":{\"stride_frames\":0}}", "/driver/repetitions=1",
+                                  "/record={}"};
+  add_overrides(overrides, sweep["set"]);
+  add_overrides(overrides, series["set"]);
+  for (const auto& [place, value] : axes) overrides.push_back(in_experiment(place) + "=" + value);
+  SweepPoint point;
+  point.series = series["label"].get<std::string>();
+  point.axes = axes;
+  point.experiment = load_experiment(file, overrides);
+  point.scene = point.experiment.name;
+  if (point.experiment.profiles.size() != 1)
+    throw UsageError(file.string(), "/force",
+                     fmt::format("{} force profiles", point.experiment.profiles.size()),
+                     "sweep with a force profile a point: set /force to one of them, or make it an axis");
+  if (point.experiment.loop.closed)
+    throw UsageError(file.string(), "/loop/kind", "a closed loop",
+                     "sweep in an open loop: truth is at the poses of the path");
+  add_overrides(overrides, series["truth"]);
+  point.truth = series["truth"].empty() ? point.experiment : load_experiment(file, overrides);
+  return point;
+}
+
+void fill_labels(Json& series, const JsonDocument& document) {
+  std::set<std::string> labels;
+  for (std::size_t i = 0; i < series.size(); ++i) {
+    if (!series[i].contains("label")) series[i]["label"] = series[i]["method"]["name"];
+    const auto label = series[i]["label"].get<std::string>();
+    if (!labels.insert(label).second)
+      document.fail(fmt::format("/series/{}", i), fmt::format("two series are called \"{}\"", label),
+                    "give one of them another \"label\"");
+  }
+}
+
+}  // namespace
+
+std::string SweepPoint::axes_text() const {
+  std::vector<std::string> parts;
+  for (const auto& [place, value] : axes)
+    parts.push_back(fmt::format("{}={}", place.substr(place.rfind('/') + 1), value));
+  return fmt::format("{}", fmt::join(parts, ", "));
+}
+
+Sweep load_sweep(const std::filesystem::path& file, const std::vector<Override>& overrides) {
+  const InputKind kind{.what = "sweep file", .code = ExitCode::USAGE, .most_bytes = Limit::JSON_BYTES};
+  JsonDocument document(read_input_file(file, kind).bytes, file.string(), Json::parse(sweep_schema_text()),
+                        ExitCode::USAGE, overrides);
+  Json& json = document.json();
+  fill_labels(json["series"], document);
+  Sweep sweep;
+  sweep.file = file;
+  sweep.name = json["name"].get<std::string>();
+  sweep.title = json["title"].get<std::string>();
+  sweep.repetitions = json["repetitions"].get<std::int64_t>();
+  sweep.truth_check_frames = json["truth_check_frames"].get<std::int64_t>();
+  sweep.keep_samples = json["keep_samples"].get<bool>();
+  for (const Json& name : json["experiments"]) {
+    const std::filesystem::path experiment =
+        (file.parent_path() / name.get<std::string>()).lexically_normal();
+    for (std::size_t i = 0; i < json["series"].size(); ++i) {
+      const Json& series = json["series"][i];
+      for (const Axes& axes : combinations(series["axes"], document, fmt::format("/series/{}/axes", i))) {
+        try {
+          sweep.points.push_back(make_point(experiment, json, series, axes));
+        } catch (const Error& error) {
+          throw Error(error.code(), file.string(), fmt::format("/series/{}", i), error.what(), "");
+        }
+        if (sweep.points.size() > MOST_SWEEP_POINTS)
+          document.fail("/series", fmt::format("more than {} points", MOST_SWEEP_POINTS),
+                        "sweep fewer values");
+      }
+    }
+  }
+  if (json["from_frame"].is_null())
+    for (const SweepPoint& point : sweep.points)
+      sweep.from_frame = std::max(sweep.from_frame, point.experiment.driver.search_latency_frames);
+  else
+    sweep.from_frame = json["from_frame"].get<std::int64_t>();
+  sweep.resolved_json = json.dump(2);
+  return sweep;
+}
+
+}  // namespace lmdbench

@@ -1,0 +1,134 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/experiment/method_summary.h>
+#include <lmdbench/experiment/times.h>
+#include <lmdbench/sweep/point_result.h>
+#include <lmdbench/sweep/step_numbers.h>
+#include <lmdbench/sweep/time_numbers.h>
+
+#include <cmath>
+
+namespace lmdbench {
+namespace {
+
+using Json = nlohmann::json;
+
+constexpr double NANOSECOND = 1e-9;
+constexpr double MICRONEWTON = 1e-6;
+
+/// Whole multiples of a unit; null for NaN.
+Json rounded(const std::vector<double>& values, double unit) {
+  Json result = Json::array();
+  for (const double value : values) {
+    if (std::isnan(value))
+      result.push_back(nullptr);
+    else
+      result.push_back(static_cast<std::int64_t>(std::llround(value / unit)));
+  }
+  return result;
+}
+
+std::vector<double> in_units(const Json& values, double unit) {
+  std::vector<double> result;
+  result.reserve(values.size());
+  for (const Json& value : values)
+    result.push_back(value.is_null() ? UNSET : static_cast<double>(value.get<std::int64_t>()) * unit);
+  return result;
+}
+
+template <typename Numbers, typename Infos>
+void collect(std::map<std::string, double>& into, const Numbers& numbers, const Infos& infos) {
+  for (const auto& info : infos) {
+    const double value = numbers.*info.value;
+    if (!std::isnan(value)) into[std::string(info.name)] = value;
+  }
+}
+
+}  // namespace
+
+const std::vector<PointNumber>& point_numbers() {
+  static const std::vector<PointNumber> all = [] {
+    std::vector<PointNumber> infos;
+    const auto add = [&](const auto& numbers) {
+      for (const auto& number : numbers) infos.push_back({number.name, number.units, number.long_name});
+    };
+    add(summary_numbers());
+    add(step_numbers());
+    add(time_numbers());
+    return infos;
+  }();
+  return all;
+}
+
+Json PointRun::to_json() const {
+  return {{"result_hash", result_hash},
+          {"work_hash", work_hash},
+          {"local_update_ns", rounded(times.local_update, NANOSECOND)},
+          {"global_search_ns", rounded(times.global_search, NANOSECOND)},
+          {"first_reduction_ns", rounded(times.first_reduction, NANOSECOND)},
+          {"second_tracking_ns", rounded(times.second_tracking, NANOSECOND)}};
+}
+
+PointRun PointRun::from_json(const Json& json) {
+  PointRun run;
+  run.result_hash = json.at("result_hash").get<std::string>();
+  run.work_hash = json.at("work_hash").get<std::string>();
+  run.times.local_update = in_units(json.at("local_update_ns"), NANOSECOND);
+  run.times.global_search = in_units(json.at("global_search_ns"), NANOSECOND);
+  run.times.first_reduction = in_units(json.at("first_reduction_ns"), NANOSECOND);
+  run.times.second_tracking = in_units(json.at("second_tracking_ns"), NANOSECOND);
+  return run;
+}
+
+Json PointErrors::to_json() const {
+  std::string contact;
+  for (const bool frame : counts) contact.push_back(frame ? '1' : '0');
+  return {{"numbers", numbers},
+          {"counters", counters},
+          {"counts", contact},
+          {"tracked", tracked},
+          {"search_frames", search_frames},
+          {"force_un", rounded(force, MICRONEWTON)},
+          {"truth_checked_frames", truth_checked_frames},
+          {"truth_wrong_frames", truth_wrong_frames}};
+}
+
+PointErrors PointErrors::from_json(const Json& json) {
+  PointErrors errors;
+  errors.numbers = json.at("numbers").get<std::map<std::string, double>>();
+  errors.counters = json.at("counters").get<std::map<std::string, std::int64_t>>();
+  for (const char frame : json.at("counts").get<std::string>()) errors.counts.push_back(frame == '1');
+  errors.tracked = json.at("tracked").get<std::vector<std::int64_t>>();
+  errors.search_frames = json.at("search_frames").get<std::vector<std::int64_t>>();
+  errors.force = in_units(json.at("force_un"), MICRONEWTON);
+  errors.truth_checked_frames = json.at("truth_checked_frames").get<std::int64_t>();
+  errors.truth_wrong_frames = json.at("truth_wrong_frames").get<std::int64_t>();
+  return errors;
+}
+
+double PointResult::number(std::string_view name) const {
+  const auto found = numbers.find(std::string(name));
+  return found == numbers.end() ? UNSET : found->second;
+}
+
+PointResult finish_point(PointErrors errors, const std::vector<PointRun>& runs, double frame_rate_hz) {
+  MethodRecord record;
+  for (const std::int64_t frame : errors.search_frames) record.searches.emplace_back().frame = frame;
+  for (const std::int64_t tracked : errors.tracked) record.frames.emplace_back().tracked_count = tracked;
+  for (const PointRun& run : runs) record.repetitions.push_back(run.times);
+  PointResult result;
+  result.result_hash = runs.front().result_hash;
+  for (const PointRun& run : runs)
+    if (run.result_hash != result.result_hash || run.work_hash != runs.front().work_hash)
+      result.failure = "two repetitions differ in forces, LMDs or counters";
+  result.numbers = errors.numbers;
+  MethodSummary summary;
+  summarise_times(summary, record, errors.counts);
+  collect(result.numbers, summary, summary_numbers());
+  collect(result.numbers, measure_times(record, errors.counts, frame_rate_hz), time_numbers());
+  result.errors = std::move(errors);
+  result.repetitions = std::move(record.repetitions);
+  return result;
+}
+
+}  // namespace lmdbench

@@ -1,0 +1,89 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/base/statistics.h>
+#include <lmdbench/experiment/times.h>
+#include <lmdbench/sweep/time_numbers.h>
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cstddef>
+
+namespace lmdbench {
+namespace {
+
+using T = TimeNumbers;
+
+constexpr std::array NUMBERS = {
+    TimeNumber{"processor_share", "1",
+               "processor time of a second in contact, local updates and searches [s/s]",
+               &T::processor_share},
+    TimeNumber{"local_update_mean_s", "s", "local update of a frame in contact, mean",
+               &T::local_update_mean_s},
+    TimeNumber{"local_update_empty_median_s", "s", "local update of frames that carry no LMD, median",
+               &T::local_update_empty_median_s},
+    TimeNumber{"local_update_filled_median_s", "s", "local update of frames that carry LMDs, median",
+               &T::local_update_filled_median_s},
+    TimeNumber{"local_update_filled_mean_s", "s", "local update of frames that carry LMDs, mean",
+               &T::local_update_filled_mean_s},
+    TimeNumber{"local_update_per_tracked_s", "s",
+               "local updates of all frames that carry LMDs / LMDs carried", &T::local_update_per_tracked_s},
+    TimeNumber{"search_share", "1", "share of searches and the trackings after them in the processor time",
+               &T::search_share},
+};
+
+/// Median over the measured repetitions of a frame.
+template <typename Sample>
+double median_of(std::size_t repetitions, const Sample& sample) {
+  std::vector<double> values;
+  for (std::size_t i = repetitions > 1 ? 1 : 0; i < repetitions; ++i) values.push_back(sample(i));
+  return median(values);
+}
+
+}  // namespace
+
+std::span<const TimeNumber> time_numbers() {
+  return NUMBERS;
+}
+
+TimeNumbers measure_times(const MethodRecord& record, const std::vector<bool>& counts, double frame_rate_hz) {
+  TimeNumbers numbers;
+  const std::vector<std::vector<double>> all = time_per_frame(record);
+  std::vector<double> local, empty, filled;
+  double processor = 0.0, local_sum = 0.0, filled_sum = 0.0, carried = 0.0;
+  for (std::size_t frame = 0; frame < counts.size(); ++frame) {
+    if (!counts[frame]) continue;
+    std::vector<double> whole;
+    for (const std::vector<double>& row : all) whole.push_back(row[frame]);
+    processor += median(whole);
+    const double update = median_of(record.repetitions.size(),
+                                    [&](std::size_t i) { return record.repetitions[i].local_update[frame]; });
+    local.push_back(update);
+    local_sum += update;
+    const std::int64_t tracked = record.frames[frame].tracked_count;
+    (tracked > 0 ? filled : empty).push_back(update);
+    if (tracked > 0) filled_sum += update;
+    carried += static_cast<double>(tracked);
+  }
+  if (local.empty()) return numbers;
+  numbers.processor_share = processor / (static_cast<double>(local.size()) / frame_rate_hz);
+  numbers.local_update_mean_s = mean(local);
+  numbers.local_update_empty_median_s = median(empty);
+  numbers.local_update_filled_median_s = median(filled);
+  numbers.local_update_filled_mean_s = mean(filled);
+  if (carried > 0.0) numbers.local_update_per_tracked_s = filled_sum / carried;
+  if (processor > 0.0) numbers.search_share = std::max(0.0, 1.0 - local_sum / processor);
+  return numbers;
+}
+
+double clock_overhead() {
+  constexpr int READINGS = 10'001;
+  std::vector<double> seconds;
+  for (int i = 0; i < READINGS; ++i) {
+    const auto begin = std::chrono::steady_clock::now();
+    seconds.push_back(std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count());
+  }
+  return median(seconds);
+}
+
+}  // namespace lmdbench

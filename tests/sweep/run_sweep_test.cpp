@@ -1,0 +1,146 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/base/error.h>
+#include <lmdbench/sweep/run_sweep.h>
+#include <lmdbench/sweep/write_sweep.h>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+#include <record/result_reading.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+
+namespace lmdbench {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using testing::OpenResult;
+using testing::ScratchDirectory;
+
+constexpr const char* SWEEP = R"({
+  "name": "small", "title": "a test", "experiments": ["EXPERIMENT"], "repetitions": 2, "truth_check_frames": 4,
+  "set": {"/frames": 400},
+  "series": [
+    {"method": {"name": "improved", "force_law": "exponential"},
+     "axes": [{"/driver/search_every_frames": [5, 40], "/driver/search_latency_frames": [5, 40]}]},
+    {"method": {"name": "certified", "force_law": "exponential"}}
+  ]})";
+
+class RunSweep : public ::testing::Test {
+ protected:
+  std::filesystem::path write(std::string text = SWEEP) {
+    const std::string place = "EXPERIMENT";
+    text.replace(text.find(place), place.size(), LMDBENCH_SOURCE_DIR "/experiments/shapes.json");
+    return scratch_.write("sweep.json", text);
+  }
+  SweepResult run(const Sweep& sweep) {
+    return run_sweep_to_file(sweep, scratch_ / "out.h5", {"lmdbench", "work-precision"});
+  }
+  ScratchDirectory scratch_;
+};
+
+TEST_F(RunSweep, PutsErrorBesideTimeForEveryPoint) {
+  const Sweep sweep = load_sweep(write());
+  const SweepResult result = run(sweep);
+  const OpenResult file(scratch_ / "out.h5");
+  EXPECT_THAT(file.strings("/points/series"), ElementsAre("improved", "improved", "certified"));
+  EXPECT_THAT(file.strings("/points/failure"), ElementsAre("", "", ""));
+  const std::vector<double> recall = file.doubles("/points/recall");
+  const std::vector<double> force = file.doubles("/points/force_error_rms_n");
+  EXPECT_EQ(recall.at(2), 1.0) << "complete by construction";
+  EXPECT_EQ(force[2], 0.0);
+  EXPECT_LT(recall[1], recall[0]) << "a search every 40 frames leaves older sets than one every 5";
+  EXPECT_GT(force[1], force[0]);
+  for (const double share : file.doubles("/points/processor_share")) EXPECT_GT(share, 0.0);
+  EXPECT_THAT(file.doubles("/points/truth_checked_frames"), ElementsAre(4, 4, 4));
+  EXPECT_THAT(file.doubles("/points/truth_wrong_frames"), ElementsAre(0, 0, 0));
+  EXPECT_THAT(file.shape("/samples/0/local_update_time"), ElementsAre(2u, 400u));
+  EXPECT_EQ(nlohmann::json::parse(file.strings("/points/axes").at(1))["/driver/search_every_frames"], 40);
+  for (const PointNumber& number : point_numbers()) {
+    const std::string path = "/points/" + std::string(number.name);
+    EXPECT_EQ(file.shape(path), std::vector<std::size_t>{3}) << path;
+    EXPECT_FALSE(file.text_attribute(path, "units").empty()) << path;
+  }
+  EXPECT_TRUE(on_front(sweep, result, 2)) << "nothing has less error than none";
+
+  const nlohmann::json rows = nlohmann::json::parse(sweep_json(sweep, result));
+  EXPECT_EQ(rows.at(2)["recall"], 1.0);
+  EXPECT_TRUE(rows[2]["first_reduction_median_s"].is_null()) << "certified has no reduction";
+  EXPECT_THAT(sweep_text(sweep, result), HasSubstr("improved search_every_frames=5"));
+}
+
+TEST_F(RunSweep, GoesOnWhereItStopped) {
+  const Sweep sweep = load_sweep(write());
+  const auto stop_after = [](int calls) {
+    return [calls](const std::string& phase, std::int64_t done, std::int64_t) {
+      return phase != "points" || done < calls;
+    };
+  };
+  EXPECT_THROW(run_sweep_to_file(sweep, scratch_ / "out.h5", {}, stop_after(4)), Interrupted);
+  EXPECT_FALSE(std::filesystem::exists(scratch_ / "out.h5")) << "an unfinished sweep has no result";
+  const SweepResult rest = run(sweep);
+  EXPECT_EQ(rest.resumed_runs, 4);
+  const SweepResult again = run(sweep);
+  EXPECT_EQ(again.resumed_runs, 6) << "all of it";
+  ASSERT_EQ(again.points.size(), rest.points.size());
+  for (std::size_t i = 0; i < again.points.size(); ++i) {
+    EXPECT_EQ(again.points[i].numbers, rest.points[i].numbers) << "times, too: they are the same samples";
+    EXPECT_EQ(again.points[i].result_hash, rest.points[i].result_hash);
+  }
+
+  std::string wider = SWEEP;
+  wider.replace(wider.find("\"/frames\": 400"), 14, "\"/frames\": 390");
+  EXPECT_EQ(run(load_sweep(write(wider))).resumed_runs, 0) << "another path length is another point";
+}
+
+TEST_F(RunSweep, KeepsAFailedPointAsAFailureAndGoesOn) {
+  std::string text = SWEEP;
+  const std::string set = R"("set": {"/frames": 400},)";
+  text.replace(text.find(set), set.size(), set + "\n");
+  text.replace(text.find(R"({"method": {"name": "certified", "force_law": "exponential"}})"), 61,
+               R"({"method": {"name": "certified", "force_law": "exponential"},
+                   "axes": [{"/moving/mesh": ["blob", "./missing.off"]}]})");
+  const Sweep sweep = load_sweep(write(text));
+  const SweepResult result = run(sweep);
+  ASSERT_EQ(result.points.size(), 4u);
+  EXPECT_TRUE(result.points[2].failure.empty());
+  EXPECT_THAT(result.points[3].failure, HasSubstr("missing.off"));
+  EXPECT_TRUE(std::isnan(result.points[3].number("recall")));
+  EXPECT_FALSE(on_front(sweep, result, 3));
+  EXPECT_THAT(sweep_text(sweep, result), HasSubstr("failed  certified"));
+  const OpenResult file(scratch_ / "out.h5");
+  EXPECT_THAT(file.strings("/points/failure").at(3), HasSubstr("missing.off"));
+  EXPECT_FALSE(file.has("/samples/3"));
+}
+
+TEST_F(RunSweep, JudgesAStandInByTheMeshThatItStandsFor) {
+  std::string text = SWEEP;
+  text.replace(text.find(R"({"method": {"name": "certified", "force_law": "exponential"}})"), 61,
+               R"({"method": {"name": "certified", "force_law": "exponential"},
+                   "set": {"/moving/mesh": "sphere"}, "truth": {"/moving/mesh": "blob"}})");
+  const SweepResult result = run(load_sweep(write(text)));
+  EXPECT_TRUE(std::isnan(result.points.at(2).number("recall"))) << "features of two meshes do not correspond";
+  EXPECT_GT(result.points[2].number("force_error_rms_n"), 0.0) << "exact on the wrong mesh";
+}
+
+TEST_F(RunSweep, ReplacesNothingButItsOwn) {
+  const Sweep sweep = load_sweep(write());
+  scratch_.write("out.h5.points.jsonl", "somebody's notes\n");
+  EXPECT_THROW(run(sweep), UsageError);
+  std::ifstream stream(scratch_ / "out.h5.points.jsonl");
+  EXPECT_EQ(std::string(std::istreambuf_iterator<char>(stream), {}), "somebody's notes\n");
+}
+
+TEST(PointNumbers, HaveNamesOfTheirOwn) {
+  std::set<std::string_view> names;
+  for (const PointNumber& number : point_numbers())
+    EXPECT_TRUE(names.insert(number.name).second) << number.name;
+}
+
+}  // namespace
+}  // namespace lmdbench
