@@ -128,8 +128,7 @@ def draw(sweep):
     keys = [Line2D([], [], color=colours[series], marker=markers[series], ms=4.2, mec="white", mew=0.4, lw=0.8, label=series)
             for series in sweep.series]
     keys.append(Line2D([], [], color=style.PALE_GREY, lw=3, label="Pareto front"))
-    figure.text(0.085, 0.965, "Error against processor time of a second in contact, lower left is better; numbers: frames from "
-                "a search to the next", fontsize=7.5, fontweight="bold")
+    figure.text(0.085, 0.965, "Error against processor time of a second in contact; numbers: frames from a search to the next", fontsize=7.5, fontweight="bold")
     figure.legend(handles=keys, loc="upper left", bbox_to_anchor=(0.075, 0.955), ncol=7, handlelength=1.8, columnspacing=1.4,
                   borderpad=0.1)
     return figure
@@ -137,6 +136,10 @@ def draw(sweep):
 
 def shown(value, digits=3):
     return f"{value:.{digits}g}" if math.isfinite(value) else "-"
+
+
+def whole(value):
+    return f"{value:.0f}" if math.isfinite(value) else "-"
 
 
 def budget_table(sweep):
@@ -165,7 +168,7 @@ def crossings(sweep, cheaper="improved", reference="certified"):
         beyond = next((point for point in sorted(points, key=lambda point: point.period) if point.period >= by_cost), None)
         at = f"{shown(error(beyond))} (at {beyond.period})" if beyond else "-"
         recall = f"{shown(100 * beyond.number('recall'))} (at {beyond.period})" if beyond else "-"
-        lines.append(f"| {scene} | {shown(by_cost, 2)} | {shown(by_median, 2)} | {at} | {recall} |")
+        lines.append(f"| {scene} | {whole(by_cost)} | {whole(by_median)} | {at} | {recall} |")
     return lines
 
 

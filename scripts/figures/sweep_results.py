@@ -13,6 +13,20 @@ from lmdbench_results import FORMAT, FORMAT_VERSION, ResultError
 MISSES_ALL = "finds no true LMD"
 
 
+def dataset_text(dataset):
+    value = np.ravel(dataset[()])[0]
+    return value.decode() if isinstance(value, bytes) else str(value)
+
+
+def is_sweep(file):
+    """Whether the file is a sweep's and not a run's; False for what cannot be read, which others complain about."""
+    try:
+        with h5py.File(file, "r") as h5:
+            return "sweep" in h5
+    except OSError:
+        return False
+
+
 class Point:
     """A method with the values of its axes in a scene; numbers by name, NaN for what was not measured."""
 
@@ -90,6 +104,7 @@ class Sweep:
                 text = {name: value.decode() if isinstance(value, bytes) else value for name, value in h5["sweep"].attrs.items()}
                 provenance = {name: value.decode() if isinstance(value, bytes) else value
                               for name, value in h5["provenance"].attrs.items()}
+                self.definition = dataset_text(h5["provenance/experiment"]) if "provenance/experiment" in h5 else ""
                 machine = h5["provenance/machine"].attrs if "provenance/machine" in h5 else {}
                 self.machine = {name: value.decode() if isinstance(value, bytes) else value for name, value in machine.items()}
         except OSError as error:

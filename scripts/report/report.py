@@ -21,12 +21,14 @@ import markdown  # noqa: E402
 import markupsafe  # noqa: E402
 
 import figure7  # noqa: E402
+import sweep as sweep_figure  # noqa: E402
 import figure_style as style  # noqa: E402
 import work_precision  # noqa: E402
 from answer import answer  # noqa: E402
 from lmdbench_results import Result, ResultError, run_script, truth_of  # noqa: E402
 from page_data import page_colours, time_panels  # noqa: E402
 from scene_data import scene  # noqa: E402
+from sweep_results import Sweep, is_sweep  # noqa: E402
 
 JAVASCRIPT = "/usr/share/javascript"
 LIBRARIES = (("three/three.min.js", "libjs-three"), ("three/examples/js/controls/OrbitControls.js", "libjs-three"),
@@ -95,15 +97,45 @@ def figure_entry(figure, folder, name, title, text, table=""):
     svg = next(file for file in style.save(figure, folder, name) if file.endswith(".svg"))
     with open(svg, "rb") as stream:
         data = base64.b64encode(stream.read()).decode("ascii")
-    return {"id": name, "title": title, "text": text, "svg": data, "csv": in_script(table)}
+    return {"id": name, "title": title, "text": text, "svg": data, "csv": in_script(table), "html": ""}
 
 
-def figures(results, folder):
-    entries = []
+def sweep_csv(sweep):
+    """Every point with all its numbers."""
+    stream = io.StringIO()
+    writer = csv.writer(stream, lineterminator="\n")
+    numbers = sorted(sweep.columns)
+    writer.writerow(["scene", "series", "axes", "failure", *numbers])
+    for point in sweep.points:
+        writer.writerow([point.scene, point.series, json.dumps(point.axes), point.failure, *(point.number(name) for name in numbers)])
+    return stream.getvalue()
+
+
+def sweep_entry(sweep, folder):
+    """Figure and answer of a sweep: which method at which budget, and where one gets cheaper than the other."""
+    tables = ["Least RMS force error [% of F_max of one LMD] within so much processor time of a second in contact, searches included:",
+              "", *sweep_figure.budget_table(sweep), ""]
+    crossing = sweep_figure.crossings(sweep)
+    if len(crossing) > 2:
+        tables += ["`improved` costs less than `certified`, with older sets, where it searches more rarely than every", "", *crossing, ""]
+    entry = figure_entry(
+        sweep_figure.draw(sweep), folder, f"sweep-{sweep.name}", "Error against run time" if sweep.name == "budget" else sweep.title,
+        f"{sweep.title}. A line a series, a point a setting, truth in every frame. Lower left is better; shaded lanes hold errors of exactly "
+        "zero and points that fail or find no true LMD.", sweep_csv(sweep))
+    return {**entry, "html": markdown.markdown("\n".join(tables), extensions=["tables"])}
+
+
+def sweep_provenance(sweep):
+    rows = [*sorted(sweep.provenance.items()), *((f"machine: {name}", value) for name, value in sorted(sweep.machine.items()))]
+    return {"name": sweep.name, "provenance": [(name, value) for name, value in rows if value], "experiment": sweep.definition}
+
+
+def figures(results, sweeps, folder):
+    entries = [sweep_entry(sweep, folder) for sweep in sweeps]
     probed = [result for result in results if any(truth_of(method) for method in result.methods.values())]
     if probed:
         entries.append(figure_entry(
-            work_precision.draw(probed), folder, "work_precision", "Error against run time",
+            work_precision.draw(probed), folder, "work_precision", "Error against run time of these runs" if sweeps else "Error against run time",
             "A point a method and experiment: what error it leaves for what run time of a frame in contact. Lower left is better; "
             "shaded lanes hold errors of exactly zero and methods that fail.", work_precision_csv(probed)))
     pair = paper_pairs(results)
@@ -132,18 +164,19 @@ OMISSIONS = (
     "experiment under Provenance.",
     "Times are of one machine and one process a result: compare methods within a result, not results of different machines.",
     "A time is the median of the repetitions of its frame; the largest frame is the largest of these medians, not of all samples.",
-    "Truth is probed at a stride: events between the probed frames are not seen by recall, precision and force error.",
-    "The methods run in one thread, one after the other, in an order that is the same in every frame.",
+    "In a run truth is probed at a stride: events between the probed frames are not seen by recall, precision and force error. In a sweep "
+    "it stands in every frame.",
+    "The methods run in one thread and take turns, block by block, in random order.",
     "The methods of the paper are scalar code; where a method uses vector instructions, its times say so in the experiment's options or not at "
     "all: work counters in the result file are the fair comparison.",
 )
 
 
-def page(results, scenes, studies, folder):
-    entries = figures(results, folder)
+def page(results, sweeps, scenes, studies, folder):
+    entries = figures(results, sweeps, folder)
     studies = [study(file) for file in studies]
-    sections = [{"id": "answer", "title": "Answer"}, *entries, {"id": "frames", "title": "Frame by frame"},
-                {"id": "scene", "title": "In space"}, *studies, {"id": "omissions", "title": "Omissions"},
+    of_runs = [{"id": "frames", "title": "Frame by frame"}, {"id": "scene", "title": "In space"}] if results else []
+    sections = [{"id": "answer", "title": "Answer"}, *entries, *of_runs, *studies, {"id": "omissions", "title": "Omissions"},
                 {"id": "provenance", "title": "Provenance"}]
     colours = {label: colour for result in results for label, colour in page_colours(result).items()}
     data = {"results": [time_panels(result) for result in results], "scenes": scenes, "colours": colours}
@@ -153,9 +186,10 @@ def page(results, scenes, studies, folder):
                   "experiment": json.dumps(result.experiment, indent=2),
                   "warnings": result.texts("/scene/warnings") if result.has("/scene/warnings") else []} for result in results]
     return environment.get_template("page.html.j2").render(
-        title=" and ".join(result.experiment.get("title") or result.name for result in results),
-        results=described, sections=sections,
-        figures=[{**entry, "csv": raw(entry["csv"])} for entry in entries],
+        title=" and ".join(result.experiment.get("title") or result.name for result in results)
+        or " and ".join(sweep.title for sweep in sweeps),
+        results=described, sections=sections, provenances=[*described, *map(sweep_provenance, sweeps)],
+        figures=[{**entry, "csv": raw(entry["csv"]), "html": raw(entry["html"])} for entry in entries],
         studies=[{**entry, "html": raw(entry["html"])} for entry in studies],
         omissions=OMISSIONS, style=raw(text_of(HERE, "page.css")),
         libraries={"script": raw(in_script("\n".join(library(*item) for item in LIBRARIES))),
@@ -166,17 +200,20 @@ def page(results, scenes, studies, folder):
 
 def main(argv):
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("results", nargs="+", metavar="RESULT.h5")
+    parser.add_argument("results", nargs="+", metavar="RESULT.h5",
+                        help="what `lmdbench run` or `lmdbench work-precision` wrote")
     parser.add_argument("--out", required=True, metavar="DIR", help="folder of index.html and of its figures")
-    parser.add_argument("--scenes", metavar="DIR", help="folder with a scene for each result, 0, 1, ...")
+    parser.add_argument("--scenes", metavar="DIR", help="folder with a scene for each result, 0, 1, ...; sweeps count")
     parser.add_argument("--study", nargs="*", default=[], metavar="FILE.md", help="tables of studies to show as well")
     arguments = parser.parse_args(argv)
-    results = [Result(file) for file in arguments.results]
-    folders = [os.path.join(arguments.scenes, str(i)) if arguments.scenes else None for i in range(len(results))]
+    sweeps = [Sweep(file) for file in arguments.results if is_sweep(file)]
+    runs = [(i, file) for i, file in enumerate(arguments.results) if not is_sweep(file)]
+    results = [Result(file) for _, file in runs]
+    folders = [os.path.join(arguments.scenes, str(i)) if arguments.scenes else None for i, _ in runs]
     scenes = [scene(result, folder) for result, folder in zip(results, folders)]
     os.makedirs(arguments.out, exist_ok=True)
     file = os.path.join(arguments.out, "index.html")
-    text = page(results, scenes, arguments.study, arguments.out)
+    text = page(results, sweeps, scenes, arguments.study, arguments.out)
     with open(file + ".part", "w", encoding="utf-8") as stream:
         stream.write(text)
     os.replace(file + ".part", file)

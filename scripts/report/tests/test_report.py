@@ -21,6 +21,7 @@ from answer import answer, sentence  # noqa: E402
 from lmdbench_results import Result, ResultError  # noqa: E402
 from page_data import held, moving_recall, time_panels  # noqa: E402
 from synthetic import write_result  # noqa: E402
+from test_sweep import ROWS, write_sweep  # noqa: E402
 
 
 class FakeRow:
@@ -142,6 +143,35 @@ class Page(unittest.TestCase):
     def test_refuses_what_is_no_result(self):
         with self.assertRaises(ResultError):
             report.main([__file__, "--out", self.folder.name])
+
+
+class SweepPage(unittest.TestCase):
+    """A page of sweeps, alone and beside a run."""
+
+    def page(self, *files):
+        with tempfile.TemporaryDirectory() as folder:
+            names = []
+            for name in files:
+                names.append(os.path.join(folder, name))
+                (write_sweep if name.startswith("sweep") else write_result)(names[-1], *([ROWS, "budget"] if name.startswith("sweep") else []))
+            out = os.path.join(folder, "page")
+            self.assertEqual(report.main([*names, "--out", out]), 0)
+            self.assertTrue(os.path.exists(os.path.join(out, "sweep-budget.svg")))
+            with open(os.path.join(out, "index.html"), encoding="utf-8") as stream:
+                return stream.read()
+
+    def test_alone_it_has_figure_budgets_crossing_and_every_point(self):
+        text = self.page("sweep.h5")
+        self.assertIn('<section id="sweep-budget">', text)
+        self.assertIn("certified: 0 %", text)
+        self.assertIn("<td>33</td>", text)
+        self.assertIn("mesh is missing", text)  # in the CSV
+        self.assertNotIn('<section id="frames">', text)
+
+    def test_beside_a_run_it_comes_first_and_the_run_keeps_its_sections(self):
+        text = self.page("run.h5", "sweep.h5")
+        self.assertLess(text.index('<section id="sweep-budget">'), text.index('<section id="work_precision">'))
+        self.assertIn('<section id="frames">', text)
 
 
 if __name__ == "__main__":

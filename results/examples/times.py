@@ -1,0 +1,12 @@
+# SPDX-FileCopyrightText: The lmdbench authors
+# SPDX-License-Identifier: BSD-3-Clause
+import sys
+
+import h5py
+import numpy as np
+
+with h5py.File(sys.argv[1]) as result:
+    warm_up = int(result["/methods"].attrs["warm_up_repetitions"])
+    for label, method in result["/methods"].items():
+        frames = np.median(method["local_update_time"][warm_up:], axis=0)
+        print(f"{label}: median {1e6 * np.median(frames):.3g} us, 99 % {1e6 * np.quantile(frames, 0.99):.3g} us")
