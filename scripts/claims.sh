@@ -10,7 +10,7 @@ source "$(dirname "${BASH_SOURCE[0]}")/lib.sh"
 cd "$ROOT"
 LMDBENCH=build/release/lmdbench
 OUT=results/claims
-PATHS=5
+PATHS=3
 PYTHON="$(find_python h5py numpy)"
 mkdir -p "$OUT"
 

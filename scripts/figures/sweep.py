@@ -208,6 +208,15 @@ def point_table(sweep, scene):
     return lines
 
 
+def load(sweep):
+    """A word on a machine that had other work, too: its longest times say little then."""
+    average, processors = (float(sweep.machine.get(name, "nan")) for name in ("load_average_1_minute", "usable_processors"))
+    if not average > processors:
+        return ""
+    return (f" The machine was under load (average {average:.1f} on {processors:g} processors): errors and counts do not "
+            "depend on it, medians little; processor times, 99th percentiles and largest times hold some of it.")
+
+
 def markdown(sweep, picture):
     measured = [point for point in sweep.points if not point.failure]
     checked = sum(int(point.number("truth_checked_frames")) for point in {p.scene: p for p in measured}.values())
@@ -220,7 +229,7 @@ def markdown(sweep, picture):
         f"{checked} frames of the scenes were compared with `exhaustive` ({wrong or 'none'} differ). Forces are compared under each method's "
         "own law. Points take turns in random order; a frame counts with the median of its repetitions. Reading the clock costs "
         f"{1e9 * sweep.clock_overhead:.0f} ns of every time. `certified` uses vector instructions, `original` and `improved` are "
-        "scalar: part of the distance between them is that.", ""]
+        f"scalar: part of the distance between them is that.{load(sweep)}", ""]
     if picture:
         lines += [f"![Error against run time]({picture})", ""]
     lines += ["## Which method at which budget", "",

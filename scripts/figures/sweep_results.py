@@ -130,7 +130,9 @@ class Sweep:
             return h5[f"samples/{point.index}/{name}"][()]
 
     def commit(self):
-        return str(self.provenance.get("git_commit", "unknown"))[:12]
+        """Short, with a word where the program was built from something else than the commit."""
+        local = " with local changes" if self.provenance.get("git_dirty") == "yes" else ""
+        return str(self.provenance.get("git_commit", "unknown"))[:12] + local
 
 
 def front(points, cost, error):

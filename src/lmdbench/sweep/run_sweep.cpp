@@ -30,7 +30,8 @@ using Json = nlohmann::json;
 /// What points must share to have one truth and to take turns: all but the method, the driver and the probes.
 std::string scene_key(const Experiment& experiment) {
   Json json = Json::parse(experiment.resolved_json);
-  for (const char* other : {"$schema", "name", "title", "methods", "driver", "probes", "record"})
+  for (const char* other :
+       {"$schema", "name", "title", "methods", "driver", "probes", "record", "acceptance"})
     json.erase(other);
   json["folder"] = experiment.file.parent_path().string();
   return json.dump();
