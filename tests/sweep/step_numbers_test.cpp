@@ -26,7 +26,10 @@ PreparedRun approach(const std::vector<double>& gaps) {
       .meshes = {},
       .files = {},
       .starts_touching = false,
-      .warnings = {}};
+      .warnings = {},
+      .path_gaps = {},
+      .made_path = std::nullopt,
+      .defaults = {}};
   for (const double gap : gaps) {
     Pose pose;
     pose.translation = Vec3(1.0 + gap, 0.0, 0.0);
