@@ -132,7 +132,7 @@ def draw(runs, directory):
 
 TEXT = """# Hard against soft
 
-Made by `scripts/figures/hard_soft.py` from `experiments/bunny-closed.json`: the same meant path, force law and F_max for both; only the
+Made by `scripts/figures/hard_soft.py` from `experiments/bunny-closed.json`, whose run puts both profiles through the same meant path with the same force law and F_max; only the
 cutoff differs (0.5 % and 5 % of the diagonal), and with it the stiffness. In the closed loop an arm (0.554 kg, 6.45 N s/m, 135 N/m)
 draws a simulated PHANTOM Desktop with friction and encoder counts along the path. Jumps are changes of force above a quarter of F_max from a
 frame to the next; dropouts are frames in contact in which the force falls to zero; energy created is the largest net work of the

@@ -106,6 +106,11 @@ TEST(ClosedLoop, RecordedPathReplaysTheForces) {
   ASSERT_EQ(replayed.records[0].frames.size(), original.records[0].frames.size());
   for (std::size_t i = 0; i < replayed.records[0].frames.size(); ++i)
     EXPECT_LT((replayed.records[0].frames[i].force - original.records[0].frames[i].force).norm(), 1e-9) << i;
+  const Path thinned = record_path(closed, 7);
+  const Path all = record_path(closed);
+  ASSERT_EQ(thinned.size(), 86u);
+  EXPECT_EQ(thinned[85].time, all[595].time);
+  EXPECT_EQ(thinned[85].pose.translation, all[595].pose.translation);
   EXPECT_THROW(record_path(wall({"/loop/kind=open"})), UsageError);
 }
 

@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
+#include <cstddef>
 #include <memory>
 #include <string>
 #include <vector>
@@ -22,16 +23,17 @@ struct RecordOptions {
   std::string experiment;
   std::string out;
   std::vector<std::string> overrides;
+  std::size_t every = 1;
 };
 
 void record(const RecordOptions& options) {
   const Experiment experiment = load_experiment(options.experiment, options.overrides);
   ProgressBar bar(progress_welcome());
-  const Path path =
-      record_path(experiment, [&bar](const std::string& phase, std::int64_t done, std::int64_t total) {
-        bar.update(phase, done, total);
-        return true;
-      });
+  const Path path = record_path(experiment, options.every,
+                                [&bar](const std::string& phase, std::int64_t done, std::int64_t total) {
+                                  bar.update(phase, done, total);
+                                  return true;
+                                });
   bar.wipe();
   write_tum(options.out, path,
             fmt::format("true path of the simulated device of experiment '{}', method '{}'", experiment.name,
@@ -50,6 +52,8 @@ void add_record_command(CLI::App& app) {
   command->add_option("--out,-o", options->out, "path to write (TUM trajectory)")->required();
   command->add_option("--set", options->overrides, "override a value: /json/pointer=value; repeatable")
       ->allow_extra_args(false);
+  command->add_option("--every", options->every, "keep every so many-th frame; all of them without it")
+      ->check(CLI::PositiveNumber);
   command->callback([options] { record(*options); });
 }
 

@@ -9,7 +9,7 @@
 
 namespace lmdbench {
 
-Path record_path(const Experiment& experiment, const RunProgress& progress) {
+Path record_path(const Experiment& experiment, std::size_t every, const RunProgress& progress) {
   if (!experiment.loop.closed)
     throw UsageError(experiment.file.string(), "/loop/kind", "the loop is open: its path is the given one",
                      "set it to closed");
@@ -23,8 +23,8 @@ Path record_path(const Experiment& experiment, const RunProgress& progress) {
   const MethodRecord record =
       run_lockstep(lockstep_methods(alone, prepared), prepared.input, alone.driver, counted).front();
   Path path;
-  path.reserve(record.loop.size());
-  for (std::size_t frame = 0; frame < record.loop.size(); ++frame)
+  path.reserve(record.loop.size() / every + 1);
+  for (std::size_t frame = 0; frame < record.loop.size(); frame += every)
     path.push_back({prepared.times[frame], {record.loop[frame].position, record.poses[frame].rotation}});
   return path;
 }
