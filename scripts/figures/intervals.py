@@ -8,7 +8,7 @@ import math
 import numpy as np
 
 LEVEL = 0.95
-RESAMPLES = 2000
+RESAMPLES = 1000
 
 
 def poisson_tail(count, mean):

@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Reading what `lmdbench work-precision` wrote: a point a row, with its axes and numbers."""
 
+import copy
 import json
 import math
 
@@ -124,6 +125,14 @@ class Sweep:
 
     def of(self, scene=None, series=None):
         return [point for point in self.points if scene in (None, point.scene) and series in (None, point.series)]
+
+    def restricted(self, scene):
+        """The same sweep with the points of one scene; all of it where no scene is named."""
+        if not scene:
+            return self
+        part = copy.copy(self)
+        part.points = [point for point in self.points if point.scene == scene]
+        return part
 
     def samples(self, point, name):
         with h5py.File(self.file, "r") as h5:

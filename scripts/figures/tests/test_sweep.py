@@ -8,6 +8,7 @@ import os
 import sys
 import tempfile
 import unittest
+import unittest.mock
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 sys.path[:0] = [HERE, os.path.join(HERE, "..")]
@@ -147,10 +148,14 @@ class Verdicts(unittest.TestCase):
 
     def test_words(self):
         holds, fails, undecided = claim_regions.HOLDS, claim_regions.FAILS, claim_regions.OPEN
-        self.assertEqual(claim_regions.verdict({"a": holds, "b": undecided}), "reproduced")
+        self.assertEqual(claim_regions.verdict({"a": holds, "b": holds}), "reproduced")
+        self.assertEqual(claim_regions.verdict({"a": holds, "b": undecided}), "holds where a; undecided in others")
         self.assertEqual(claim_regions.verdict({"a": fails}), "not reproduced")
+        self.assertEqual(claim_regions.verdict({"a": fails, "b": undecided}), "not reproduced (1 of 2 settings undecided)")
         self.assertEqual(claim_regions.verdict({"a": fails, "b": holds, "c": holds}), "holds where b; c")
         self.assertTrue(claim_regions.verdict({"a": undecided}).startswith("undecided"))
+        self.assertEqual(claim_regions.verdict({"g | 1": holds, "g | 2": holds, "h | 1": holds, "h | 2": fails}),
+                         "holds where g (all 2 settings); h, 1")
 
     def test_k1_compares_with_improved_under_the_same_schedule_and_cutoff(self):
         with tempfile.TemporaryDirectory() as folder:
@@ -163,6 +168,22 @@ class Verdicts(unittest.TestCase):
             text, cells = claim_regions.k1(sweep_results.Sweep(file))
         self.assertEqual(list(cells.values()), [claim_regions.HOLDS, claim_regions.FAILS])
         self.assertIn("10 [", "\n".join(text))
+
+    def test_what_was_not_swept_is_said_and_a_budget_sweep_judges_its_scene(self):
+        with tempfile.TemporaryDirectory() as folder:
+            file = os.path.join(folder, "budget.h5")
+            hard = [row("original", 20, scene="bunny-hard", switches=100.0, true_switches=2.0, jumps=300.0, true_jumps=4.0, false_jumps=290.0),
+                    row("improved", 20, scene="bunny-hard", switches=0.0, true_switches=2.0, jumps=3.0, true_jumps=4.0, false_jumps=1.0)]
+            other = [{**entry, "scene": "armadillo-bunny"} for entry in hard[:1]]
+            write_sweep(file, hard + other, "budget")
+            budget = sweep_results.Sweep(file)
+            self.assertEqual(len(budget.restricted("bunny-hard").points), 2)
+            text, cells = claim_regions.k1(budget.restricted("bunny-hard"))
+            self.assertEqual(list(cells.values()), [claim_regions.HOLDS])
+            with unittest.mock.patch.object(claim_regions, "CLAIMS", [claim for claim in claim_regions.CLAIMS if claim[0] in ("K1", "K5")]):
+                page = claim_regions.markdown([budget])
+        self.assertIn("| K5 | The reduction drops up to twenty times, more on denser meshes | not measured", page)
+        self.assertIn("**reproduced** | 1 / 0 / 0 |", page)
 
     def test_k5_and_the_summary(self):
         with tempfile.TemporaryDirectory() as folder:

@@ -1,0 +1,81 @@
+# SPDX-FileCopyrightText: The lmdbench authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Figure 1 from a program that answers as `lmdbench query --json` does."""
+
+import json
+import os
+import stat
+import sys
+import tempfile
+import unittest
+
+HERE = os.path.dirname(os.path.abspath(__file__))
+sys.path[:0] = [HERE, os.path.join(HERE, "..")]
+
+import numpy as np  # noqa: E402
+
+import figure1  # noqa: E402
+from lmdbench_results import ResultError  # noqa: E402
+
+CUBE = np.array([[x, y, z] for x in (0.0, 1.0) for y in (0.0, 1.0) for z in (0.0, 1.0)])
+FACES = np.array([[0, 1, 3], [0, 3, 2], [4, 6, 7], [4, 7, 5], [0, 4, 5], [0, 5, 1], [2, 3, 7], [2, 7, 6], [0, 2, 6], [0, 6, 4], [1, 5, 7], [1, 7, 3]])
+LMD = {"distance": 0.1, "point_moving": [1.0, 0.5, 0.5], "point_fixed": [1.1, 0.5, 0.5]}
+
+
+class Figure1(unittest.TestCase):
+    def setUp(self):
+        self.folder = tempfile.TemporaryDirectory()
+        self.addCleanup(self.folder.cleanup)
+
+    def file(self, name, text="", executable=False):
+        file = os.path.join(self.folder.name, name)
+        os.makedirs(os.path.dirname(file), exist_ok=True)
+        with open(file, "w", encoding="utf-8") as stream:
+            stream.write(text)
+        if executable:
+            os.chmod(file, os.stat(file).st_mode | stat.S_IXUSR)
+        return file
+
+    def experiment(self, lmds):
+        figure1.write_off(self.file("meshes/cube.off"), CUBE, FACES)
+        self.file("paths/p.tum", "# a path\n0 0 0 0 0 0 0 1\n2 1 0 0 0 0 0.7071067811865476 0.7071067811865476\n")
+        answer = json.dumps({"time": 0, "lmds": lmds})
+        program = self.file("program", f"#!/bin/sh\necho \"$@\" > {self.folder.name}/asked\ncat > {self.folder.name}/pose\necho '{answer}'\n", True)
+        experiment = self.file("experiments/e.json", json.dumps({
+            "name": "e", "moving": {"mesh": "cube", "diagonal_m": 2.0}, "fixed": [{"mesh": "cube"}], "path": {"file": "../paths/p.tum"},
+            "force": {"cutoff_diagonal": 0.1}}))
+        return ["--program", program, "--out", os.path.join(self.folder.name, "out"), "--time", "1.9", experiment]
+
+    def read(self, name):
+        with open(os.path.join(self.folder.name, name), encoding="utf-8") as stream:
+            return stream.read()
+
+    def test_asks_for_the_pose_and_cutoff_of_the_experiment_and_leaves_two_figures(self):
+        self.assertEqual(figure1.main(self.experiment([LMD])), 0)
+        self.assertIn("--cutoff 0.2", self.read("asked"), "a tenth of the scaled mesh's diagonal")
+        self.assertTrue(self.read("pose").startswith("2.0 1.0"), "the pose nearest to the time")
+        self.assertEqual(sorted(os.listdir(os.path.join(self.folder.name, "out"))), ["figure1.png", "figure1.svg"])
+
+    def test_no_lmd_is_said_and_not_drawn(self):
+        with self.assertRaisesRegex(ResultError, "no LMD within the cutoff at 2 s"):
+            figure1.main(self.experiment([]))
+
+    def test_off_files_come_back_as_they_went(self):
+        file = self.file("a.off")
+        figure1.write_off(file, CUBE / 3.0, FACES)
+        points, faces = figure1.read_off(file)
+        np.testing.assert_array_equal(points, CUBE / 3.0)
+        np.testing.assert_array_equal(faces, FACES)
+
+    def test_view_and_rotation_are_rotations(self):
+        half = np.sqrt(0.5)
+        np.testing.assert_allclose(figure1.rotation(0, 0, half, half) @ [1, 0, 0], [0, 1, 0], atol=1e-12)
+        for direction in ([1.0, 2.0, 3.0], [0.0, 1.0, 0.0]):
+            view = figure1.view_towards(np.array(direction))
+            np.testing.assert_allclose(view @ view.T, np.eye(3), atol=1e-12)
+            self.assertAlmostEqual(float(np.linalg.det(view)), 1.0)
+            self.assertGreater(float((view @ direction)[0]), 0.0, "the fixed mesh stands on the right")
+
+
+if __name__ == "__main__":
+    unittest.main()
