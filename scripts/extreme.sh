@@ -38,7 +38,7 @@ PYTHON="$(find_python h5py numpy)"
 mkdir -p "$out"
 results=()
 for scene in "${scenes[@]}"; do
-  "$program" run "$ROOT/experiments/extreme/$scene.json" --out "$out/$scene.h5" </dev/null >/dev/null 2>"$out/$scene.log" || {
+  "$program" run "$ROOT/experiments/extreme/$scene.json" --set /record/torque=true --out "$out/$scene.h5" </dev/null >/dev/null 2>"$out/$scene.log" || {
     status=$?
     cat "$out/$scene.log" >&2
     die 1 "scene $scene: exit code $status"

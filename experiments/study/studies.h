@@ -24,5 +24,6 @@ void add_depth(CLI::App& app, Run& chosen);
 void add_integrators(CLI::App& app, Run& chosen);
 void add_stability(CLI::App& app, Run& chosen);
 void add_passivity(CLI::App& app, Run& chosen);
+void add_leave_out(CLI::App& app, Run& chosen);
 
 }  // namespace lmdbench::study

@@ -6,6 +6,11 @@
 #include <gtest/gtest.h>
 #include <support/scenes.h>
 
+#include <algorithm>
+#include <cmath>
+#include <random>
+#include <utility>
+
 namespace lmdbench {
 namespace {
 
@@ -35,6 +40,33 @@ TEST(FramesInContact, AnyFixedMeshCounts) {
 TEST(FramesInContact, NoPoseNoFrame) {
   EXPECT_TRUE(
       frames_in_contact(testing::make_scene(make_sphere(0.5, 1), make_sphere(0.5, 1), 0.05), {}).empty());
+}
+
+/// A mesh that wanders in and out of the cutoff of two others, turning, with steps of very unlike lengths.
+TEST(FramesInContact, AForecastLeavesOutSearchesButNoContact) {
+  Scene scene = testing::make_scene(make_box({1, 2, 2}), make_torus(1.0, 0.4, 24, 12), 0.05);
+  TriangleMesh away = make_sphere(0.5, 2);
+  for (Vec3& vertex : away.vertices) vertex.x() += 5.0;
+  scene.fixed.push_back(testing::make_body("away", std::move(away)));
+  std::mt19937_64 random(3);
+  std::vector<Pose> poses;
+  Pose pose = at(2.5);
+  for (int k = 0; k < 3000; ++k) {
+    const double step = std::pow(10.0, -4.0 + 3.0 * testing::uniform(random));
+    pose.translation += step * testing::random_direction(random);
+    pose.translation.x() = std::clamp(pose.translation.x(), 1.9, 4.1);
+    pose.translation.y() = std::clamp(pose.translation.y(), -0.5, 0.5);
+    pose.translation.z() = std::clamp(pose.translation.z(), -0.5, 0.5);
+    pose.rotation =
+        (pose.rotation * Eigen::Quaterniond(Eigen::AngleAxisd(step, testing::random_direction(random))))
+            .normalized();
+    poses.push_back(pose);
+  }
+  const std::vector<bool> searched = frames_in_contact(scene, poses, false);
+  EXPECT_EQ(frames_in_contact(scene, poses, true), searched);
+  const auto contacts = std::count(searched.begin(), searched.end(), true);
+  EXPECT_GT(contacts, 300);
+  EXPECT_LT(contacts, 2700);
 }
 
 }  // namespace

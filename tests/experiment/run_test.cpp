@@ -36,7 +36,8 @@ const std::string SHAPES = LMDBENCH_SOURCE_DIR "/experiments/shapes.json";
 
 /// The shapes experiment, cut to its approach and first contact so that the tests stay quick.
 Experiment shapes(std::vector<Override> overrides = {}) {
-  overrides.insert(overrides.begin(), {"/frames=320", "/driver/repetitions=2", "/record/lmds=true"});
+  overrides.insert(overrides.begin(),
+                   {"/frames=320", "/driver/repetitions=2", "/record/lmds=true", "/record/torque=true"});
   return load_experiment(SHAPES, overrides);
 }
 

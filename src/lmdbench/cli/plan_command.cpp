@@ -53,7 +53,10 @@ void add_plan_command(CLI::App& app) {
       return true;
     });
     Plan plan = make_plan(experiment);
-    plan.scene = look_at(experiment, prepared, frames_in_contact(prepared.scene(), prepared.input.poses));
+    const std::vector<bool> in_contact = frames_in_contact(prepared.scene(), prepared.input.poses);
+    plan.scene = look_at(experiment, prepared, in_contact);
+    plan.rules =
+        decide_rules({experiment, prepared.input.poses, in_contact, truth_frames(experiment, prepared)});
     plan.scene->times = expected_times(experiment, prepared);
     bar.wipe();
     if (options->json)

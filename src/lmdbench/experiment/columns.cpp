@@ -21,7 +21,7 @@ void add_counters(std::vector<Column<Row>>& columns, const std::string& group,
 
 }  // namespace
 
-std::vector<Column<FrameRecord>> frame_columns(const MethodDescription& method) {
+std::vector<Column<FrameRecord>> frame_columns(const MethodDescription& method, bool torque) {
   using F = FrameRecord;
   std::vector<Column<F>> columns{
       column<F>("force", "N", "rendered force on the moving mesh, world frame",
@@ -30,9 +30,10 @@ std::vector<Column<FrameRecord>> frame_columns(const MethodDescription& method) 
                 [](const F& f) { return f.force_clipped; }),
       column<F>("force_above_continuous", "1", "1 where the force exceeds what the device can hold",
                 [](const F& f) { return f.force_above_continuous; }),
-      column<F>("torque", "N m", "torque about the moving mesh's centre, not rendered",
-                [](const F& f) { return f.torque; }),
       column<F>("lmd_count", "1", "LMDs within the cutoff", [](const F& f) { return f.lmd_count; })};
+  if (torque)
+    columns.push_back(column<F>("torque", "N m", "torque about the moving mesh's centre, not rendered",
+                                [](const F& f) { return f.torque; }));
   if (method.tracks_locally) {
     columns.push_back(column<F>("lmd_count_before_reduction", "1",
                                 "LMD candidates of the search behind the set in use",

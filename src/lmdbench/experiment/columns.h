@@ -37,7 +37,8 @@ Column<Row> column(std::string name, std::string units, std::string long_name, V
           std::function<Type(const Row&)>(std::move(value))};
 }
 
-std::vector<Column<FrameRecord>> frame_columns(const MethodDescription& method);
+/// @param torque  whether the torque, which no device renders, is among them
+std::vector<Column<FrameRecord>> frame_columns(const MethodDescription& method, bool torque);
 /// Empty for a method without searches at a rate of their own.
 std::vector<Column<SearchRecord>> search_columns(const MethodDescription& method);
 /// Of a closed loop.

@@ -1,21 +1,96 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/experiment/contact.h>
+#include <lmdbench/mesh/triangle_mesh.h>
 #include <lmdbench/snch/minimum_distance.h>
+#include <lmdbench/snch/nearest_tracker.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
+#include <optional>
 
 namespace lmdbench {
+namespace {
 
-std::vector<bool> frames_in_contact(const Scene& scene, const std::vector<Pose>& poses) {
+/// Part of the lengths involved that rounding may take from a bound on a motion.
+constexpr double ROUNDING = 1e-12;
+
+/// How far a point of the moving mesh can get between two poses.
+class MotionBound {
+ public:
+  explicit MotionBound(const TriangleMesh& mesh) : centre_(bounding_box_centre(mesh)) {
+    for (const Vec3& vertex : mesh.vertices) radius_ = std::max(radius_, (vertex - centre_).norm());
+  }
+
+  /// The way of the centre, and of the point farthest from it as the mesh turns: a chord.
+  double between(const Pose& a, const Pose& b) const {
+    const double way = (RigidTransform(b).point(centre_) - RigidTransform(a).point(centre_)).norm();
+    const double half_turn_sine = (a.rotation.conjugate() * b.rotation).vec().norm();
+    return way + 2.0 * radius_ * std::min(half_turn_sine, 1.0);
+  }
+  /// Rounding of that, at poses as far out as these.
+  double slack(const Pose& a, const Pose& b) const {
+    return ROUNDING * (radius_ + centre_.norm() + a.translation.norm() + b.translation.norm());
+  }
+
+ private:
+  Vec3 centre_;
+  double radius_ = 0.0;
+};
+
+/// One fixed mesh: in contact or not, pose after pose.
+class ContactScan {
+ public:
+  ContactScan(const Scene& scene, const Body& fixed, const MotionBound& motion)
+      : tracker_(scene.moving->surface(), scene.moving->prepared<Hierarchy>(), fixed.surface(),
+                 fixed.prepared<Hierarchy>()),
+        motion_(motion),
+        cutoff_(scene.cutoff) {}
+
+  bool at(const Pose& X_WM) {
+    // In contact for as long as the last nearest triangles are.
+    if (tracker_.last_pair(X_WM).distance <= cutoff_) return true;
+    // Out of contact until the mesh can have come as far as the gap was.
+    if (apart_ && motion_.between(*apart_, X_WM) + motion_.slack(*apart_, X_WM) < excess_) return false;
+    const NearestPair pair = tracker_.nearest(X_WM);
+    const bool in_contact = pair.triangle_moving >= 0 && pair.distance <= cutoff_;
+    apart_.reset();
+    if (!in_contact) {
+      apart_ = X_WM;
+      excess_ = pair.triangle_moving < 0 ? std::numeric_limits<double>::infinity()
+                                         : pair.distance * (1.0 - ROUNDING) - cutoff_;
+    }
+    return in_contact;
+  }
+
+ private:
+  NearestTracker tracker_;
+  const MotionBound& motion_;
+  double cutoff_;
+  std::optional<Pose> apart_;  ///< Pose of the last search that found no contact, ...
+  double excess_ = 0.0;        ///< ... by so much [m].
+};
+
+}  // namespace
+
+std::vector<bool> frames_in_contact(const Scene& scene, const std::vector<Pose>& poses, bool forecast) {
+  const MotionBound motion(scene.moving->surface().mesh);
+  std::vector<ContactScan> scans;
+  for (const auto& fixed : scene.fixed) scans.emplace_back(scene, *fixed, motion);
   std::vector<bool> in_contact;
   in_contact.reserve(poses.size());
-  for (const Pose& X_WM : poses)
+  for (const Pose& X_WM : poses) {
+    if (forecast) {
+      in_contact.push_back(
+          std::any_of(scans.begin(), scans.end(), [&](ContactScan& scan) { return scan.at(X_WM); }));
+      continue;
+    }
     in_contact.push_back(std::any_of(scene.fixed.begin(), scene.fixed.end(), [&](const auto& fixed) {
       return within_distance(scene.moving->surface(), scene.moving->template prepared<Hierarchy>(),
                              fixed->surface(), fixed->template prepared<Hierarchy>(), X_WM, scene.cutoff);
     }));
+  }
   return in_contact;
 }
 

@@ -5,6 +5,7 @@
 #include <lmdbench/experiment/acceptance.h>
 #include <lmdbench/experiment/defaults.h>
 #include <lmdbench/experiment/loop_choice.h>
+#include <lmdbench/experiment/rules.h>
 #include <lmdbench/force/force_law.h>
 #include <lmdbench/geometry/pose.h>
 #include <lmdbench/mesh/placement.h>
@@ -93,6 +94,8 @@ struct Experiment {
   std::int64_t fcl_stride_frames = 0;    ///< 0: no cross-check.
   double fcl_tolerance_relative = 0.0;
   bool record_lmds = false;
+  bool record_torque = false;
+  RuleSwitches rules{};
   Acceptance acceptance;
   std::vector<DefaultNote> defaults;  ///< What the file leaves open and no mesh is needed for.
   std::string resolved_json;          ///< The file with overrides and defaults, for the record.

@@ -53,6 +53,6 @@ struct FclCheck {
 /// @throws Interrupted when `progress` asks to stop
 FclCheck probe_fcl(const Scene& scene, const LockstepInput& input, const std::vector<LockstepMethod>& methods,
                    const std::vector<std::int64_t>& frames, double tolerance_relative,
-                   const Progress& progress);
+                   const Progress& progress, bool warm = true);
 
 }  // namespace lmdbench

@@ -181,6 +181,8 @@ Experiment from_json(Json document, const std::filesystem::path& path) {
   experiment.fcl_stride_frames = probes["fcl"]["stride_frames"].get<std::int64_t>();
   experiment.fcl_tolerance_relative = probes["fcl"]["tolerance_relative"].get<double>();
   experiment.acceptance = read_acceptance(document["limits"], experiment, file);
+  experiment.rules = read_rule_switches(document["plan"]);
+  experiment.record_torque = document["record"]["torque"].get<bool>();
   experiment.record_lmds = document["record"]["lmds"].get<bool>();
   experiment.resolved_json = document.dump(2);
   return experiment;

@@ -114,7 +114,8 @@ Plan make_plan(const Experiment& experiment) {
           ? "record/lmds is false: lists are kept in memory for probed frames only"
           : "record/lmds is false and nothing is probed");
   add(Part::TORQUE_RENDERING, "torque on the device", false, "",
-      "the device actuates three degrees of freedom: torque is recorded, not rendered");
+      "the device actuates three degrees of freedom: torque is not rendered, and recorded where "
+      "record/torque is true");
   add(Part::INTERSECTIONS, "intersection polylines", false, "", "the experiment does not ask for them");
   add(Part::THREADS, "threads", false, "", "the lockstep driver has one clock and one thread");
   return plan;
@@ -132,6 +133,7 @@ std::string plan_text(const Plan& plan, const Experiment& experiment) {
     for (const PlanItem& item : plan.items)
       if (item.needed == needed) text += fmt::format("  {:<36} {}\n", item.name, item.why);
   }
+  if (!plan.rules.empty()) text += rules_text(plan.rules);
   if (plan.scene) text += to_text(*plan.scene);
   text += "methods:\n";
   for (const MethodChoice& choice : experiment.methods) text += method_text(choice);
@@ -147,6 +149,7 @@ std::string plan_json(const Plan& plan, const Experiment& experiment) {
   json["left_out"] = nlohmann::ordered_json::array();
   for (const PlanItem& item : plan.items)
     json[item.needed ? "needed" : "left_out"].push_back({{"part", item.name}, {"why", item.why}});
+  if (!plan.rules.empty()) json["rules"] = rules_json(plan.rules);
   if (plan.scene) json["scene"] = to_json(*plan.scene);
   return json.dump(2);
 }

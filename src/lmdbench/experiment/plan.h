@@ -37,6 +37,7 @@ struct PlanItem {
 /// What a scene needs, what is left out and why. A run makes only the needed parts.
 struct Plan {
   std::vector<PlanItem> items;
+  std::vector<RuleDecision> rules;
   std::optional<SceneLook> scene;  ///< What the inputs are, where somebody has looked.
 
   bool needs(Part part) const;
@@ -50,7 +51,7 @@ std::string plan_text(const Plan& plan, const Experiment& experiment);
 /// JSON text: {"experiment": resolved experiment, "methods": [{"label", "name", "summary", "promise",
 /// "tracks_locally", "options": [{"key", "value", "default", "description"}],
 /// "counters": [{"name", "description"}]}], "needed": [{"part", "why"}],
-/// "left_out": [...]}, and "scene" (see `to_json` of a SceneLook) where the plan has one.
+/// "left_out": [...]}, "rules" (see `rules_json`) and "scene" (see `to_json` of a SceneLook) where the plan has one.
 std::string plan_json(const Plan& plan, const Experiment& experiment);
 
 }  // namespace lmdbench

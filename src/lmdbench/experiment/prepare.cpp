@@ -5,6 +5,7 @@
 #include <lmdbench/base/input_file.h>
 #include <lmdbench/catalogue/manifest.h>
 #include <lmdbench/experiment/prepare.h>
+#include <lmdbench/experiment/truth_probe.h>
 #include <lmdbench/mesh/placement.h>
 #include <lmdbench/mesh/surface.h>
 #include <lmdbench/methods/registry.h>
@@ -28,9 +29,10 @@ namespace {
 /// A mesh at its place in the scene, with its note.
 std::shared_ptr<const Body> load_body(const MeshChoice& choice, const std::string& role,
                                       const Experiment& experiment, std::vector<MeshNote>& notes) {
-  const ResolvedMesh resolved = is_mesh_name(choice.mesh)
-                                    ? resolve_mesh(choice.mesh, experiment.mesh_folder)
-                                    : resolve_mesh((experiment.file.parent_path() / choice.mesh).lexically_normal().string());
+  const ResolvedMesh resolved =
+      is_mesh_name(choice.mesh)
+          ? resolve_mesh(choice.mesh, experiment.mesh_folder)
+          : resolve_mesh((experiment.file.parent_path() / choice.mesh).lexically_normal().string());
   TriangleMesh mesh = resolved.mesh;
   // In the file's coordinates, which tell how they were rounded; scaling hides that.
   const double scale = choice.placement.factor(mesh);
@@ -131,8 +133,16 @@ bool touches(const Scene& scene, const Pose& X_WM) {
 Scene load_scene(const Experiment& experiment, std::vector<MeshNote>& notes) {
   Scene scene;
   scene.moving = load_body(experiment.moving, "moving", experiment, notes);
-  for (std::size_t i = 0; i < experiment.fixed.size(); ++i)
-    scene.fixed.push_back(load_body(experiment.fixed[i], fmt::format("fixed_{}", i), experiment, notes));
+  for (std::size_t i = 0; i < experiment.fixed.size(); ++i) {
+    const std::string role = fmt::format("fixed_{}", i);
+    if (allowed(experiment.rules, Rule::SHARED_MESH) && same_body(experiment, i)) {
+      scene.fixed.push_back(scene.moving);
+      notes.push_back(notes.front());
+      notes.back().role = role;
+      continue;
+    }
+    scene.fixed.push_back(load_body(experiment.fixed[i], role, experiment, notes));
+  }
   return scene;
 }
 
@@ -177,6 +187,7 @@ PreparedRun prepare(const Experiment& experiment, const Progress& progress) {
                                  .frames = std::nullopt,
                                  .reference_M = Vec3::Zero(),
                                  .device = VirtualPhantom(device),
+                                 .reuse_repeated_poses = false,
                                  .keep_lmds = {}},
                        .times = {},
                        .meshes = std::move(notes),
@@ -215,6 +226,11 @@ PreparedRun prepare(const Experiment& experiment, const Progress& progress) {
         "until they "
         "have been apart");
   return prepared;
+}
+
+std::vector<std::int64_t> truth_frames(const Experiment& experiment, const PreparedRun& prepared) {
+  return probed_frames(static_cast<std::int64_t>(prepared.input.poses.size()), experiment.truth_stride_frames,
+                       experiment.driver.search_latency_frames);
 }
 
 std::vector<std::filesystem::path> input_files(const Experiment& experiment) {

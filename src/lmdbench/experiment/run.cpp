@@ -99,36 +99,41 @@ RunResult run_and_keep(const Experiment& experiment, const RunProgress& progress
   const auto frame_count = static_cast<std::int64_t>(prepared.input.poses.size());
   const std::vector<LockstepMethod> methods = lockstep_methods(experiment, prepared);
 
-  const std::vector<std::int64_t> truth_frames =
-      probed_frames(frame_count, experiment.truth_stride_frames, experiment.driver.search_latency_frames);
+  const std::vector<std::int64_t> probed = truth_frames(experiment, prepared);
   if (result.plan.needs(Part::LMD_LISTS)) {
     prepared.input.keep_lmds = [](std::int64_t) { return true; };
   } else {
-    const std::set<std::int64_t> kept(truth_frames.begin(), truth_frames.end());
+    const std::set<std::int64_t> kept(probed.begin(), probed.end());
     prepared.input.keep_lmds = [kept](std::int64_t frame) { return kept.count(frame) > 0; };
   }
   const std::unique_ptr<RunKeeper> keeper =
       make_keeper ? make_keeper(result, prepared.input.frames.value_or(frame_count)) : nullptr;
+  const bool forecast = allowed(experiment.rules, Rule::CONTACT_FORECAST);
+  result.in_contact = frames_in_contact(prepared.scene(), prepared.input.poses, forecast);
+  result.plan.scene = look_at(experiment, prepared, result.in_contact);
+  for (const SceneWarning& warning : result.plan.scene->warnings) result.warnings.push_back(to_text(warning));
+  result.plan.rules = decide_rules({experiment, prepared.input.poses, result.in_contact, probed});
+  prepared.input.reuse_repeated_poses = is_on(result.plan.rules, Rule::REPEATED_POSE);
   result.records = run_lockstep(methods, prepared.input, experiment.driver, phase("run"), keeper.get());
   if (keeper) result.resumed_frames = keeper->resumed_frames();
 
-  result.in_contact = frames_in_contact(prepared.scene(), prepared.input.poses);
-  result.plan.scene = look_at(experiment, prepared, result.in_contact);
-  for (const SceneWarning& warning : result.plan.scene->warnings) result.warnings.push_back(to_text(warning));
   for (Track& track : result.tracks) {
     const PreparedProfile& profile = prepared.profiles[track.profile];
     LockstepInput input = prepared.input;
     input.make_poses = nullptr;
     if (experiment.loop.closed) input.poses = result.records[track.methods.front()].poses;
-    track.in_contact = result.one_track ? result.in_contact : frames_in_contact(profile.scene, input.poses);
+    track.in_contact =
+        result.one_track ? result.in_contact : frames_in_contact(profile.scene, input.poses, forecast);
     if (result.plan.needs(Part::TRUTH_PROBE))
-      track.truth = probe_truth(profile.scene, input, profile.force, truth_frames, phase("truth"));
+      track.truth =
+          probe_truth(profile.scene, input, profile.force, probed, phase("truth"),
+                      is_on(result.plan.rules, Rule::TRUTH_IN_CONTACT) ? &track.in_contact : nullptr);
     if (result.plan.needs(Part::FCL)) {
       std::vector<LockstepMethod> along;
       for (const std::size_t i : track.methods) along.push_back(methods[i]);
-      track.fcl =
-          probe_fcl(profile.scene, input, along, probed_frames(frame_count, experiment.fcl_stride_frames),
-                    experiment.fcl_tolerance_relative, phase("fcl"));
+      track.fcl = probe_fcl(
+          profile.scene, input, along, probed_frames(frame_count, experiment.fcl_stride_frames),
+          experiment.fcl_tolerance_relative, phase("fcl"), is_on(result.plan.rules, Rule::WARM_CROSSCHECK));
     }
   }
   if (result.plan.needs(Part::TRUTH_PROBE)) {

@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/experiment/rules.h>
 #include <lmdbench/experiment/schema.h>
 #include <lmdbench/experiment/schema_text.h>
 #include <lmdbench/methods/registry.h>
@@ -30,6 +31,7 @@ const Json& experiment_schema() {
   static const Json schema = [] {
     Json text = Json::parse(experiment_schema_text());
     add_methods(text["properties"]["methods"]["items"]);
+    text["properties"]["plan"] = rules_schema();
     return text;
   }();
   return schema;

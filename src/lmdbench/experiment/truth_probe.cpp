@@ -29,7 +29,7 @@ std::vector<std::int64_t> probed_frames(std::int64_t frame_count, std::int64_t s
 
 std::vector<TruthFrame> probe_truth(const Scene& scene, const LockstepInput& input,
                                     const ForceProfile& profile, const std::vector<std::int64_t>& frames,
-                                    const Progress& progress) {
+                                    const Progress& progress, const std::vector<bool>* in_contact) {
   const std::unique_ptr<Method> exhaustive = make_method("exhaustive", scene);
   WorkCounters ignored;
   const auto rendered = [&](const LmdSet& lmds, std::int64_t frame, ForceLaw law) {
@@ -39,14 +39,18 @@ std::vector<TruthFrame> probe_truth(const Scene& scene, const LockstepInput& inp
         RigidTransform(input.poses[static_cast<std::size_t>(frame)]).point(input.reference_M);
     return input.device.render(sum_forces(lmds, with_law, reference_W), profile.largest_sum).force;
   };
+  const auto search = [&](std::int64_t frame, LmdSet& lmds) {
+    const auto at = static_cast<std::size_t>(frame);
+    if (in_contact == nullptr || (*in_contact)[at]) exhaustive->search(input.poses[at], lmds, ignored);
+  };
   std::vector<TruthFrame> truth;
   LmdSet next;
   for (const std::int64_t frame : frames) {
     TruthFrame here;
     here.frame = frame;
-    exhaustive->search(input.poses[static_cast<std::size_t>(frame)], here.lmds, ignored);
     next.clear();
-    exhaustive->search(input.poses[static_cast<std::size_t>(frame) + 1], next, ignored);
+    search(frame, here.lmds);
+    search(frame + 1, next);
     for (const ForceLaw law : {ForceLaw::LINEAR, ForceLaw::EXPONENTIAL}) {
       const auto index = static_cast<std::size_t>(law);
       here.force[index] = rendered(here.lmds, frame, law);

@@ -49,10 +49,11 @@ std::vector<std::int64_t> probed_frames(std::int64_t frame_count, std::int64_t s
 
 /// Computes truth at the given frames.
 /// @param profile  the scene's; its law is ignored
+/// @param in_contact  one a frame, where frames out of contact are known to have an empty set; else null
 /// @param progress may stop the probe by returning false, which throws Interrupted
 std::vector<TruthFrame> probe_truth(const Scene& scene, const LockstepInput& input,
                                     const ForceProfile& profile, const std::vector<std::int64_t>& frames,
-                                    const Progress& progress);
+                                    const Progress& progress, const std::vector<bool>* in_contact = nullptr);
 
 /// @pre the record keeps the LMD sets of the truth's frames
 std::vector<TruthComparison> compare_with_truth(const std::vector<TruthFrame>& truth,

@@ -65,8 +65,8 @@ void write_times(ResultWriter& writer, const DatasetInfo& info,
 }
 
 void write_frames(ResultWriter& writer, const std::string& group, const MethodDescription& method,
-                  const MethodRecord& record) {
-  write_columns(writer, group, frame_columns(method), record.frames);
+                  const MethodRecord& record, bool torque) {
+  write_columns(writer, group, frame_columns(method, torque), record.frames);
   write_times(writer, {group + "/local_update_time", "s", "time of the frame's local part, by repetition"},
               record.repetitions, &RepetitionTimes::local_update);
 }
@@ -236,7 +236,7 @@ void write_method(ResultWriter& writer, const Experiment& experiment, const RunR
   const PreparedProfile& profile = result.prepared.profiles[track.profile];
   writer.attribute(group, "profile", profile.name);
   write_profile(writer, group, profile, result.prepared.input.device);
-  write_frames(writer, group, method, record);
+  write_frames(writer, group, method, record, experiment.record_torque);
   if (method.tracks_locally) write_searches(writer, group, method, record);
   if (!track.truth.empty()) write_truth(writer, group + "/truth", track.truth, result.comparisons[index]);
   if (experiment.loop.closed) {

@@ -27,6 +27,7 @@ struct Placement {
   std::optional<bool> centre =
       std::nullopt;  ///< Whether the box's centre becomes the origin; with a diagonal yes, else no.
 
+  bool operator==(const Placement&) const = default;
   bool centres() const { return centre.value_or(diagonal.has_value()); }
   /// Metres a unit of the mesh's coordinates; not finite for a diagonal of a mesh without extent.
   double factor(const TriangleMesh& mesh) const {

@@ -1,10 +1,9 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include <lmdbench/geometry/triangle_distance.h>
 #include <lmdbench/mesh/surface.h>
 #include <lmdbench/motion/mesh_scene.h>
 #include <lmdbench/snch/hierarchy.h>
-#include <lmdbench/snch/minimum_distance.h>
+#include <lmdbench/snch/nearest_tracker.h>
 
 #include <algorithm>
 #include <cmath>
@@ -20,31 +19,17 @@ class MeshPair {
       : moving_(build_surface(std::move(moving))),
         fixed_(build_surface(std::move(fixed))),
         moving_hierarchy_(Hierarchy::of(moving_)),
-        fixed_hierarchy_(Hierarchy::of(fixed_)) {}
+        fixed_hierarchy_(Hierarchy::of(fixed_)),
+        tracker_(moving_, moving_hierarchy_, fixed_, fixed_hierarchy_) {}
 
-  double distance(const Pose& X_WM) {
-    const double bound = distance_of_last_pair(X_WM);
-    const NearestPair nearest =
-        nearest_pair(moving_, moving_hierarchy_, fixed_, fixed_hierarchy_, X_WM, bound);
-    if (nearest.triangle_moving < 0) return bound;  // Nothing is nearer than the last pair.
-    last_moving_ = nearest.triangle_moving;
-    last_fixed_ = nearest.triangle_fixed;
-    return nearest.distance;
-  }
+  double distance(const Pose& X_WM) { return tracker_.nearest(X_WM).distance; }
 
  private:
-  double distance_of_last_pair(const Pose& X_WM) const {
-    if (last_moving_ < 0) return std::numeric_limits<double>::infinity();
-    const Triangle triangle_W = RigidTransform(X_WM).triangle(moving_.mesh.triangle(last_moving_));
-    return std::sqrt(triangle_distance(triangle_W, fixed_.mesh.triangle(last_fixed_)).squared_distance);
-  }
-
   Surface moving_;
   Surface fixed_;
   Hierarchy moving_hierarchy_;
   Hierarchy fixed_hierarchy_;
-  std::int32_t last_moving_ = -1;
-  std::int32_t last_fixed_ = -1;
+  NearestTracker tracker_;
 };
 
 double radius_about(const Vec3& centre, const TriangleMesh& mesh) {

@@ -1,0 +1,168 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/base/error.h>
+#include <lmdbench/experiment/experiment.h>
+#include <lmdbench/experiment/rules.h>
+#include <lmdbench/methods/registry.h>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace lmdbench {
+namespace {
+
+RuleVerdict shared_mesh(const RuleFacts& facts) {
+  for (std::size_t i = 0; i < facts.experiment.fixed.size(); ++i)
+    if (same_body(facts.experiment, i))
+      return {true, fmt::format("the moving mesh and fixed_{} are {}, placed alike", i,
+                                facts.experiment.moving.mesh)};
+  return {false, "no fixed mesh is the moving one, placed alike and unmoved"};
+}
+
+RuleVerdict contact_forecast(const RuleFacts& facts) {
+  if (facts.poses.size() < 2) return {false, "the path has one frame"};
+  return {true, fmt::format("{} frames follow one another", facts.poses.size())};
+}
+
+RuleVerdict truth_in_contact(const RuleFacts& facts) {
+  if (facts.truth_frames.empty()) return {false, "no frame is compared with truth"};
+  if (facts.experiment.loop.closed)
+    return {true, "as many exhaustive searches as the devices' frames are out of contact"};
+  std::int64_t searches = 0, empty = 0;
+  for (const std::int64_t frame : facts.truth_frames) {
+    for (const std::int64_t at : {frame, frame + 1}) {
+      ++searches;
+      if (!facts.in_contact[static_cast<std::size_t>(at)]) ++empty;
+    }
+  }
+  return {empty > 0,
+          fmt::format("{} of {} exhaustive searches would be of frames out of contact", empty, searches)};
+}
+
+RuleVerdict repeated_pose(const RuleFacts& facts) {
+  const auto& methods = facts.experiment.methods;
+  if (std::all_of(methods.begin(), methods.end(),
+                  [](const MethodChoice& m) { return method_description(m.name).tracks_locally; }))
+    return {false, "no method searches in every frame"};
+  // What a closed loop's encoders will tell nobody knows, but they count in steps.
+  if (facts.experiment.loop.closed) {
+    const bool steps = facts.experiment.loop.resolution_m > 0.0;
+    return {steps, steps ? fmt::format("the device's encoders count in steps of {:g} m",
+                                       facts.experiment.loop.resolution_m)
+                         : "the simulated device's encoders are exact"};
+  }
+  std::int64_t repeats = 0;
+  for (std::size_t k = 1; k < facts.poses.size(); ++k)
+    repeats += same_pose(facts.poses[k - 1], facts.poses[k]) ? 1 : 0;
+  return {repeats > 0,
+          fmt::format("{} of {} frames repeat the pose before them", repeats, facts.poses.size())};
+}
+
+RuleVerdict warm_crosscheck(const RuleFacts& facts) {
+  if (facts.experiment.fcl_stride_frames == 0) return {false, "nothing is compared with FCL"};
+  return {true,
+          fmt::format("minimum distances every {} frames of one path", facts.experiment.fcl_stride_frames)};
+}
+
+constexpr std::array<RuleDescription, RULE_COUNT> RULES{{
+    {Rule::SHARED_MESH, "shared_mesh", "a mesh that appears twice is read and prepared once",
+     "time and memory of its reading, flattening, hierarchies and models", &shared_mesh},
+    {Rule::CONTACT_FORECAST, "contact_forecast",
+     "frames whose contact follows from an earlier frame and the motion since are not searched for it",
+     "time of the scan for frames in contact", &contact_forecast},
+    {Rule::TRUTH_IN_CONTACT, "truth_in_contact",
+     "frames out of contact have an empty true set without a search", "exhaustive searches",
+     &truth_in_contact},
+    {Rule::REPEATED_POSE, "repeated_pose",
+     "a frame at the pose of the one before reuses its set, in methods that search in every frame",
+     "searches", &repeated_pose},
+    {Rule::WARM_CROSSCHECK, "warm_crosscheck",
+     "the exact distance beside FCL's begins with the nearest triangles of the frame before",
+     "time of the cross-check", &warm_crosscheck},
+}};
+
+}  // namespace
+
+std::span<const RuleDescription> rule_descriptions() {
+  return RULES;
+}
+
+nlohmann::json rules_schema() {
+  nlohmann::json properties = nlohmann::json::object();
+  for (const RuleDescription& rule : RULES)
+    properties[std::string(rule.name)] = {
+        {"enum", {"auto", "on", "off"}},
+        {"default", "auto"},
+        {"description", fmt::format("{}; saves {}", rule.effect, rule.saving)}};
+  return {{"type", "object"},
+          {"additionalProperties", false},
+          {"default", nlohmann::json::object()},
+          {"description",
+           "what is left out because the scene shows that it would change nothing: auto where the scene "
+           "allows it, off "
+           "never, on: an error where the scene does not"},
+          {"properties", std::move(properties)}};
+}
+
+RuleSwitches read_rule_switches(const nlohmann::json& entry) {
+  RuleSwitches switches{};
+  for (const RuleDescription& rule : RULES) {
+    const nlohmann::json& value = entry[std::string(rule.name)];
+    switches[static_cast<std::size_t>(rule.rule)] = value == "on"    ? RuleSwitch::ON
+                                                    : value == "off" ? RuleSwitch::OFF
+                                                                     : RuleSwitch::AUTO;
+  }
+  return switches;
+}
+
+std::vector<RuleDecision> decide_rules(const RuleFacts& facts) {
+  std::vector<RuleDecision> decisions;
+  for (const RuleDescription& rule : RULES) {
+    const RuleVerdict verdict = rule.condition(facts);
+    const RuleSwitch chosen = facts.experiment.rules[static_cast<std::size_t>(rule.rule)];
+    if (chosen == RuleSwitch::ON && !verdict.holds)
+      throw UsageError(facts.experiment.file.string(), fmt::format("/plan/{}", rule.name),
+                       "cannot be on: " + verdict.reason, "leave it on auto");
+    decisions.push_back({rule.rule, verdict.holds && chosen != RuleSwitch::OFF,
+                         chosen == RuleSwitch::OFF ? "switched off" : verdict.reason});
+  }
+  return decisions;
+}
+
+bool is_on(const std::vector<RuleDecision>& decisions, Rule rule) {
+  return std::any_of(decisions.begin(), decisions.end(),
+                     [&](const RuleDecision& decision) { return decision.rule == rule && decision.on; });
+}
+
+std::string rules_text(const std::vector<RuleDecision>& decisions) {
+  std::string text = "rules (--set /plan/RULE=on|off|auto):\n";
+  for (const RuleDecision& decision : decisions) {
+    const RuleDescription& rule = RULES[static_cast<std::size_t>(decision.rule)];
+    text += fmt::format("  {:<17} {:<4} {} ({}; saves {})\n", rule.name, decision.on ? "on" : "off",
+                        decision.reason, rule.effect, rule.saving);
+  }
+  return text;
+}
+
+nlohmann::ordered_json rules_json(const std::vector<RuleDecision>& decisions) {
+  nlohmann::ordered_json json = nlohmann::ordered_json::array();
+  for (const RuleDecision& decision : decisions) {
+    const RuleDescription& rule = RULES[static_cast<std::size_t>(decision.rule)];
+    json.push_back({{"name", rule.name},
+                    {"on", decision.on},
+                    {"effect", rule.effect},
+                    {"saving", rule.saving},
+                    {"reason", decision.reason}});
+  }
+  return json;
+}
+
+bool same_body(const Experiment& experiment, std::size_t index) {
+  const MeshChoice& moving = experiment.moving;
+  const MeshChoice& fixed = experiment.fixed[index];
+  return moving.mesh == fixed.mesh && moving.placement == fixed.placement &&
+         moving.planar_tolerance == fixed.planar_tolerance && same_pose(fixed.pose, Pose{});
+}
+
+}  // namespace lmdbench
