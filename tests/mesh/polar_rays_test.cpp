@@ -7,8 +7,11 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <random>
+#include <vector>
 
 namespace lmdbench {
 namespace {
@@ -142,6 +145,116 @@ TEST(PolarRaysTest, KeepsWhatIsEmptyByLessThanTheTolerance) {
   };
   EXPECT_TRUE(polar_rays(saddle(1e-6), Vec3::UnitZ(), 1e-8).empty());
   EXPECT_FALSE(polar_rays(saddle(1e-9), Vec3::UnitZ(), 1e-8).empty());
+}
+
+// Directions of a vertex of high degree: the polar of a circular cone is a circular cone.
+std::vector<Vec3> fan(std::size_t count, double half_angle, const Vec3& axis,
+                      std::mt19937* shuffle = nullptr) {
+  const Vec3 u = axis.unitOrthogonal(), w = axis.cross(u);
+  std::vector<Vec3> directions;
+  for (std::size_t i = 0; i < count; ++i) {
+    const double turn = 2.0 * M_PI * static_cast<double>(i) / static_cast<double>(count);
+    directions.push_back(std::cos(half_angle) * axis +
+                         std::sin(half_angle) * (std::cos(turn) * u + std::sin(turn) * w));
+  }
+  if (shuffle != nullptr) std::shuffle(directions.begin(), directions.end(), *shuffle);
+  return directions;
+}
+
+/// Whether n is a combination of the rays with no negative share, to rounding: n is in the convex spherical polygon
+/// of the rays, which here are in no half-space's boundary. By the separating directions that pairs of rays give.
+bool is_covered(const std::vector<Vec3>& rays, const Vec3& n) {
+  for (std::size_t i = 0; i < rays.size(); ++i)
+    for (std::size_t j = 0; j < rays.size(); ++j) {
+      const Vec3 side = rays[i].cross(rays[j]);
+      if (side.norm() < 1e-9 || side.normalized().dot(n) < 1e-12) continue;
+      if (std::all_of(rays.begin(), rays.end(), [&](const Vec3& r) { return r.dot(side) <= 1e-12; }))
+        return false;
+    }
+  return true;
+}
+
+TEST(PolarRaysOfMany, CoverTheConeOfARoundFan) {
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> unit(0.0, 1.0);
+  const Vec3 axis = Vec3(1, 2, 3).normalized();
+  for (const double half_angle : {0.6, 1.2, 1.5}) {
+    const double polar = M_PI / 2 - half_angle;  // of the cone of directions n with n . e <= 0, round -axis
+    for (const std::size_t count : {65u, 300u, 5000u}) {
+      const auto directions = fan(count, half_angle, axis, &random);
+      const auto rays = polar_rays(directions, Vec3::Zero(), 1e-8);
+      ASSERT_GE(rays.size(), 30u);
+      ASSERT_LE(rays.size(), 400u);
+      const Vec3 u = axis.unitOrthogonal(), w = axis.cross(u);
+      for (int trial = 0; trial < 30; ++trial) {
+        const double turn = 2.0 * M_PI * unit(random);
+        const Vec3 n = -std::cos(polar) * axis +
+                       std::sin(polar) * (std::cos(turn) * u + std::sin(turn) * w);  // on its rim
+        EXPECT_TRUE(is_covered(rays, n)) << count << " directions of " << half_angle;
+      }
+      for (const Vec3& ray : rays)  // and not much more
+        EXPECT_LT(std::acos(std::clamp(-ray.dot(axis), -1.0, 1.0)), polar * 1.02 + 1e-6);
+    }
+  }
+}
+
+TEST(PolarRaysOfMany, FlatFansHaveTheirNormal) {
+  std::mt19937 random(8);
+  const auto directions = fan(4000, M_PI / 2, Vec3::UnitZ(), &random);
+  const auto rays = polar_rays(directions, Vec3::UnitZ(), 1e-8);
+  ASSERT_FALSE(rays.empty());
+  for (const Vec3& ray : rays) EXPECT_LT((ray - Vec3::UnitZ()).norm(), 1e-7);
+}
+
+TEST(PolarRaysOfMany, EmptinessIsThatOfAllDirections) {
+  std::mt19937 random(9);
+  // A saddle, a pit seen from its outer side, and a fan with one direction that spoils it by more, or less, than the
+  // tolerance.
+  std::vector<Vec3> saddle;
+  for (int i = 0; i < 3000; ++i) {
+    const double turn = 2.0 * M_PI * i / 3000;
+    saddle.push_back(Vec3(std::cos(turn), std::sin(turn), 1e-4 * std::cos(2 * turn)).normalized());
+  }
+  std::shuffle(saddle.begin(), saddle.end(), random);
+  for (const bool first_only : {false, true}) {
+    EXPECT_TRUE(polar_rays(saddle, Vec3::UnitZ(), 1e-8, first_only).empty());
+    EXPECT_TRUE(polar_rays(fan(3000, 1.0, Vec3::UnitZ(), &random), Vec3::UnitZ(), 1e-8, first_only).empty());
+    for (const double excess : {1e-6, 1e-10}) {
+      // The polar of the flat fan is the line along z; the spoiler leaves its lower half, or by less than the tolerance
+      // both.
+      auto spoiled = fan(3000, M_PI / 2, Vec3::UnitZ(), &random);
+      spoiled.insert(spoiled.begin() + 1234, Vec3(1, 0, excess).normalized());
+      EXPECT_EQ(polar_rays(spoiled, Vec3::UnitZ(), 1e-8, first_only).empty(), excess > 1e-8) << excess;
+    }
+  }
+}
+
+TEST(PolarRaysOfMany, RandomSetsAreEmptyWhereAllCrossingsSayIt) {
+  std::mt19937 random(10);
+  std::normal_distribution<double> normal;
+  std::uniform_real_distribution<double> width(0.3, 3.0);
+  int empty = 0, full = 0;
+  for (int trial = 0; trial < 60; ++trial) {
+    std::vector<Vec3> directions;
+    const double spread = width(random);
+    for (int i = 0; i < 90; ++i)
+      directions.push_back(
+          (Vec3::UnitX() + spread * Vec3(0.3 * normal(random), normal(random), normal(random))).normalized());
+    // All crossings, whatever the number of directions: the polar is empty when every crossing is outside.
+    bool none = true;
+    for (std::size_t i = 0; none && i < directions.size(); ++i)
+      for (std::size_t j = 0; none && j < directions.size(); ++j) {
+        if (i == j) continue;
+        const Vec3 n = directions[i].cross(directions[j]).normalized();
+        none = !std::all_of(directions.begin(), directions.end(),
+                            [&](const Vec3& e) { return n.dot(e) <= 1e-9; });
+      }
+    ++(none ? empty : full);
+    EXPECT_EQ(polar_rays(directions, Vec3::Zero(), 1e-8).empty(), none) << "trial " << trial;
+    EXPECT_EQ(polar_rays(directions, Vec3::Zero(), 1e-8, true).empty(), none) << "trial " << trial;
+  }
+  EXPECT_GT(empty, 10);
+  EXPECT_GT(full, 10);
 }
 
 }  // namespace

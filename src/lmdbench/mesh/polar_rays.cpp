@@ -137,10 +137,69 @@ class RaySearch {
   std::vector<std::vector<std::size_t>> on_circle_;
 };
 
+// Up to so many directions all crossings are tried; beyond, those of a subset.
+constexpr std::size_t FEW_DIRECTIONS = 64;
+
+// A ray that leaves the set by less than this many tolerances is good enough.
+constexpr double GOOD_ENOUGH = 2.0;
+
+// Where the subset may start: the directions that reach farthest along these.
+std::vector<Vec3> probes() {
+  std::vector<Vec3> axes;
+  for (const int x : {-1, 0, 1})
+    for (const int y : {-1, 0, 1})
+      for (const int z : {-1, 0, 1})
+        if (x != 0 || y != 0 || z != 0) axes.push_back(Vec3(x, y, z));
+  return axes;
+}
+
+std::size_t farthest_along(std::span<const Vec3> directions, const Vec3& n) {
+  return static_cast<std::size_t>(
+      std::max_element(directions.begin(), directions.end(),
+                       [&](const Vec3& a, const Vec3& b) { return a.dot(n) < b.dot(n); }) -
+      directions.begin());
+}
+
+// The directions that bound the set, or enough of them: fewer directions give a larger set, so that the rays of
+// any subset cover it. The subset grows by the directions that its rays violate most.
+std::vector<Vec3> rays_of_many(std::span<const Vec3> directions, const Vec3& outer, double tolerance,
+                               bool first_only) {
+  std::vector<bool> taken(directions.size(), false);
+  std::vector<Vec3> subset;
+  const auto take = [&](std::size_t i) {
+    if (taken[i]) return;
+    taken[i] = true;
+    subset.push_back(directions[i]);
+  };
+  for (const Vec3& probe : probes()) take(farthest_along(directions, probe));
+  while (true) {
+    std::vector<Vec3> rays = RaySearch(subset, outer, tolerance, false).run();
+    if (rays.empty()) return rays;
+    std::vector<Vec3> candidates = rays;
+    Vec3 centre = Vec3::Zero();
+    for (const Vec3& ray : rays) centre += ray;
+    if (centre.norm() > PARALLEL_SINE) candidates.push_back(centre.normalized());
+    bool some_inside = false;
+    bool all_good = true;
+    const std::size_t size_before = subset.size();
+    for (const Vec3& n : candidates) {
+      const std::size_t worst = farthest_along(directions, n);
+      const double excess = n.dot(directions[worst]);
+      some_inside = some_inside || excess <= CROSSING_SLACK * tolerance;
+      if (excess <= GOOD_ENOUGH * tolerance) continue;
+      all_good = false;
+      take(worst);
+    }
+    const bool not_empty = some_inside && (first_only || subset.size() > FEW_DIRECTIONS);
+    if (all_good || not_empty || subset.size() == size_before) return rays;
+  }
+}
+
 }  // namespace
 
 std::vector<Vec3> polar_rays(std::span<const Vec3> directions, const Vec3& outer, double tolerance,
                              bool first_only) {
+  if (directions.size() > FEW_DIRECTIONS) return rays_of_many(directions, outer, tolerance, first_only);
   return RaySearch(directions, outer, tolerance, first_only).run();
 }
 
