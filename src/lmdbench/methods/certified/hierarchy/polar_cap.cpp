@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
+#include <utility>
 #include <vector>
 
 namespace lmdbench {
@@ -70,6 +72,43 @@ bool find_crossings(Scratch& work) {
   return crossed;
 }
 
+/// Up to so many directions all crossings are tried; of more, those of a subset.
+constexpr std::size_t FEW_DIRECTIONS = 64;
+
+/// Like `find_crossings`, in time linear in the number of constraints: of many, only the outermost are taken and then
+/// those that the crossings so far violate most, until none is violated beyond twice its slack or there are enough.
+/// `work.constraints` is the subset then. Fewer constraints leave a larger set, so that the cap still holds the
+/// whole cone; it is empty only where the whole is.
+bool find_crossings_of_many(Scratch& work) {
+  if (work.constraints.size() <= FEW_DIRECTIONS) return find_crossings(work);
+  const std::vector<Constraint> all = std::exchange(work.constraints, {});
+  std::vector<bool> taken(all.size(), false);
+  const auto farthest_along = [&](const Vec3& n) {
+    return static_cast<std::size_t>(std::max_element(all.begin(), all.end(),
+                                                     [&](const Constraint& a, const Constraint& b) {
+                                                       return a.direction.dot(n) < b.direction.dot(n);
+                                                     }) -
+                                    all.begin());
+  };
+  const auto take = [&](std::size_t i) {
+    if (!taken[i]) work.constraints.push_back(all[i]);
+    taken[i] = true;
+  };
+  for (const int x : {-1, 0, 1})
+    for (const int y : {-1, 0, 1})
+      for (const int z : {-1, 0, 1}) take(farthest_along(Vec3(x, y, z)));
+  while (true) {
+    if (!find_crossings(work)) return false;
+    const std::size_t before = work.constraints.size();
+    if (before > FEW_DIRECTIONS) return true;
+    for (const Vec3& crossing : work.extremes.directions) {
+      const std::size_t worst = farthest_along(crossing);
+      if (all[worst].direction.dot(crossing) > 2.0 * POLAR_SLACK) take(worst);
+    }
+    if (work.constraints.size() == before) return true;
+  }
+}
+
 std::optional<PolarCap> vertex_cap(const Surface& surface, std::int32_t vertex) {
   if (surface.adjacency.vertex_triangles[vertex].empty()) return std::nullopt;
   Scratch& work = polar::scratch();
@@ -80,7 +119,7 @@ std::optional<PolarCap> vertex_cap(const Surface& surface, std::int32_t vertex) 
     if (length > 0.0) work.constraints.push_back({direction / length, POLAR_SLACK});
     return true;
   });
-  if (!find_crossings(work)) return PolarCap{};
+  if (!find_crossings_of_many(work)) return PolarCap{};
   if (work.extremes.directions.empty()) return std::nullopt;
   // Saddles are done here, and so are peaks, all of whose directions are outer ones: whether a vertex has an
   // outer side costs a walk round it.
