@@ -180,7 +180,7 @@ TEST(PolarRaysOfMany, CoverTheConeOfARoundFan) {
   const Vec3 axis = Vec3(1, 2, 3).normalized();
   for (const double half_angle : {0.6, 1.2, 1.5}) {
     const double polar = M_PI / 2 - half_angle;  // of the cone of directions n with n . e <= 0, round -axis
-    for (const std::size_t count : {65u, 300u, 5000u}) {
+    for (const std::size_t count : {129u, 300u, 5000u}) {
       const auto directions = fan(count, half_angle, axis, &random);
       const auto rays = polar_rays(directions, Vec3::Zero(), 1e-8);
       ASSERT_GE(rays.size(), 30u);
@@ -237,7 +237,7 @@ TEST(PolarRaysOfMany, RandomSetsAreEmptyWhereAllCrossingsSayIt) {
   for (int trial = 0; trial < 60; ++trial) {
     std::vector<Vec3> directions;
     const double spread = width(random);
-    for (int i = 0; i < 90; ++i)
+    for (int i = 0; i < 150; ++i)
       directions.push_back(
           (Vec3::UnitX() + spread * Vec3(0.3 * normal(random), normal(random), normal(random))).normalized());
     // All crossings, whatever the number of directions: the polar is empty when every crossing is outside.

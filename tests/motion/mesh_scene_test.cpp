@@ -42,6 +42,45 @@ TEST(MeshScene, DistancesDoNotDependOnEarlierOnes) {
   }
 }
 
+// Along the whole way in the gap is not had before, there it is, and conservative advancement stops there or, nearly
+// tangential, a little farther out.
+TEST(MeshScene, ReachIsWhereTheGapIsHadForTheFirstTime) {
+  const TriangleMesh torus = scaled_to_diagonal(make_torus(1.0, 0.4, 24, 12), 0.15);
+  const TriangleMesh plate = make_box(Vec3(0.4, 0.4, 0.01));
+  const PathScene scene = mesh_scene(torus, plate);
+  PathScene advancing = scene;
+  advancing.reach = nullptr;
+  int reached = 0;
+  for (int i = 0; i < 150; ++i) {
+    const Vec3 direction = rotation_of(Vec3(0.37 * i, 0.11 * i, 0.05 * i)) * Vec3::UnitX();
+    const Eigen::Quaterniond rotation = rotation_of(Vec3(0.2 * i, 0.9, -0.3 * i));
+    for (const double gap : {1e-2, 1e-4}) {
+      const double reach = first_reach(scene, direction, rotation, gap);
+      const double advanced = first_reach(advancing, direction, rotation, gap);
+      const auto distance_at = [&](double s) {
+        return scene.distance(
+            {scene.fixed_centre_W + s * direction - rotation * scene.moving_centre_M, rotation});
+      };
+      reached += reach > 0.0 ? 1 : 0;
+      EXPECT_LE(reach, advanced + GAP_TOLERANCE * gap) << i;
+      if (reach > 0.0) {
+        EXPECT_LE(distance_at(reach), gap * (1.0 + 1.001 * GAP_TOLERANCE)) << i;
+        EXPECT_GE(distance_at(reach), gap * (1.0 - 1e-9)) << i;
+      }
+      for (int k = 1; k <= 20; ++k)
+        EXPECT_GE(distance_at(reach + 0.02 * k * k * gap), gap * (1.0 - 1e-9)) << i << ", " << k;
+    }
+  }
+  EXPECT_GT(reached, 100);
+}
+
+TEST(MeshScene, WhatIsNeverReachedIsZero) {
+  // Through the hole of a ring along its axis.
+  const PathScene scene = mesh_scene(make_sphere(0.1, 2), make_torus(1.0, 0.3, 40, 20));
+  EXPECT_EQ(first_reach(scene, Vec3::UnitZ(), Eigen::Quaterniond::Identity(), 1e-3), 0.0);
+  EXPECT_GT(first_reach(scene, Vec3::UnitX(), Eigen::Quaterniond::Identity(), 1e-3), 1.3);
+}
+
 TEST(MeshScene, GeneratedPathKeepsTheGapOnMeshes) {
   PathSpec spec;
   spec.stored_rate = 250.0;

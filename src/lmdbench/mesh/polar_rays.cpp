@@ -138,7 +138,7 @@ class RaySearch {
 };
 
 // Up to so many directions all crossings are tried; beyond, those of a subset.
-constexpr std::size_t FEW_DIRECTIONS = 64;
+constexpr std::size_t FEW_DIRECTIONS = 128;
 
 // A ray that leaves the set by less than this many tolerances is good enough.
 constexpr double GOOD_ENOUGH = 2.0;

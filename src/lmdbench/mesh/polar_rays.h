@@ -20,7 +20,7 @@ namespace lmdbench {
 /// Cubic in the worst case, quadratic in practice because a crossing outside is rejected by the
 /// direction that rejected the one before.
 ///
-/// Of more than 64 directions only some are taken, at first the outermost ones, then those that the rays so far
+/// Of more than 128 directions only some are taken, at first the outermost ones, then those that the rays so far
 /// violate most, until the rays are good to twice the tolerance or there are enough: the set of fewer directions
 /// is larger, so the rays still cover the cone, and whether it is empty is decided by all directions. A fat round
 /// cone of thousands of directions so gets some hundred rays that reach a few thousandths of its width too far;

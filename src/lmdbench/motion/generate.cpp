@@ -23,6 +23,7 @@ Pose pose_at(const PathScene& scene, const Vec3& direction_W, const Eigen::Quate
 
 double first_reach(const PathScene& scene, const Vec3& direction_W, const Eigen::Quaterniond& rotation,
                    double gap) {
+  if (scene.reach) return scene.reach(direction_W, rotation, gap);
   double reach = scene.moving_radius + scene.fixed_radius + gap;
   for (int step = 0; step < MAXIMUM_APPROACH_STEPS; ++step) {
     const double excess = scene.distance(pose_at(scene, direction_W, rotation, reach)) - gap;

@@ -15,12 +15,17 @@ namespace lmdbench {
 /// Exact minimum distance [m] between the moving mesh at X_WM and the fixed one; 0 when they intersect.
 using DistanceFunction = std::function<double(const Pose& X_WM)>;
 
+/// Exact `first_reach` of a scene, without its many distances; 0 where the gap is never had.
+using ReachFunction =
+    std::function<double(const Vec3& direction_W, const Eigen::Quaterniond& rotation, double gap)>;
+
 /// Called now and then with the number of frames done and of all frames.
 using ProgressFunction = std::function<void(std::size_t done, std::size_t all)>;
 
 /// All that the generator knows of the two meshes. Each sphere contains its mesh.
 struct PathScene {
   DistanceFunction distance;
+  ReachFunction reach = nullptr;        ///< Unset: by conservative advancement over `distance`.
   double diagonal = 0.0;                ///< Of the moving mesh: the unit of gaps [m].
   Vec3 moving_centre_M = Vec3::Zero();  ///< What the moving mesh turns about.
   double moving_radius = 0.0;
@@ -36,7 +41,7 @@ inline constexpr double GAP_TOLERANCE = 1e-3;
 inline constexpr int MAXIMUM_APPROACH_STEPS = 400;
 
 /// Distance from centre to centre at which the moving mesh, coming from outside along `direction_W`, has
-/// the gap for the first time: conservative advancement. A translation by s changes the distance by at
+/// the gap for the first time: the scene's own `reach`, or conservative advancement. A translation by s changes the distance by at
 /// most s, so stepping by the distance minus the gap never gets nearer than the gap, whatever the
 /// meshes' shapes. Every larger centre distance on the ray has at least this gap. 0 when the meshes pass
 /// each other without coming that near.

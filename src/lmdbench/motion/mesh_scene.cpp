@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/mesh/surface.h>
 #include <lmdbench/motion/mesh_scene.h>
+#include <lmdbench/snch/first_approach.h>
 #include <lmdbench/snch/hierarchy.h>
 #include <lmdbench/snch/nearest_tracker.h>
 
@@ -24,12 +25,21 @@ class MeshPair {
 
   double distance(const Pose& X_WM) { return tracker_.nearest(X_WM).distance; }
 
+  FirstApproach approach(const Pose& X_WM, const Vec3& direction_W, double gap) {
+    last_approach_ = first_approach(moving_, moving_hierarchy_, fixed_, fixed_hierarchy_, X_WM, direction_W,
+                                    gap, GAP_TOLERANCE, last_approach_);
+    return last_approach_;
+  }
+
  private:
   Surface moving_;
   Surface fixed_;
   Hierarchy moving_hierarchy_;
   Hierarchy fixed_hierarchy_;
   NearestTracker tracker_;
+  std::int32_t last_moving_ = -1;
+  std::int32_t last_fixed_ = -1;
+  FirstApproach last_approach_;
 };
 
 double radius_about(const Vec3& centre, const TriangleMesh& mesh) {
@@ -49,6 +59,12 @@ PathScene mesh_scene(TriangleMesh moving, TriangleMesh fixed) {
   scene.fixed_radius = radius_about(scene.fixed_centre_W, fixed);
   const auto pair = std::make_shared<MeshPair>(std::move(moving), std::move(fixed));
   scene.distance = [pair](const Pose& X_WM) { return pair->distance(X_WM); };
+  const Vec3 moving_centre_M = scene.moving_centre_M, fixed_centre_W = scene.fixed_centre_W;
+  scene.reach = [pair, moving_centre_M, fixed_centre_W](const Vec3& direction_W,
+                                                        const Eigen::Quaterniond& rotation, double gap) {
+    const Pose centred{fixed_centre_W - rotation * moving_centre_M, rotation};
+    return std::max(0.0, pair->approach(centred, direction_W, gap).reach);
+  };
   return scene;
 }
 

@@ -73,7 +73,7 @@ bool find_crossings(Scratch& work) {
 }
 
 /// Up to so many directions all crossings are tried; of more, those of a subset.
-constexpr std::size_t FEW_DIRECTIONS = 64;
+constexpr std::size_t FEW_DIRECTIONS = 128;
 
 /// Like `find_crossings`, in time linear in the number of constraints: of many, only the outermost are taken and then
 /// those that the crossings so far violate most, until none is violated beyond twice its slack or there are enough.
