@@ -51,7 +51,7 @@ TEST(MeshScene, ReachIsWhereTheGapIsHadForTheFirstTime) {
   PathScene advancing = scene;
   advancing.reach = nullptr;
   int reached = 0;
-  for (int i = 0; i < 150; ++i) {
+  for (int i = 0; i < 25; ++i) {
     const Vec3 direction = rotation_of(Vec3(0.37 * i, 0.11 * i, 0.05 * i)) * Vec3::UnitX();
     const Eigen::Quaterniond rotation = rotation_of(Vec3(0.2 * i, 0.9, -0.3 * i));
     for (const double gap : {1e-2, 1e-4}) {
@@ -71,7 +71,7 @@ TEST(MeshScene, ReachIsWhereTheGapIsHadForTheFirstTime) {
         EXPECT_GE(distance_at(reach + 0.02 * k * k * gap), gap * (1.0 - 1e-9)) << i << ", " << k;
     }
   }
-  EXPECT_GT(reached, 100);
+  EXPECT_GT(reached, 20);
 }
 
 TEST(MeshScene, WhatIsNeverReachedIsZero) {
