@@ -37,8 +37,6 @@ class MeshPair {
   Hierarchy moving_hierarchy_;
   Hierarchy fixed_hierarchy_;
   NearestTracker tracker_;
-  std::int32_t last_moving_ = -1;
-  std::int32_t last_fixed_ = -1;
   FirstApproach last_approach_;
 };
 
