@@ -251,6 +251,41 @@ TEST(Run, StartInPenetrationGoesOnAndTheResultSaysSo) {
   for (const double force : result.doubles("/methods/original/force")) EXPECT_TRUE(std::isfinite(force));
 }
 
+TEST(Run, PolylinesAreRecordedWhereTheyAreAskedFor) {
+  const ScratchDirectory scratch;
+  std::ofstream(scratch / "path.tum") << "0 0.2 0 0 0 0 0 1\n0.1 0.06 0 0 0 0 0 1\n";
+  const std::vector<Override> overrides{"/path/file=" + (scratch / "path.tum").string(),
+                                        "/driver/search_every_frames=5", "/driver/search_latency_frames=0"};
+  run_to(scratch / "without.h5", shapes(overrides));
+  EXPECT_FALSE(OpenResult(scratch / "without.h5").has("/polylines"));
+  std::vector<Override> asked = overrides;
+  asked.emplace_back("/record/polylines/stride_frames=10");
+  const Experiment experiment = shapes(asked);
+  EXPECT_TRUE(make_plan(experiment).needs(Part::INTERSECTIONS));
+  run_to(scratch / "with.h5", experiment);
+  const OpenResult result(scratch / "with.h5");
+  const std::vector<std::int64_t> frames = result.integers("/polylines/frame");
+  const std::vector<std::int64_t> frame_offset = result.integers("/polylines/frame_offset");
+  const std::vector<std::int64_t> point_offset = result.integers("/polylines/point_offset");
+  ASSERT_EQ(frames.size(), 10u);
+  ASSERT_EQ(frame_offset.size(), 11u);
+  EXPECT_EQ(frame_offset[1], 0) << "apart at first";
+  const auto lines = static_cast<std::size_t>(frame_offset.back());
+  ASSERT_GT(lines, 0u);
+  ASSERT_EQ(point_offset.size(), lines + 1);
+  EXPECT_EQ(result.shape("/polylines/point"),
+            (std::vector<std::size_t>{static_cast<std::size_t>(point_offset.back()), 3}));
+  for (const std::uint8_t closed : result.bytes("/polylines/closed")) EXPECT_EQ(closed, 1);
+  // The length is that of the points.
+  const std::vector<double> point = result.doubles("/polylines/point");
+  const auto at = [&](std::int64_t i) {
+    return Vec3(Eigen::Map<const Vec3>(&point[3 * static_cast<std::size_t>(i)]));
+  };
+  double length = (at(0) - at(point_offset[1] - 1)).norm();
+  for (std::int64_t i = 1; i < point_offset[1]; ++i) length += (at(i) - at(i - 1)).norm();
+  EXPECT_NEAR(result.doubles("/polylines/length")[0], length, 1e-15);
+}
+
 TEST(Run, FixedPosesPlaceTheMeshInTheWorld) {
   // Turning path and fixed mesh together about z by 90 degrees turns the forces alike.
   const ScratchDirectory scratch;

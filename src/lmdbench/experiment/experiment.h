@@ -94,6 +94,7 @@ struct Experiment {
   std::int64_t fcl_stride_frames = 0;    ///< 0: no cross-check.
   double fcl_tolerance_relative = 0.0;
   bool record_lmds = false;
+  std::int64_t polyline_stride_frames = 0;  ///< 0: no intersection polylines.
   bool record_torque = false;
   RuleSwitches rules{};
   Acceptance acceptance;

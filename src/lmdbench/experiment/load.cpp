@@ -184,6 +184,7 @@ Experiment from_json(Json document, const std::filesystem::path& path) {
   experiment.rules = read_rule_switches(document["plan"]);
   experiment.record_torque = document["record"]["torque"].get<bool>();
   experiment.record_lmds = document["record"]["lmds"].get<bool>();
+  experiment.polyline_stride_frames = document["record"]["polylines"]["stride_frames"].get<std::int64_t>();
   experiment.resolved_json = document.dump(2);
   return experiment;
 }

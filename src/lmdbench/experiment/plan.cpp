@@ -116,7 +116,9 @@ Plan make_plan(const Experiment& experiment) {
   add(Part::TORQUE_RENDERING, "torque on the device", false, "",
       "the device actuates three degrees of freedom: torque is not rendered, and recorded where "
       "record/torque is true");
-  add(Part::INTERSECTIONS, "intersection polylines", false, "", "the experiment does not ask for them");
+  add(Part::INTERSECTIONS, "intersection polylines", experiment.polyline_stride_frames > 0,
+      fmt::format("every {} frames, outside the timed frames", experiment.polyline_stride_frames),
+      "record/polylines/stride_frames is 0");
   add(Part::THREADS, "threads", false, "", "the lockstep driver has one clock and one thread");
   return plan;
 }

@@ -128,6 +128,10 @@ RunResult run_and_keep(const Experiment& experiment, const RunProgress& progress
       track.truth =
           probe_truth(profile.scene, input, profile.force, probed, phase("truth"),
                       is_on(result.plan.rules, Rule::TRUTH_IN_CONTACT) ? &track.in_contact : nullptr);
+    if (result.plan.needs(Part::INTERSECTIONS))
+      track.polylines =
+          probe_polylines(profile.scene, input, probed_frames(frame_count, experiment.polyline_stride_frames),
+                          phase("polylines"));
     if (result.plan.needs(Part::FCL)) {
       std::vector<LockstepMethod> along;
       for (const std::size_t i : track.methods) along.push_back(methods[i]);

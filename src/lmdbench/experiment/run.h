@@ -6,6 +6,7 @@
 #include <lmdbench/experiment/fcl_probe.h>
 #include <lmdbench/experiment/lockstep.h>
 #include <lmdbench/experiment/plan.h>
+#include <lmdbench/experiment/polyline_probe.h>
 #include <lmdbench/experiment/prepare.h>
 #include <lmdbench/experiment/records.h>
 #include <lmdbench/experiment/run_keeper.h>
@@ -22,11 +23,12 @@ namespace lmdbench {
 /// Poses under one force profile, with what is known of them beside any method's opinion. In an open loop the methods of a
 /// profile share one; in a closed one each has its own, since its device takes its own path.
 struct Track {
-  std::size_t profile = 0;           ///< Of the experiment.
-  std::vector<std::size_t> methods;  ///< Which of the experiment's methods went along it.
-  std::vector<bool> in_contact;      ///< One a frame (contact.h).
-  std::vector<TruthFrame> truth;     ///< Empty where the plan leaves the probe out.
-  std::optional<FclCheck> fcl;       ///< Its columns are those of `methods`.
+  std::size_t profile = 0;               ///< Of the experiment.
+  std::vector<std::size_t> methods;      ///< Which of the experiment's methods went along it.
+  std::vector<bool> in_contact;          ///< One a frame (contact.h).
+  std::vector<TruthFrame> truth;         ///< Empty where the plan leaves the probe out.
+  std::optional<FclCheck> fcl;           ///< Its columns are those of `methods`.
+  std::vector<PolylineFrame> polylines;  ///< Empty where the plan leaves them out.
 };
 
 /// Everything that a run produced, in memory.
@@ -46,7 +48,7 @@ struct RunResult {
   const Track& track_of(std::size_t method) const { return tracks[track_of_method[method]]; }
 };
 
-/// What a run reports while it goes on: the phase ("run", "truth", "fcl"), what is done and what there is to
+/// What a run reports while it goes on: the phase ("run", "truth", "fcl", "polylines"), what is done and what there is to
 /// do. False stops the run after the current block.
 using RunProgress = std::function<bool(const std::string& phase, std::int64_t done, std::int64_t total)>;
 

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/experiment/columns.h>
 #include <lmdbench/experiment/summary.h>
+#include <lmdbench/experiment/write_polylines.h>
 #include <lmdbench/experiment/write_result.h>
 #include <lmdbench/methods/registry.h>
 
@@ -248,6 +249,7 @@ void write_method(ResultWriter& writer, const Experiment& experiment, const RunR
     if (!track.truth.empty()) write_reference(writer, group + "/reference", track.truth);
     if (track.fcl)
       write_fcl(writer, group + "/crosscheck/fcl", *track.fcl, experiment.fcl_tolerance_relative);
+    if (experiment.polyline_stride_frames > 0) write_polylines(writer, group + "/polylines", track.polylines);
   }
   if (experiment.record_lmds) write_lmd_lists(writer, group + "/lmds", record);
   if (track.fcl) {
@@ -286,6 +288,7 @@ void write_result(ResultWriter& writer, const Experiment& experiment, const RunR
     const Track& track = result.tracks.front();
     if (!track.truth.empty()) write_reference(writer, "/reference", track.truth);
     if (track.fcl) write_fcl(writer, "/crosscheck/fcl", *track.fcl, experiment.fcl_tolerance_relative);
+    if (experiment.polyline_stride_frames > 0) write_polylines(writer, "/polylines", track.polylines);
   }
   write_summary(writer, summarise(experiment, result));
 }

@@ -31,6 +31,8 @@ class NearFrame {
   bool differs() const { return differs_; }
   const Scene& scene() const { return scene_; }
   Pose to_near(const Pose& X_WM) const;
+  /// Of the near world, in the world: what is to be added to points.
+  const Vec3& origin_W() const { return origin_W_; }
   /// Moves the points of a set; distances and directions, which are accurate in the near frame, stay, so that
   /// they are better than what the world's rounded points give.
   void to_world(LmdSet& lmds) const;

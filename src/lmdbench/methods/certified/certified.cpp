@@ -161,11 +161,12 @@ Certified::Certified(Scene scene, const CertifiedOptions& options, WideKernel ke
 }
 
 bool Certified::evaluate(const Frame& frame, const TrianglePair& pair, LocalMinimum& minimum,
-                         WorkCounters& counters) const {
+                         WorkCounters& counters) {
   const PairFilter& filter = frame.filter;
   const Triangle a = filter.X_WM.triangle(filter.moving.mesh.triangle(pair.moving));
   const TrianglePairDistance nearest = triangle_distance(a, filter.fixed.mesh.triangle(pair.fixed));
   ++counters[Counter::TRIANGLE_DISTANCES];
+  if (nearest.intersecting) touching_pairs_.push_back({frame.body, pair.moving, pair.fixed});
   minimum =
       minimum_of_triangle_pair(filter.moving, filter.fixed, frame.body, pair.moving, pair.fixed, nearest);
   if (!(nearest.squared_distance <= scene_.cutoff * scene_.cutoff)) {
@@ -343,6 +344,7 @@ void Certified::search(const Pose& X_WM, LmdSet& lmds, WorkCounters& counters) {
   const WideHierarchy& moving = hierarchy_moving_;
   minima_.clear();
   crossings_.clear();
+  touching_pairs_.clear();
   plateaus_.clear();
   double coordinates = transform.point(moving.origin).cwiseAbs().maxCoeff() + moving.radius;
   for (const WideHierarchy* fixed : hierarchies_fixed_)
@@ -364,7 +366,7 @@ void Certified::search(const Pose& X_WM, LmdSet& lmds, WorkCounters& counters) {
     touch_ = touch;
   }
 
-  bool in_doubt = false;
+  in_doubt_ = false;
   static const RigidTransform identity;
   const FlatSide flat_moving{scene_.moving->surface(), *flat_moving_, transform, true};
   for (std::size_t i = 0; i < scene_.fixed.size(); ++i) {
@@ -442,12 +444,12 @@ void Certified::search(const Pose& X_WM, LmdSet& lmds, WorkCounters& counters) {
     decide_pending(frame, counters);
     if (frame.is_flat) {
       contacts_.doubt_touching_contacts();
-      in_doubt = in_doubt || contacts_.is_in_doubt();
+      in_doubt_ = in_doubt_ || contacts_.is_in_doubt();
       take_contacts(frame, first);
     }
     add_traversal<Counter>(counters, work);
   }
-  if (in_doubt) {
+  if (in_doubt_) {
     if (!by_single_features_)
       by_single_features_ = std::make_unique<Certified>(
           scene_, CertifiedOptions{.frame_coherence = coherent_}, kernel_, FlatFeatures::SINGLE);

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <lmdbench/lmd/intersection_polylines.h>
 #include <lmdbench/lmd/method.h>
 #include <lmdbench/lmd/plateau.h>
 #include <lmdbench/lmd/scene.h>
@@ -83,6 +84,18 @@ class Certified : public Method {
     search(X_WM, lmds, counters);
   }
 
+  /// Calls visit(pair) for every pair of triangles that shared a point at the last pose; some more than once.
+  template <class Visit>
+  void for_each_intersecting_pair(Visit&& visit) const {
+    if (in_doubt_) {
+      by_single_features_->for_each_intersecting_pair(visit);
+      return;
+    }
+    for (const Intersection& crossing : crossings_)
+      visit(CrossingPair{crossing.fixed_body, crossing.triangle_moving, crossing.triangle_fixed});
+    for (const CrossingPair& pair : touching_pairs_) visit(pair);
+  }
+
  private:
   struct TrianglePair {
     std::int32_t moving, fixed;
@@ -108,8 +121,7 @@ class Certified : public Method {
   template <class Plan>
   void decide_touching(const Frame& frame, WorkCounters& counters, Plan&& plan);
   void decide_pending(const Frame& frame, WorkCounters& counters);
-  bool evaluate(const Frame& frame, const TrianglePair& pair, LocalMinimum& minimum,
-                WorkCounters& counters) const;
+  bool evaluate(const Frame& frame, const TrianglePair& pair, LocalMinimum& minimum, WorkCounters& counters);
 
   // certified_flat.cpp
   bool decide_flat(const Frame& frame, const FeatureId& on_moving, const FeatureId& on_fixed,
@@ -142,6 +154,8 @@ class Certified : public Method {
   std::vector<TrianglePair> pending_;
   std::vector<LocalMinimum> minima_;
   std::vector<Intersection> crossings_;            ///< Of triangles that clearly cross.
+  std::vector<CrossingPair> touching_pairs_;       ///< Others that share a point.
+  bool in_doubt_ = false;                          ///< The last frame was searched by single features.
   FlatContacts contacts_;                          ///< Of one fixed body.
   LmdSet plateaus_;                                ///< The contacts of all.
   std::unique_ptr<Certified> by_single_features_;  ///< Made when the first frame needs it.

@@ -1,0 +1,133 @@
+#!/usr/bin/env python3
+# SPDX-FileCopyrightText: The lmdbench authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""The curves in which two meshes intersect, from a result with /polylines: the fixed mesh with the curves of some frames,
+their length over the frames, and what finding them takes. The mesh is drawn from the built OFF file that the result names."""
+
+import argparse
+import json
+import os
+
+import h5py
+import numpy as np
+
+import figure_style as style
+from lmdbench_results import ResultError, run_script
+
+import matplotlib.pyplot as plt
+from mpl_toolkits.mplot3d.art3d import Line3DCollection, Poly3DCollection
+
+LIGHT = np.array([0.4, 0.7, 0.6]) / np.linalg.norm([0.4, 0.7, 0.6])
+
+
+def read_off(file):
+    try:
+        with open(file, encoding="ascii") as stream:
+            words = stream.read().split()
+    except FileNotFoundError as error:
+        raise ResultError(f"{file}: no such mesh (remedy: lmdbench mesh build)") from error
+    vertices, faces = int(words[1]), int(words[2])
+    points = np.array(words[4 : 4 + 3 * vertices], dtype=float).reshape(-1, 3)
+    rest = np.array(words[4 + 3 * vertices : 4 + 3 * vertices + 4 * faces], dtype=int).reshape(-1, 4)
+    return points, rest[:, 1:]
+
+
+def placed(points, diagonal):
+    """Centre of the bounding box at the origin, its diagonal as long as the experiment says."""
+    low, high = points.min(axis=0), points.max(axis=0)
+    return (points - 0.5 * (low + high)) * (diagonal / np.linalg.norm(high - low))
+
+
+class Lines:
+    """The polylines of a result, frame by frame."""
+
+    def __init__(self, group):
+        self.frames = group["frame"][:]
+        self.seconds = group["trace_time"][:]
+        self._frame_offset = group["frame_offset"][:]
+        self._point_offset = group["point_offset"][:]
+        self._points = group["point"][:]
+        self._closed = group["closed"][:]
+        self._length = group["length"][:]
+
+    def of(self, i):
+        """Polylines of entry i of `frames`, closed ones with their first point again at the end."""
+        lines = []
+        for k in range(self._frame_offset[i], self._frame_offset[i + 1]):
+            points = self._points[self._point_offset[k] : self._point_offset[k + 1]]
+            lines.append(np.vstack([points, points[:1]]) if self._closed[k] else points)
+        return lines
+
+    def length(self, i):
+        return self._length[self._frame_offset[i] : self._frame_offset[i + 1]].sum()
+
+
+def draw_mesh(axes, points, faces):
+    # Display axes: the meshes' y is up.
+    corners = points[faces][:, :, [2, 0, 1]]
+    normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    normals /= np.maximum(np.linalg.norm(normals, axis=1, keepdims=True), 1e-30)
+    shade = 0.62 + 0.36 * np.clip(normals @ LIGHT[[2, 0, 1]], 0, 1)
+    axes.add_collection3d(Poly3DCollection(corners, facecolors=np.repeat(shade[:, None], 3, axis=1), rasterized=True))
+    low, high = corners.reshape(-1, 3).min(axis=0), corners.reshape(-1, 3).max(axis=0)
+    axes.set_xlim(low[0], high[0])
+    axes.set_ylim(low[1], high[1])
+    axes.set_zlim(low[2], high[2])
+    axes.set_box_aspect(high - low, zoom=1.25)
+    axes.set_axis_off()
+
+
+def main(argv):
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("result")
+    parser.add_argument("--meshes", default="meshes", help="folder of built meshes")
+    parser.add_argument("--out", default="results/figures")
+    parser.add_argument("--curves", type=int, default=6, help="frames whose curves are drawn")
+    arguments = parser.parse_args(argv)
+    try:
+        file = h5py.File(arguments.result)
+    except OSError as error:
+        raise ResultError(f"{arguments.result}: not a result file ({error})") from error
+    with file:
+        if "polylines" not in file:
+            raise ResultError(f"{arguments.result}: no /polylines (remedy: --set /record/polylines/stride_frames=5)")
+        lines = Lines(file["polylines"])
+        scene = file["scene/fixed_0"].attrs
+        mesh, diagonal = scene["mesh"], scene["diagonal_m"]
+        rate = file["scene"].attrs["frame_rate_hz"]
+        validity = json.loads(scene["validity"])
+    mesh = mesh.decode() if isinstance(mesh, bytes) else mesh
+    points, faces = read_off(os.path.join(arguments.meshes, f"{mesh}.off"))
+    cutting = [i for i in range(len(lines.frames)) if lines.of(i)]
+    if not cutting:
+        raise ResultError(f"{arguments.result}: the meshes intersect in no recorded frame")
+
+    with plt.rc_context(style.STYLE):
+        figure = plt.figure(figsize=(style.TWO_COLUMNS_IN, 3.3))
+        left = figure.add_axes([0.0, 0.0, 0.55, 0.95], projection="3d", computed_zorder=False)
+        left.view_init(elev=42, azim=35)
+        draw_mesh(left, placed(points, diagonal), faces)
+        chosen = [cutting[k] for k in np.linspace(0, len(cutting) - 1, arguments.curves).round().astype(int)]
+        colours = plt.get_cmap("viridis")(np.linspace(0.0, 0.9, len(chosen)))
+        for i, colour in zip(chosen, colours):
+            left.add_collection3d(Line3DCollection([line[:, [2, 0, 1]] for line in lines.of(i)], colors=[colour],
+                                                   linewidths=1.3, zorder=10))
+        figure.text(0.02, 0.95, f"{mesh}, {validity['triangles']} triangles: curves of {len(chosen)} frames", fontsize=8)
+        times = lines.frames / rate
+        top = figure.add_axes([0.64, 0.6, 0.34, 0.32])
+        top.plot(times, [1e3 * lines.length(i) for i in range(len(times))], color=style.BLUE)
+        for i, colour in zip(chosen, colours):
+            top.plot(times[i], 1e3 * lines.length(i), "o", color=colour, markersize=3.5)
+        top.set_ylabel("length of the curves [mm]")
+        bottom = figure.add_axes([0.64, 0.14, 0.34, 0.32], sharex=top)
+        bottom.plot(times, 1e6 * lines.seconds, ".", color=style.BLACK, markersize=2.5)
+        bottom.set_ylim(0, 1.6e6 * np.quantile(lines.seconds, 0.95))  # above: another program had the processor
+        bottom.set_ylabel("walk and chaining [us]")
+        bottom.set_xlabel("time [s]")
+        for name in style.save(figure, arguments.out, "polylines"):
+            print(name)
+    return 0
+
+
+if __name__ == "__main__":
+    raise SystemExit(run_script(main))

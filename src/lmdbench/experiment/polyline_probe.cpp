@@ -1,0 +1,29 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/experiment/polyline_probe.h>
+#include <lmdbench/methods/certified/intersection_tracer.h>
+
+#include <chrono>
+#include <cstddef>
+
+namespace lmdbench {
+
+std::vector<PolylineFrame> probe_polylines(const Scene& scene, const LockstepInput& input,
+                                           const std::vector<std::int64_t>& frames,
+                                           const Progress& progress) {
+  IntersectionTracer tracer(scene);
+  std::vector<PolylineFrame> result;
+  for (const std::int64_t frame : frames) {
+    const auto begin = std::chrono::steady_clock::now();
+    const std::vector<IntersectionPolyline>& lines =
+        tracer.trace(input.poses[static_cast<std::size_t>(frame)]);
+    const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    result.push_back({frame, seconds, lines});
+    if (progress &&
+        !progress(static_cast<std::int64_t>(result.size()), static_cast<std::int64_t>(frames.size())))
+      throw Interrupted();
+  }
+  return result;
+}
+
+}  // namespace lmdbench

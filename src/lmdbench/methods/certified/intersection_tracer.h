@@ -1,0 +1,31 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <lmdbench/lmd/intersection_polylines.h>
+#include <lmdbench/lmd/near_frame.h>
+#include <lmdbench/methods/certified/certified.h>
+
+#include <vector>
+
+namespace lmdbench {
+
+/// The curves in which the bodies of a scene intersect, out of the same walk that finds the LMD set: `certified`
+/// leaves the pairs of triangles that intersect, and they are chained. Along a path the walk is coherent.
+class IntersectionTracer {
+ public:
+  /// @param scene its cutoff changes nothing in the result; the walk looks for LMDs up to it
+  explicit IntersectionTracer(const Scene& scene);
+
+  /// @return polylines in world coordinates, body by body; valid until the next call
+  const std::vector<IntersectionPolyline>& trace(const Pose& X_WM);
+
+ private:
+  NearFrame frame_;
+  Certified certified_;
+  LmdSet lmds_;
+  std::vector<std::vector<CrossingPair>> pairs_;  ///< One list a body.
+  std::vector<IntersectionPolyline> polylines_;
+};
+
+}  // namespace lmdbench
