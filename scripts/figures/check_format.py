@@ -30,7 +30,7 @@ def described(text):
 def documented_path(path):
     """'/methods/LABEL/force' is described as 'force', the counters of all methods as 'counters/NAME'; of a closed loop
     '/methods/LABEL/path' is described as '/path'."""
-    path = re.sub(r"^/methods/[^/]+/(?=(?:path|reference|crosscheck)/)", "/", path)
+    path = re.sub(r"^/methods/[^/]+/(?=(?:path|reference|crosscheck|polylines)/)", "/", path)
     return re.sub(r"^((?:global_)?counters)/[^/]+$", r"\1/NAME", re.sub(r"^/methods/[^/]+/", "", path))
 
 
