@@ -55,8 +55,10 @@ changed_sources() {
 
 # tidy FILE...: the compile commands also hold tests and benchmarks; the rules are for what ships.
 tidy() {
-  local database="$ROOT/build/release/compile_commands.json" log="$ROOT/build/release/clang-tidy.log"
-  [[ -e $database ]] || die "$EXIT_ENVIRONMENT" "$database is missing (remedy: cmake --preset release)"
+  # A configured tree is enough; its headers are not precompiled, which clang could not read.
+  local database="$ROOT/build/develop/compile_commands.json" log="$ROOT/build/develop/clang-tidy.log"
+  (cd "$ROOT" && cmake --preset develop) >/dev/null ||
+    die "$EXIT_ENVIRONMENT" "the tree cannot be configured (remedy: ./scripts/setup.sh)"
   if (($# == 0)); then
     say "clang-tidy: nothing to check"
     return 0
