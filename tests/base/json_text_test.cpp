@@ -28,9 +28,11 @@ TEST(JsonText, DepthAndLengthAreLimited) {
                 AllOf(HasSubstr("limit of 40"), HasSubstr("--limit json-depth=")));
   EXPECT_THAT(message_of<UsageError>([] { parse_json(std::string(3'000'000, '['), "f"); }),
               HasSubstr("deep"));
-  EXPECT_THAT(message_of<UsageError>([] { parse_json("\"" + std::string(50'000, 'a') + "\"", "f"); }),
-              AllOf(HasSubstr("50000 bytes"), HasSubstr("--limit json-text=")));
-  EXPECT_THAT(message_of<UsageError>([] { parse_json("{\"" + std::string(50'000, 'a') + "\": 1}", "f"); }),
+  EXPECT_THAT(
+      message_of<UsageError>([] { parse_json(std::string("\"").append(50'000, 'a').append("\""), "f"); }),
+      AllOf(HasSubstr("50000 bytes"), HasSubstr("--limit json-text=")));
+  EXPECT_THAT(message_of<UsageError>(
+                  [] { parse_json(std::string("{\"").append(50'000, 'a').append("\": 1}"), "f"); }),
               HasSubstr("50000 bytes"));
 }
 

@@ -15,7 +15,10 @@ namespace lmdbench {
 void add_report_command(CLI::App& app) {
   auto* command = app.add_subcommand("report", "Make a page of results: one file that needs no network");
   const auto request = std::make_shared<ReportRequest>();
-  command->add_option("results", request->results, "result files of 'lmdbench run' and 'lmdbench work-precision'")->required();
+  command
+      ->add_option("results", request->results,
+                   "result files of 'lmdbench run' and 'lmdbench work-precision'")
+      ->required();
   command->add_option("--out,-o", request->out, "folder of index.html and of its figures")->required();
   command->add_option("--study", request->studies,
                       "Markdown tables to show as well, such as results/reference/*.md");

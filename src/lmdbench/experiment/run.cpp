@@ -43,7 +43,7 @@ void note_findings(const Experiment& experiment, RunResult& result) {
     if (const auto warning = clipping_warning(result.records[i], result.track_of(i).in_contact))
       result.warnings.push_back(to_text(*warning));
   if (experiment.driver.repetitions == 1)
-    result.warnings.push_back("a single repetition: its times include the warm-up");
+    result.warnings.emplace_back("a single repetition: its times include the warm-up");
   for (const Track& track : result.tracks) {
     if (!track.fcl) continue;
     std::map<std::string, std::int64_t> exceptions;

@@ -71,7 +71,8 @@ std::string method_text(const MethodSummary& m, bool probed) {
   if (!std::isnan(m.reduction_ratio))
     text += fmt::format("; reduced {} to 1 (all candidates / all kept), {} to 1 at most",
                         shown(m.reduction_ratio, 1, ""), shown(m.reduction_ratio_maximum, 1, ""));
-  text += "\n" + rendered_text(m);
+  text += '\n';
+  text += rendered_text(m);
   text += probed
               ? error_text(m)
               : "  error  not measured: the truth probe is off, so the times below stand without what they "

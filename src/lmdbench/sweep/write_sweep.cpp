@@ -168,7 +168,8 @@ std::string sweep_text(const Sweep& sweep, const SweepResult& result) {
           text.empty() ? "" : "\n", scene, "", "ms/s", "med us", "99% us", ">1ms", "F rms", "F 99%", "recall",
           "precis", "point");
     }
-    const std::string name = point.series + (point.axes.empty() ? "" : " " + point.axes_text());
+    const std::string name =
+        point.axes.empty() ? point.series : fmt::format("{} {}", point.series, point.axes_text());
     if (!values.failure.empty()) {
       text += fmt::format("failed  {}: {}\n", name, values.failure);
       continue;
