@@ -27,6 +27,13 @@ void plant(const std::filesystem::path& file, const char* dataset, std::vector<h
   const hid_t id = H5Fopen(file.c_str(), H5F_ACC_RDWR, H5P_DEFAULT);
   const hid_t data = H5Dopen2(id, dataset, H5P_DEFAULT);
   const hid_t space = H5Dget_space(data);
+  if (at.empty()) {  // a single number
+    ASSERT_GE(H5Dwrite(data, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, value), 0);
+    H5Sclose(space);
+    H5Dclose(data);
+    H5Fclose(id);
+    return;
+  }
   const std::vector<hsize_t> one(at.size(), 1);
   const hid_t memory = H5Screate_simple(static_cast<int>(one.size()), one.data(), nullptr);
   H5Sselect_hyperslab(space, H5S_SELECT_SET, at.data(), nullptr, one.data(), nullptr);
@@ -91,6 +98,14 @@ TEST_F(CompareCommand, PlantedBehaviourIsNamed) {
   EXPECT_THAT(compare("a.h5 planted.h5").out, HasSubstr("improved: lmd_count differs in frame 41: "));
   EXPECT_THAT(compare("a.h5 planted.h5 --markdown").out, HasSubstr("| improved | `lmd_count` | 41 |"));
   EXPECT_THAT(read_text(*scratch_ / "junit.xml"), HasSubstr("<failure type=\"changed\""));
+}
+
+TEST_F(CompareCommand, LateFramesAreATimeAndNoBehaviour) {
+  const std::filesystem::path late = copy("late.h5");
+  const double many = 17.0;
+  plant(late, "/methods/improved/summary/frames_late", {}, H5T_NATIVE_DOUBLE, &many);
+  const Outcome outcome = compare("a.h5 late.h5 --json");
+  EXPECT_TRUE(nlohmann::json::parse(outcome.out)["differences"].empty()) << outcome.out;
 }
 
 TEST_F(CompareCommand, CountersCanBeAllowed) {

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/experiment/contact.h>
+#include <lmdbench/mesh/placement.h>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -44,7 +45,8 @@ TEST(FramesInContact, NoPoseNoFrame) {
 
 /// A mesh that wanders in and out of the cutoff of two others, turning, with steps of very unlike lengths.
 TEST(FramesInContact, AForecastLeavesOutSearchesButNoContact) {
-  Scene scene = testing::make_scene(make_box({1, 2, 2}), make_torus(1.0, 0.4, 24, 12), 0.05);
+  Scene scene =
+      testing::make_scene(scaled_to_diagonal(make_box({1, 2, 2}), 3.0), make_torus(1.0, 0.4, 24, 12), 0.05);
   TriangleMesh away = make_sphere(0.5, 2);
   for (Vec3& vertex : away.vertices) vertex.x() += 5.0;
   scene.fixed.push_back(testing::make_body("away", std::move(away)));
@@ -54,7 +56,7 @@ TEST(FramesInContact, AForecastLeavesOutSearchesButNoContact) {
   for (int k = 0; k < 3000; ++k) {
     const double step = std::pow(10.0, -4.0 + 3.0 * testing::uniform(random));
     pose.translation += step * testing::random_direction(random);
-    pose.translation.x() = std::clamp(pose.translation.x(), 1.9, 4.1);
+    pose.translation.x() = 2.75 + 1.3 * std::sin(0.004 * k) + step;
     pose.translation.y() = std::clamp(pose.translation.y(), -0.5, 0.5);
     pose.translation.z() = std::clamp(pose.translation.z(), -0.5, 0.5);
     pose.rotation =

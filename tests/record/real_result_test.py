@@ -63,14 +63,21 @@ def write_path(file):
             stream.write(f"{0.01 * i!r} 0 0 {height!r} 0 0 {math.sin(turn / 2)!r} {math.cos(turn / 2)!r}\n")
 
 
-def experiment(name, cutoff, lists):
+def profiles(*cutoffs):
+    """Force profiles: one is an object, several are a list in which each has a name."""
+    if len(cutoffs) == 1:
+        return {"cutoff_m": cutoffs[0], "maximum_force_n": 2.0}
+    return [{"name": f"to-{cutoff}", "cutoff_m": cutoff, "maximum_force_n": 2.0} for cutoff in cutoffs]
+
+
+def experiment(name, cutoffs, everything):
     return {
         "name": name,
         "title": "two bumpy spheres",
         "moving": {"mesh": "sphere.off"},
         "fixed": [{"mesh": "sphere.off"}],
         "path": {"file": "path.tum"},
-        "force": {"cutoff_m": cutoff, "maximum_force_n": 2.0},
+        "force": profiles(*cutoffs),
         "methods": [
             {"name": "original", "force_law": "linear"},
             {"name": "improved", "force_law": "exponential"},
@@ -79,7 +86,7 @@ def experiment(name, cutoff, lists):
         ],
         "driver": {"repetitions": 3, "search_every_frames": 20, "search_latency_frames": 5},
         "probes": {"truth": {"stride_frames": 10}, "fcl": {"stride_frames": 50}},
-        "record": {"lmds": lists},
+        "record": {"lmds": everything, "torque": everything, "polylines": {"stride_frames": 10 if everything else 0}},
     }
 
 
@@ -89,8 +96,9 @@ class RealResultTest(unittest.TestCase):
         cls.directory = tempfile.TemporaryDirectory()
         write_bumpy_sphere(cls.path("sphere.off"))
         write_path(cls.path("path.tum"))
-        cls.hard = cls.run_program("hard", 0.2, True)
-        cls.soft = cls.run_program("soft", 0.4, False)
+        cls.hard = cls.run_program("hard", [0.2], True)
+        cls.soft = cls.run_program("soft", [0.4], False)
+        cls.both = cls.run_program("both", [0.2, 0.4], False)
 
     @classmethod
     def tearDownClass(cls):
@@ -101,9 +109,9 @@ class RealResultTest(unittest.TestCase):
         return os.path.join(cls.directory.name, name)
 
     @classmethod
-    def run_program(cls, name, cutoff, lists):
+    def run_program(cls, name, cutoffs, everything):
         with open(cls.path(name + ".json"), "w", encoding="utf-8") as stream:
-            json.dump(experiment(name, cutoff, lists), stream)
+            json.dump(experiment(name, cutoffs, everything), stream)
         result = cls.path(name + ".h5")
         done = subprocess.run([PROGRAM, "run", cls.path(name + ".json"), "--out", result], capture_output=True, text=True,
                               check=False, stdin=subprocess.DEVNULL)
@@ -126,14 +134,14 @@ class RealResultTest(unittest.TestCase):
         return stream.getvalue()
 
     def test_results_have_the_described_format(self):
-        text = self.printed(check_format.main, self.hard, self.soft, self.closed())
+        text = self.printed(check_format.main, self.hard, self.soft, self.both, self.closed())
         self.assertIn(" 0 differences", text)
 
     def test_everything_described_is_there(self):
         with open(check_format.README, encoding="utf-8") as stream:
             described = set(check_format.described(stream.read()))
         found = set()
-        for file in (self.hard, self.closed()):
+        for file in (self.hard, self.both, self.closed()):
             Result(file).h5.visit(lambda name: found.add(check_format.documented_path("/" + name)))
         self.assertEqual(described - found, set())
 

@@ -99,7 +99,7 @@ TEST_F(LoadSweep, SaysWhatIsWrongAndWhere) {
 
 TEST_F(LoadSweep, RefusesMorePointsThanAnybodyMeans) {
   std::string thousand = "[1";
-  for (int i = 2; i <= 1000; ++i) thousand += "," + std::to_string(i);
+  for (int i = 2; i <= 1000; ++i) thousand.append(",").append(std::to_string(i));
   thousand += "]";
   EXPECT_THAT(refusal(R"({"method": {"name": "certified", "force_law": "linear"}, "axes": [{"/frames": )" +
                       thousand + R"(}, {"/force/sharpness": )" + thousand + "}]}"),

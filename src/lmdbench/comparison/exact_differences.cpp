@@ -16,10 +16,12 @@ namespace {
 constexpr const char* ABSENT_HERE = "absent";
 constexpr const char* PRESENT_HERE = "present";
 
-/// Times differ from run to run: samples by their name, numbers of the summary by their unit (results/README.md).
+/// Times differ from run to run: samples by their name, numbers of the summary by their unit, and the count of late
+/// frames, which is made of times (results/README.md).
 bool is_time(const ResultReader& file, const std::string& group, const std::string& name) {
   if (name.ends_with("_time")) return true;
-  return group.ends_with("/summary") && file.text_attribute(group + "/" + name, "units") == "s";
+  return group.ends_with("/summary") &&
+         (name == "frames_late" || file.text_attribute(group + "/" + name, "units") == "s");
 }
 
 bool is_counter_group(const std::string& name) {
