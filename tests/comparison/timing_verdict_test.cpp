@@ -34,6 +34,14 @@ TEST(TimingVerdict, OneProcessASide) {
   EXPECT_EQ(verdict({2.1}, {1.0}), Verdict::FASTER);
 }
 
+TEST(TimingVerdict, OneProcessShowsNothingOfAStageShorterThanAnInterruption) {
+  EXPECT_EQ(verdict({1e-6}, {1e-6}), Verdict::SAME);
+  EXPECT_EQ(verdict({1e-6}, {4.9e-4}), Verdict::UNSURE);
+  EXPECT_EQ(verdict({4.9e-4}, {1e-6}), Verdict::UNSURE);
+  EXPECT_EQ(verdict({1e-6}, {5.1e-4}), Verdict::SLOWER);
+  EXPECT_EQ(verdict({1e-6, 1e-6, 1e-6}, {4e-6, 4e-6, 4e-6}), Verdict::SLOWER) << "several processes do";
+}
+
 TEST(TimingVerdict, Replicates) {
   const std::vector<double> base = spaced(6, 1.0, 0.002);
   EXPECT_EQ(verdict(base, spaced(6, 1.0, 0.0021)), Verdict::SAME);

@@ -3,16 +3,18 @@
 #include <lmdbench/base/statistics.h>
 #include <lmdbench/comparison/timing_verdict.h>
 
+#include <algorithm>
 #include <vector>
 
 namespace lmdbench {
 namespace {
 
-Verdict judge_single(double ratio, double least_effect) {
+Verdict judge_single(double base, double candidate, double ratio, double least_effect) {
+  if (ratio <= 1.0 + least_effect && ratio >= 1.0 / (1.0 + least_effect)) return Verdict::SAME;
+  if (std::max(base, candidate) < SINGLE_PROCESS_SECONDS) return Verdict::UNSURE;
   if (ratio >= SINGLE_PROCESS_FACTOR) return Verdict::SLOWER;
   if (ratio <= 1.0 / SINGLE_PROCESS_FACTOR) return Verdict::FASTER;
-  const bool within = ratio <= 1.0 + least_effect && ratio >= 1.0 / (1.0 + least_effect);
-  return within ? Verdict::SAME : Verdict::UNSURE;
+  return Verdict::UNSURE;
 }
 
 Verdict judge_replicated(const Timing& timing, double least_effect, double error) {
@@ -52,7 +54,8 @@ Timing judge_timing(std::span<const double> base, std::span<const double> candid
   timing.estimate = estimate_ratio(base, candidate, error);
   timing.ranks = rank_test(base, candidate);
   timing.verdict = timing.estimate.spread ? judge_replicated(timing, least_effect, error)
-                                          : judge_single(timing.estimate.ratio, least_effect);
+                                          : judge_single(timing.base_seconds, timing.candidate_seconds,
+                                                         timing.estimate.ratio, least_effect);
   if (timing.verdict == Verdict::UNSURE && timing.estimate.spread)
     timing.processes_needed = processes_needed(*timing.estimate.spread, least_effect, error);
   return timing;

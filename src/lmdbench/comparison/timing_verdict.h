@@ -39,7 +39,8 @@ struct Timing {
 };
 
 /// The rule. With one process a side:
-///   slower or faster  beyond SINGLE_PROCESS_FACTOR;  same  within the least effect;  unsure  between.
+///   same  within the least effect;  slower or faster  beyond SINGLE_PROCESS_FACTOR, where one of the two took at least
+///   SINGLE_PROCESS_SECONDS;  unsure  otherwise.
 /// With more:
 ///   slower  the interval lies above 1 and an effect as large as the least one is inside it, and the rank test agrees:
 ///           its probability is below `error`, or, where so few processes cannot reach that, every pairing of a base
