@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Stage of triangle_distance_batch: pairs that cross clearly. Included once for every instruction set.
+// Stage of the batches of triangle pairs: pairs that cross clearly. Included once for every instruction set.
 #if defined(LMDBENCH_LANE_CROSSING_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef LMDBENCH_LANE_CROSSING_INL
 #undef LMDBENCH_LANE_CROSSING_INL
