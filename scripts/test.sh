@@ -57,13 +57,18 @@ ctest_preset() {
     --output-junit "$2" </dev/null)
 }
 
-# Every committed experiment file must pass the program's own check (schema, then what the schema cannot say).
+# Every committed experiment file must pass the program's own check (schema, then what the schema cannot say). A clean clone
+# has no fetched meshes: what has passed as far as them is right.
 experiment_files() {
-  local file count=0 bad=0
+  local file message count=0 bad=0
   for file in "$ROOT"/experiments/*.json; do
     [[ -e $file && $file != *schema.json ]] || continue
     count=$((count + 1))
-    "$ROOT/build/release/lmdbench" plan "$file" --json >/dev/null || bad=$((bad + 1))
+    if ! message="$("$ROOT/build/release/lmdbench" plan "$file" --json 2>&1 >/dev/null)" &&
+      [[ $message != *"is not built yet"* ]]; then
+      say "$message"
+      bad=$((bad + 1))
+    fi
   done
   say "$count experiment files, $bad wrong"
   ((count > 0 && bad == 0))

@@ -88,7 +88,8 @@ void run_scene(const std::string& experiment, const std::vector<std::string>& sw
 std::set<std::string> differences(const std::filesystem::path& without, const std::filesystem::path& with) {
   const ResultReader base(without), candidate(with);
   std::set<std::string> names;
-  for (const Difference& difference : exact_differences(base, candidate, {})) names.insert(difference.dataset);
+  for (const Difference& difference : exact_differences(base, candidate, {}))
+    names.insert(difference.dataset);
   for (const char* group : {"/path", "/reference", "/crosscheck"})
     for (const Difference& difference : group_differences(base, candidate, group))
       names.insert(difference.dataset);

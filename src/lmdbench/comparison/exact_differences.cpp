@@ -3,6 +3,8 @@
 #include <lmdbench/comparison/exact_differences.h>
 #include <lmdbench/comparison/frame_index.h>
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -34,7 +36,7 @@ void collect_deterministic(const ResultReader& file, const std::string& group, c
   for (const std::string& name : file.datasets(group))
     if (!is_time(file, group, name)) paths.push_back(prefix + name);
   for (const std::string& name : file.groups(group))
-    collect_deterministic(file, group + "/" + name, prefix + name + "/", paths);
+    collect_deterministic(file, fmt::format("{}/{}", group, name), fmt::format("{}{}/", prefix, name), paths);
 }
 
 std::vector<std::string> deterministic_datasets(const ResultReader& file, const std::string& group) {
@@ -252,7 +254,8 @@ std::vector<std::string> additions(const ResultReader& base, const ResultReader&
       continue;
     }
     for (const std::string& dataset : deterministic_datasets(candidate, group))
-      if (!base.has(group + "/" + dataset)) names.push_back(method + "/" + dataset);
+      if (!base.has(fmt::format("{}/{}", group, dataset)))
+        names.push_back(fmt::format("{}/{}", method, dataset));
   }
   return names;
 }
