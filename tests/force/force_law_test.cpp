@@ -46,7 +46,8 @@ TEST(ForceLaw, SaturatesAndEndsContinuously) {
     EXPECT_NEAR(force_magnitude(profile, std::nextafter(0.010, 0.0)), 0.0, 1e-13);
     EXPECT_GT(force_magnitude(profile, std::nextafter(0.010, 0.0)), 0.0);
     EXPECT_EQ(force_magnitude(profile, 0.010), 0.0);
-    EXPECT_EQ(force_magnitude(profile, 1.0), 0.0);
+    for (const double beyond : {0.0101, 0.015, 0.0199, 1.0})
+      EXPECT_EQ(force_magnitude(profile, beyond), 0.0) << beyond;
     EXPECT_EQ(force_stiffness(profile, 0.002), 0.0);
     EXPECT_EQ(force_stiffness(profile, 0.010), 0.0);
     EXPECT_GT(force_stiffness(profile, 0.005), 0.0);
