@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 #include <hdf5.h>
 #include <nlohmann/json.hpp>
+#include <support/source_directory.h>
 
 #include <filesystem>
 #include <fstream>

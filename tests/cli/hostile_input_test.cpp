@@ -3,6 +3,7 @@
 #include "program.h"
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <support/source_directory.h>
 #include <sys/stat.h>
 
 #include <filesystem>

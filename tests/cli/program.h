@@ -3,6 +3,7 @@
 #pragma once
 
 #include <support/scratch_directory.h>
+#include <support/source_directory.h>
 #include <sys/wait.h>
 
 #include <cstdlib>

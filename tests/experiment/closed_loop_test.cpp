@@ -8,6 +8,7 @@
 
 #include <gtest/gtest.h>
 #include <record/result_reading.h>
+#include <support/source_directory.h>
 
 #include <algorithm>
 #include <cmath>

@@ -7,6 +7,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <record/result_reading.h>
+#include <support/source_directory.h>
 
 #include <algorithm>
 #include <cmath>

@@ -11,6 +11,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 #include <support/scratch_directory.h>
+#include <support/source_directory.h>
 
 #include <algorithm>
 #include <cmath>

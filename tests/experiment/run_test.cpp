@@ -11,6 +11,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 #include <record/result_reading.h>
+#include <support/source_directory.h>
 
 #include <algorithm>
 #include <cstring>

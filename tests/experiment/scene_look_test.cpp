@@ -10,6 +10,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 #include <support/scratch_directory.h>
+#include <support/source_directory.h>
 
 namespace lmdbench {
 namespace {

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 #include <support/scenes.h>
+#include <support/source_directory.h>
 
 #include <string>
 #include <vector>

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
+#include <support/source_directory.h>
 
 #include <cmath>
 #include <cstdlib>

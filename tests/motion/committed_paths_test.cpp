@@ -10,6 +10,7 @@
 #include <lmdbench/motion/tum_file.h>
 
 #include <gtest/gtest.h>
+#include <support/source_directory.h>
 
 #include <algorithm>
 #include <filesystem>

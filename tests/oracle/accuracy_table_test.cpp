@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
 #include <judge/accuracy_table.h>
+#include <support/source_directory.h>
 
 #include <algorithm>
 #include <cctype>

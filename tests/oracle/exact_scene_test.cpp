@@ -7,6 +7,7 @@
 #include <judge/exact_scene.h>
 #include <judge/exact_scene_judgement.h>
 #include <support/scenes.h>
+#include <support/source_directory.h>
 
 #include <algorithm>
 #include <cctype>

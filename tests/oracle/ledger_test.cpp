@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 #include <judge/ledger.h>
 #include <nlohmann/json.hpp>
+#include <support/source_directory.h>
 
 #include <algorithm>
 #include <string>

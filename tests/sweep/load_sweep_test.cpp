@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <support/message_of.h>
 #include <support/scratch_directory.h>
+#include <support/source_directory.h>
 
 #include <filesystem>
 

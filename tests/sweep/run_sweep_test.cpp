@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 #include <record/result_reading.h>
+#include <support/source_directory.h>
 
 #include <cmath>
 #include <filesystem>

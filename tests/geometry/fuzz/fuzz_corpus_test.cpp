@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "geometry/fuzz/check_triangle_pair.h"
 #include <gtest/gtest.h>
+#include <support/source_directory.h>
 
 #include <algorithm>
 #include <array>

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "methods/fuzz/check_lmd_sets.h"
 #include <gtest/gtest.h>
+#include <support/source_directory.h>
 
 #include <algorithm>
 #include <filesystem>
