@@ -12,14 +12,14 @@ constexpr std::size_t FRAME_COUNT = 1500;
 /// No divisor of the frames between two searches, so that sets of every age are checked.
 constexpr std::size_t CHECK_STRIDE = 47;
 
-struct Checked {
+struct CheckedLoop {
   std::unique_ptr<FrameLoop> loop;
   LmdError error;
 };
 
-void add(const std::string& task, const FrameImplementation& implementation, const RecordedPath& path) {
+void add_loop(const std::string& task, const FrameImplementation& implementation, const RecordedPath& path) {
   const auto checked = once([&path, implementation] {
-    Checked made{implementation.make(path), {}};
+    CheckedLoop made{implementation.make(path), {}};
     made.error = check_frames(implementation, *made.loop, path);
     return made;
   });
@@ -51,7 +51,7 @@ const std::vector<RecordedPath>& contact_paths() {
 void add_frame_benchmarks(const std::string& task, const std::vector<FrameImplementation>& implementations,
                           const std::vector<RecordedPath>& paths) {
   for (const RecordedPath& path : paths)
-    for (const FrameImplementation& implementation : implementations) add(task, implementation, path);
+    for (const FrameImplementation& implementation : implementations) add_loop(task, implementation, path);
 }
 
 }  // namespace lmdbench::experiments

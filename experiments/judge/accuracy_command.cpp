@@ -58,7 +58,7 @@ void print_times() {
   }
 }
 
-int run(bool million) {
+int judge_accuracy(bool million) {
   if (million) {
     fmt::print("# Triangle distances: a million pairs a family\n\n");
     print_answers(MILLION_TABLE, "lmdbench-judge accuracy --million", "MillionTable", MILLION_PAIRS);
@@ -78,7 +78,7 @@ void add_accuracy(CLI::App& app, Run& chosen) {
       "accuracy", "Wrong answers, errors and times of triangle distances: ours, FCL's, CGAL's");
   const auto million = std::make_shared<bool>(false);
   command->add_flag("--million", *million, "a million pairs a family, without times");
-  command->callback([&chosen, million] { chosen = [million] { return run(*million); }; });
+  command->callback([&chosen, million] { chosen = [million] { return judge_accuracy(*million); }; });
 }
 
 }  // namespace lmdbench::exact

@@ -17,12 +17,12 @@
 namespace lmdbench::exact {
 namespace {
 
-struct Choice {
+struct LedgerChoice {
   std::vector<std::string> results;
   std::string experiment, out;
 };
 
-int run(const Choice& choice) {
+int judge_ledger(const LedgerChoice& choice) {
   std::vector<Ledger> ledgers;
   std::string json;
   for (const std::string& result : choice.results) {
@@ -45,13 +45,13 @@ int run(const Choice& choice) {
 void add_ledger(CLI::App& app, Run& chosen) {
   CLI::App* command =
       app.add_subcommand("ledger", "Arbitrates what FCL, the nearest pair and the methods answered");
-  const auto choice = std::make_shared<Choice>();
+  const auto choice = std::make_shared<LedgerChoice>();
   command->add_option("results", choice->results, "result files of lmdbench run with an FCL cross-check")
       ->required();
   command->add_option("--experiment", choice->experiment,
                       "experiment file, if not found where the run's command line says");
   command->add_option("--out", choice->out, "also write NAME.md and NAME.json");
-  command->callback([&chosen, choice] { chosen = [choice] { return run(*choice); }; });
+  command->callback([&chosen, choice] { chosen = [choice] { return judge_ledger(*choice); }; });
 }
 
 }  // namespace lmdbench::exact

@@ -19,13 +19,13 @@
 namespace lmdbench::exact {
 namespace {
 
-struct Choice {
+struct TruthChoice {
   std::vector<std::string> experiments;
   std::int64_t frames = std::numeric_limits<std::int64_t>::max();
   std::string out;
 };
 
-int run(const Choice& choice) {
+int judge_truth(const TruthChoice& choice) {
   std::vector<Judgement> judgements;
   bool wrong = false;
   for (const std::string& experiment : choice.experiments) {
@@ -48,12 +48,12 @@ int run(const Choice& choice) {
 void add_truth(CLI::App& app, Run& chosen) {
   CLI::App* command =
       app.add_subcommand("truth", "Judges the ground truth of experiments by the definition of an LMD");
-  const auto choice = std::make_shared<Choice>();
+  const auto choice = std::make_shared<TruthChoice>();
   command->add_option("experiments", choice->experiments, "experiment files")->required();
   command->add_option("--frames", choice->frames,
                       "at most so many frames of each, evenly spread; all without it");
   command->add_option("--out", choice->out, "also write the table to this file");
-  command->callback([&chosen, choice] { chosen = [choice] { return run(*choice); }; });
+  command->callback([&chosen, choice] { chosen = [choice] { return judge_truth(*choice); }; });
 }
 
 }  // namespace lmdbench::exact

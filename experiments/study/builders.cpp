@@ -22,7 +22,7 @@
 namespace lmdbench::scaling {
 namespace {
 
-struct Choice {
+struct BuilderChoice {
   experiments::SceneChoice scene;
   std::size_t poses = 40;
   std::uint64_t seed = 1;
@@ -64,8 +64,8 @@ std::vector<Variant> all_variants() {
   return variants;
 }
 
-std::string row(const Variant& variant, const Choice& choice, const Surface& moving, const Surface& fixed,
-                const std::vector<Pose>& poses) {
+std::string row(const Variant& variant, const BuilderChoice& choice, const Surface& moving,
+                const Surface& fixed, const std::vector<Pose>& poses) {
   const double start = process_seconds();
   const WideHierarchy a = build_wide_hierarchy(moving, variant.options);
   const double seconds = process_seconds() - start;
@@ -92,7 +92,7 @@ std::string row(const Variant& variant, const Choice& choice, const Surface& mov
                      bytes_with_rule(a, variant.rule, variant.options.width) / triangles);
 }
 
-int run(const Choice& choice) {
+int compare_builders(const BuilderChoice& choice) {
   const Scene scene = experiments::load_scene(choice.scene);
   const Body& moving = *scene.moving;
   const Body& fixed = *scene.fixed.at(0);
@@ -123,12 +123,12 @@ int run(const Choice& choice) {
 void lmdbench::study::add_builders(CLI::App& app, Run& chosen) {
   CLI::App* command = app.add_subcommand(
       "builders", "Builders of the wide hierarchy, by the work that their trees leave to a search");
-  const auto choice = std::make_shared<scaling::Choice>();
+  const auto choice = std::make_shared<scaling::BuilderChoice>();
   experiments::add_mesh_options(*command, choice->scene);
   experiments::add_scene_options(*command, choice->scene);
   command->add_option("--poses", choice->poses, "Random poses")
       ->capture_default_str()
       ->check(CLI::PositiveNumber);
   command->add_option("--seed", choice->seed, "Seed of the poses")->capture_default_str();
-  command->callback([&chosen, choice] { chosen = [choice] { return scaling::run(*choice); }; });
+  command->callback([&chosen, choice] { chosen = [choice] { return scaling::compare_builders(*choice); }; });
 }

@@ -19,8 +19,8 @@
 namespace lmdbench::experiments {
 namespace {
 
-struct Choice : StudyChoice {
-  Choice() { poses = 40; }
+struct ComparisonChoice : StudyChoice {
+  ComparisonChoice() { poses = 40; }
   std::size_t repetitions = 9;
   std::string path;
   std::size_t first_frame = 0;
@@ -33,7 +33,7 @@ struct Row {
   double median_ms = 0.0, p99_ms = 0.0, ratio_to_fcl = 0.0;
 };
 
-std::vector<Row> measure(const Scene& scene, const std::vector<Pose>& poses, const Choice& choice) {
+std::vector<Row> measure(const Scene& scene, const std::vector<Pose>& poses, const ComparisonChoice& choice) {
   const Truth truth = exhaustive_truth(scene, poses);
   std::vector<Row> rows;
   std::vector<std::unique_ptr<GlobalSearch>> searches;
@@ -49,7 +49,7 @@ std::vector<Row> measure(const Scene& scene, const std::vector<Pose>& poses, con
   double fcl_ms = 0.0;
   for (std::size_t i = 0; i < rows.size(); ++i) {
     rows[i].median_ms = 1e3 * median(seconds[i]);
-    rows[i].p99_ms = 1e3 * quantile(seconds[i], 0.99);
+    rows[i].p99_ms = 1e3 * quantile(seconds[i], P99);
     if (rows[i].name == "fcl-cold") fcl_ms = rows[i].median_ms;
   }
   for (Row& row : rows) row.ratio_to_fcl = fcl_ms / row.median_ms;
@@ -85,22 +85,22 @@ nlohmann::json to_json(const Row& row) {
           {"objection", row.error.objection}};
 }
 
-std::vector<Pose> choose_poses(const Scene& scene, const Choice& choice) {
+std::vector<Pose> comparison_poses(const Scene& scene, const ComparisonChoice& choice) {
   if (!choice.path.empty()) return path_poses(choice.path, choice.first_frame, choice.poses);
   return grazing_poses(*scene.moving, *scene.fixed.at(0), choice.scene.gap * choice.scene.diagonal,
                        choice.poses, choice.seed);
 }
 
-std::string describe_poses(const Choice& choice) {
+std::string describe_poses(const ComparisonChoice& choice) {
   if (!choice.path.empty())
     return fmt::format("{} frames of {} from frame {}", choice.poses, choice.path, choice.first_frame);
   return fmt::format("{} random poses at gap {:g} % of the diagonal, seed {}", choice.poses,
                      100.0 * choice.scene.gap, choice.seed);
 }
 
-int run(const Choice& choice) {
+int compare_times(const ComparisonChoice& choice) {
   Scene scene = load_scene(choice.scene);
-  const std::vector<Pose> poses = choose_poses(scene, choice);
+  const std::vector<Pose> poses = comparison_poses(scene, choice);
   fmt::print("{} on {}, diagonal {:g} m: {}; median of {} runs a pose, one thread's processor time\n",
              choice.scene.moving, choice.scene.fixed, choice.scene.diagonal, describe_poses(choice),
              choice.repetitions);
@@ -129,7 +129,7 @@ int run(const Choice& choice) {
 void lmdbench::study::add_compare(CLI::App& app, Run& chosen) {
   CLI::App* command =
       app.add_subcommand("compare", "Interleaved comparison of global searches, error beside time");
-  const auto choice = std::make_shared<experiments::Choice>();
+  const auto choice = std::make_shared<experiments::ComparisonChoice>();
   experiments::add_mesh_options(*command, choice->scene);
   experiments::add_study_options(*command, *choice);
   command->add_option("--repetitions", choice->repetitions, "Timed runs a pose")->capture_default_str();
@@ -137,5 +137,5 @@ void lmdbench::study::add_compare(CLI::App& app, Run& chosen) {
                       "Recorded path (TUM) instead of random poses: consecutive frames at 1 kHz");
   command->add_option("--first-frame", choice->first_frame, "First frame of the path")->capture_default_str();
   command->add_flag("--slow", choice->slow, "Time slow implementations too");
-  command->callback([&chosen, choice] { chosen = [choice] { return experiments::run(*choice); }; });
+  command->callback([&chosen, choice] { chosen = [choice] { return experiments::compare_times(*choice); }; });
 }

@@ -50,8 +50,8 @@ const std::vector<std::string> DEFAULT_PAIRS = {"bunny-5k:bunny-5k",
                                                 "wedge:l-block",
                                                 "two-boxes:patch"};
 
-struct Choice : experiments::StudyChoice {
-  Choice() { seed = 3; }
+struct CompletenessChoice : experiments::StudyChoice {
+  CompletenessChoice() { seed = 3; }
   std::vector<std::string> pairs = DEFAULT_PAIRS;
   std::vector<std::string> experiments;
   std::string poses_file;
@@ -102,7 +102,7 @@ std::string numbers(const Judgement& judgement) {
 constexpr const char* NUMBER_HEADS =
     "true LMDs | missed | wrong | duplicates | wrong poses | distance off, diagonals | points off, diagonals";
 
-std::vector<Pose> choose_poses(const Scene& scene, const Choice& choice) {
+std::vector<Pose> choose_poses(const Scene& scene, const CompletenessChoice& choice) {
   if (choice.poses_file.empty())
     return experiments::grazing_poses(*scene.moving, *scene.fixed.at(0),
                                       choice.scene.gap * choice.scene.diagonal, choice.poses, choice.seed);
@@ -111,7 +111,7 @@ std::vector<Pose> choose_poses(const Scene& scene, const Choice& choice) {
   return poses;
 }
 
-nlohmann::json run_pair(const std::string& pair, Choice choice, Complaints& complaints) {
+nlohmann::json run_pair(const std::string& pair, CompletenessChoice choice, Complaints& complaints) {
   choose_pair(pair, choice.scene);
   const Scene scene = load_scene(choice.scene);
   const std::size_t moving_triangles = scene.moving->surface().mesh.triangles.size();
@@ -138,7 +138,8 @@ nlohmann::json run_pair(const std::string& pair, Choice choice, Complaints& comp
   return entry;
 }
 
-nlohmann::json run_path(const std::string& experiment, const Choice& choice, Complaints& complaints) {
+nlohmann::json run_path(const std::string& experiment, const CompletenessChoice& choice,
+                        Complaints& complaints) {
   fmt::print(stderr, "{}\n", experiment);
   const PathResult result =
       judge_path(experiment, choice.scene.meshes, choice.truth_stride, complaints.about(experiment));
@@ -157,7 +158,7 @@ nlohmann::json run_path(const std::string& experiment, const Choice& choice, Com
   return entry;
 }
 
-nlohmann::json run_far_scenes(const Choice& choice, Complaints& complaints) {
+nlohmann::json run_far_scenes(const CompletenessChoice& choice, Complaints& complaints) {
   fmt::print(stderr, "{} poses far from the origin\n", choice.far_poses);
   nlohmann::json rows = nlohmann::json::array();
   for (const FarResult& result :
@@ -174,7 +175,7 @@ nlohmann::json run_far_scenes(const Choice& choice, Complaints& complaints) {
   return rows;
 }
 
-int run(const Choice& choice) {
+int judge_completeness(const CompletenessChoice& choice) {
   Complaints complaints;
   nlohmann::json report = {{"format", "lmdbench-completeness"},
                            {"format_version", 1},
@@ -234,7 +235,7 @@ int run(const Choice& choice) {
 
 void lmdbench::study::add_completeness(CLI::App& app, Run& chosen) {
   CLI::App* command = app.add_subcommand("completeness", "Is certified complete and exact?");
-  const auto choice = std::make_shared<completeness::Choice>();
+  const auto choice = std::make_shared<completeness::CompletenessChoice>();
   const auto no_pairs = std::make_shared<bool>(false);
   command->add_option("--pair", choice->pairs, "MOVING:FIXED meshes, may be repeated");
   command->add_flag("--no-pairs", *no_pairs, "Only the experiments");
@@ -252,6 +253,6 @@ void lmdbench::study::add_completeness(CLI::App& app, Run& chosen) {
       ->capture_default_str();
   command->callback([&chosen, choice, no_pairs] {
     if (*no_pairs) choice->pairs.clear();
-    chosen = [choice] { return completeness::run(*choice); };
+    chosen = [choice] { return completeness::judge_completeness(*choice); };
   });
 }

@@ -26,7 +26,7 @@
 namespace lmdbench::study {
 namespace {
 
-struct Choice {
+struct DepthChoice {
   experiments::SceneChoice scene;
   double cutoff = 0.005;  ///< Share of the diagonal.
   double turn = 0.1;      ///< rad
@@ -48,7 +48,7 @@ Eigen::AlignedBox3d box_of(const Body& body) {
 }
 
 /// Depth 0: the boxes are a percent apart; 1: their centres nearly meet.
-std::vector<Pose> slide(const Scene& scene, const Choice& choice) {
+std::vector<Pose> slide(const Scene& scene, const DepthChoice& choice) {
   const Eigen::AlignedBox3d moving = box_of(*scene.moving), fixed = box_of(*scene.fixed[0]);
   const double diagonal = moving.diagonal().norm();
   const double reach = 0.5 * (moving.sizes().x() + fixed.sizes().x()) + 0.01 * diagonal;
@@ -63,7 +63,7 @@ std::vector<Pose> slide(const Scene& scene, const Choice& choice) {
   return poses;
 }
 
-int run(const Choice& choice) {
+int slide_inwards(const DepthChoice& choice) {
   Scene scene = experiments::load_scene(choice.scene);
   scene.cutoff = choice.cutoff * choice.scene.diagonal;
   const std::vector<Pose> poses = slide(scene, choice);
@@ -128,10 +128,10 @@ int run(const Choice& choice) {
     for (const Way& way : ways) {
       const std::vector<double> seconds = part(way.seconds);
       const double largest = *std::max_element(seconds.begin(), seconds.end());
-      fmt::print("| {:.1f} | {:.1f} | {:.1f} ", 1e6 * median(seconds), 1e6 * quantile(seconds, 0.99),
+      fmt::print("| {:.1f} | {:.1f} | {:.1f} ", 1e6 * median(seconds), 1e6 * quantile(seconds, P99),
                  1e6 * largest);
       entry[way.name] = {
-          {"median_s", median(seconds)}, {"p99_s", quantile(seconds, 0.99)}, {"largest_s", largest}};
+          {"median_s", median(seconds)}, {"p99_s", quantile(seconds, P99)}, {"largest_s", largest}};
     }
     fmt::print("|\n");
     report["rows"].push_back(entry);
@@ -152,7 +152,7 @@ int run(const Choice& choice) {
 }  // namespace
 
 void add_depth(CLI::App& app, Run& chosen) {
-  const auto choice = std::make_shared<Choice>();
+  const auto choice = std::make_shared<DepthChoice>();
   CLI::App* command = app.add_subcommand("depth", "What does a frame cost at every depth of overlap?");
   experiments::add_mesh_options(*command, choice->scene);
   experiments::add_scene_options(*command, choice->scene);
@@ -172,7 +172,7 @@ void add_depth(CLI::App& app, Run& chosen) {
                    "Compare every so many frames with exhaustive; 0: none")
       ->capture_default_str();
   command->add_option("--json", choice->json, "Also write the table to this file");
-  command->callback([choice, &chosen] { chosen = [choice] { return run(*choice); }; });
+  command->callback([choice, &chosen] { chosen = [choice] { return slide_inwards(*choice); }; });
 }
 
 }  // namespace lmdbench::study

@@ -48,7 +48,7 @@ struct Outcome {
   double residual = 0.0;         ///< Of the energy balance, relative to the energy moved.
 };
 
-Outcome run(const Case& which, Integration integration) {
+Outcome move_through(const Case& which, Integration integration) {
   Outcome outcome;
   SimulatedDevice device(which.dynamics, integration, PERIOD, Vec3::Zero(), Vec3(1.0, 0.0, 0.0), 0.0);
   outcome.position.reserve(TICKS);
@@ -77,13 +77,13 @@ double error(const Outcome& outcome, const Outcome& reference) {
 
 void print_case(const Case& which) {
   const auto names = integration_names();
-  const Outcome reference = run(which, Integration::EXACT);
+  const Outcome reference = move_through(which, Integration::EXACT);
   std::vector<std::vector<double>> microseconds(names.size());
   std::vector<Outcome> outcomes(names.size());
   for (int repetition = 0; repetition < REPETITIONS; ++repetition) {
     for (std::size_t turn = 0; turn < names.size(); ++turn) {
       const std::size_t i = repetition % 2 == 0 ? turn : names.size() - 1 - turn;
-      outcomes[i] = run(which, static_cast<Integration>(i));
+      outcomes[i] = move_through(which, static_cast<Integration>(i));
       microseconds[i].push_back(outcomes[i].seconds / TICKS * 1e6);
     }
   }

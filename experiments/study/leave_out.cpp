@@ -100,7 +100,7 @@ bool is_counter(const std::string& dataset) {
   return dataset.find("counters/") != std::string::npos;
 }
 
-int run_study(const LeaveOutChoice& choice) {
+int compare_rules(const LeaveOutChoice& choice) {
   const TemporaryFolder folder(std::filesystem::temp_directory_path(), "lmdbench-leave-out-");
   std::map<std::string, std::string> rows;  // by rule
   std::map<std::string, int> pays;
@@ -162,7 +162,7 @@ void add_leave_out(CLI::App& app, Run& chosen) {
   command->add_option("EXPERIMENT", choice->experiments, "experiment files")->required();
   command->add_option("--processes", choice->processes, "processes a setting; the least time counts")
       ->capture_default_str();
-  command->callback([choice, &chosen] { chosen = [choice] { return run_study(*choice); }; });
+  command->callback([choice, &chosen] { chosen = [choice] { return compare_rules(*choice); }; });
 }
 
 }  // namespace lmdbench::study

@@ -11,11 +11,11 @@
 namespace lmdbench::study {
 namespace {
 
-constexpr double PERIOD = 1e-3;
+constexpr double WALL_PERIOD = 1e-3;
 constexpr double DAMPING = 0.8;
 constexpr double WAY = 1e-4;  ///< A tenth of a metre a second.
 constexpr int DEPTH = 50;
-constexpr double COLGATE = 2.0 * DAMPING / PERIOD;
+constexpr double COLGATE = 2.0 * DAMPING / WALL_PERIOD;
 
 int tables() {
   fmt::print(
@@ -24,11 +24,12 @@ int tables() {
       "0.023 mm, uJ |\n|---|---|---|---|---|\n");
   for (const double ratio : {0.25, 0.5, 0.9, 0.99, 1.0, 1.01, 1.1, 1.5, 2.0, 4.0}) {
     const auto gain = [&](double friction, double resolution) {
-      const Excursion e = carry_through({ratio * COLGATE, PERIOD, resolution}, DAMPING, friction, WAY, DEPTH);
+      const Excursion e =
+          carry_through({ratio * COLGATE, WALL_PERIOD, resolution}, DAMPING, friction, WAY, DEPTH);
       return 1e6 * e.net_energy_j / static_cast<double>(e.periods);
     };
     fmt::print("| {:g} | {:.6f} | {:.6f} | {:.6f} | {:.6f} |\n", ratio, gain(0.0, 0.0),
-               1e6 * (0.5 * ratio * COLGATE - DAMPING / PERIOD) * WAY * WAY, gain(0.03, 0.0),
+               1e6 * (0.5 * ratio * COLGATE - DAMPING / WALL_PERIOD) * WAY * WAY, gain(0.03, 0.0),
                gain(0.0, 2.3e-5));
   }
   fmt::print(
@@ -37,7 +38,7 @@ int tables() {
       "|---|---|---|---|---|---|\n");
   constexpr double COUNT = 2.3e-5;
   for (const double ratio : {0.1, 0.5, 0.9}) {
-    const SampledWall wall{ratio * COLGATE, PERIOD, COUNT};
+    const SampledWall wall{ratio * COLGATE, WALL_PERIOD, COUNT};
     const double half_count_force = 0.5 * wall.stiffness_n_per_m * COUNT;
     for (const double share : {0.0, 0.1, 0.25, 0.5, 0.99, 1.01, 2.0}) {
       // The load lies midway between two counts' forces: no rest without friction.

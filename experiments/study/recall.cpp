@@ -58,7 +58,7 @@ std::vector<VariantResult> judge_all(const std::vector<Variant>& variants, const
   return results;
 }
 
-int run(const experiments::StudyChoice& choice) {
+int measure_recall(const experiments::StudyChoice& choice) {
   Scene scene = load_scene(choice.scene);
   const double diagonal = choice.scene.diagonal;
   const std::vector<Pose> poses = experiments::grazing_poses(
@@ -103,5 +103,6 @@ void lmdbench::study::add_recall(CLI::App& app, Run& chosen) {
   choice->seed = 2;
   experiments::add_mesh_options(*command, choice->scene);
   experiments::add_study_options(*command, *choice);
-  command->callback([&chosen, choice] { chosen = [choice] { return recall_study::run(*choice); }; });
+  command->callback(
+      [&chosen, choice] { chosen = [choice] { return recall_study::measure_recall(*choice); }; });
 }

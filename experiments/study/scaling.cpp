@@ -31,7 +31,7 @@ namespace {
 
 constexpr int FORMAT_VERSION = 1;
 
-struct Choice {
+struct ScalingChoice {
   std::filesystem::path meshes = DEFAULT_MESH_FOLDER;
   double diagonal = 0.15;
   double gap = 0.002;
@@ -67,7 +67,7 @@ struct Study {
   bool large = false;         ///< Needs meshes that are built only where they are named.
 };
 
-std::vector<Study> all_studies(const Choice& choice) {
+std::vector<Study> all_studies(const ScalingChoice& choice) {
   std::vector<Study> studies;
   const auto against_itself = [&](const std::string& name, const std::string& about,
                                   const std::vector<MeshChoice>& meshes, bool same_surface) {
@@ -99,7 +99,7 @@ std::vector<Study> all_studies(const Choice& choice) {
   return studies;
 }
 
-TriangleMesh load_mesh(const MeshChoice& mesh, const Choice& choice) {
+TriangleMesh load_mesh(const MeshChoice& mesh, const ScalingChoice& choice) {
   return subdivided(scaled_to_diagonal(resolve_mesh(mesh.mesh, choice.meshes).mesh, choice.diagonal),
                     mesh.subdivisions);
 }
@@ -118,7 +118,7 @@ nlohmann::json to_json(const BuildCost& cost, std::size_t triangles) {
 /// Bodies of a study's meshes, with what their making took. Two neighbouring points often share one.
 class Bodies {
  public:
-  explicit Bodies(const Choice& choice) : choice_(choice) {}
+  explicit Bodies(const ScalingChoice& choice) : choice_(choice) {}
 
   std::shared_ptr<const Body> get(const MeshChoice& mesh) {
     for (const auto& body : last_)
@@ -135,7 +135,7 @@ class Bodies {
   const nlohmann::json& costs() const { return costs_; }
 
  private:
-  const Choice& choice_;
+  const ScalingChoice& choice_;
   std::vector<std::shared_ptr<const Body>> last_;
   nlohmann::json costs_ = nlohmann::json::object();
 };
@@ -170,7 +170,7 @@ void print_row(const Point& point, const Scene& scene, const Measurement& measur
              scene.moving->surface().mesh.triangles.size(), 100.0 * point.gap, 100.0 * point.cutoff,
              median(lmds));
   for (const Series& series : measurement.series) {
-    fmt::print(" {:.1f} / {:.1f}", 1e6 * median(series.seconds), 1e6 * quantile(series.seconds, 0.99));
+    fmt::print(" {:.1f} / {:.1f}", 1e6 * median(series.seconds), 1e6 * quantile(series.seconds, P99));
     if (series.same.missed() > 0)
       fmt::print(" ({:.3f}, {:.3f})", series.same.recall(), series.neighbours.recall());
     fmt::print("{} |", series.objection.empty() ? "" : " WRONG");
@@ -197,7 +197,8 @@ void print_slopes(const nlohmann::json& points) {
   fmt::print("\n");
 }
 
-nlohmann::json run_study(const Study& study, const Choice& choice, Bodies& bodies, bool& kept_promises) {
+nlohmann::json measure_study(const Study& study, const ScalingChoice& choice, Bodies& bodies,
+                             bool& kept_promises) {
   nlohmann::json result = {{"name", study.name}, {"about", study.about}, {"points", nlohmann::json::array()}};
   std::vector<Pose> poses;
   for (const Point& point : study.points) {
@@ -263,7 +264,7 @@ void print_costs(const nlohmann::json& costs) {
   }
 }
 
-int run(const Choice& choice) {
+int measure_scaling(const ScalingChoice& choice) {
   nlohmann::json report = {{"format", "lmdbench-scaling"},
                            {"format_version", FORMAT_VERSION},
                            {"context", experiments::run_context()},
@@ -282,7 +283,7 @@ int run(const Choice& choice) {
   for (const Study& study : all_studies(choice)) {
     const bool named = std::erase(unknown, study.name) > 0;
     if (choice.only.empty() ? study.large && !choice.large : !named) continue;
-    report["studies"].push_back(run_study(study, choice, bodies, kept_promises));
+    report["studies"].push_back(measure_study(study, choice, bodies, kept_promises));
     report["builds"] = bodies.costs();
     experiments::write_report(choice.json, report);
   }
@@ -298,7 +299,7 @@ int run(const Choice& choice) {
 
 void lmdbench::study::add_scaling(CLI::App& app, Run& chosen) {
   CLI::App* command = app.add_subcommand("scaling", "How run time grows with triangles, cutoff and gap");
-  const auto choice = std::make_shared<scaling::Choice>();
+  const auto choice = std::make_shared<scaling::ScalingChoice>();
   command->add_option("--meshes", choice->meshes, "Folder of built meshes")->capture_default_str();
   command->add_option("--diagonal", choice->diagonal, "Diagonal of all meshes [m]")->capture_default_str();
   command->add_option("--gap", choice->gap, "Gap, share of the diagonal")->capture_default_str();
@@ -316,5 +317,5 @@ void lmdbench::study::add_scaling(CLI::App& app, Run& chosen) {
                     "The dragon too, whose meshes are optional: lmdbench mesh build dragon-11k dragon-47k "
                     "dragon-202k dragon-871k");
   command->add_option("--json", choice->json, "Also write every pose's numbers to this file");
-  command->callback([&chosen, choice] { chosen = [choice] { return scaling::run(*choice); }; });
+  command->callback([&chosen, choice] { chosen = [choice] { return scaling::measure_scaling(*choice); }; });
 }

@@ -15,13 +15,13 @@
 namespace lmdbench::study {
 namespace {
 
-struct Choice {
+struct StabilityChoice {
   std::vector<std::string> experiments;
   std::vector<std::string> overrides;
   StabilityMapGrid grid{{150, 500, 1500, 5000, 11000, 16000}, {0, 5, 20, 100}};
 };
 
-int map(const Choice& choice) {
+int map(const StabilityChoice& choice) {
   for (const std::string& file : choice.experiments) {
     const Experiment experiment = load_experiment(file, choice.overrides);
     map_stability(experiment, choice.grid, [&](const StabilityMapRun& run) {
@@ -38,7 +38,7 @@ int map(const Choice& choice) {
 void add_stability(CLI::App& app, Run& chosen) {
   auto* command =
       app.add_subcommand("stability", "Closed loops over stiffness and age of the LMD set: raw runs");
-  const auto choice = std::make_shared<Choice>();
+  const auto choice = std::make_shared<StabilityChoice>();
   command->add_option("experiments", choice->experiments, "experiment files whose loop is closed")
       ->required();
   command->add_option("--set", choice->overrides, "override a value: /json/pointer=value; repeatable")

@@ -159,11 +159,11 @@ TEST(ImportTest, KeepsTrianglesWithoutArea) {
   EXPECT_THAT(mesh.triangles, ElementsAre(Corners{0, 1, 2}, Corners{0, 1, 3}, Corners{1, 1, 3}));
 }
 
-struct BrokenFile {
+struct BrokenMesh {
   std::string name, file, content, says;
 };
 
-class BrokenMeshTest : public ::testing::TestWithParam<BrokenFile> {};
+class BrokenMeshTest : public ::testing::TestWithParam<BrokenMesh> {};
 
 TEST_P(BrokenMeshTest, IsRefused) {
   const ScratchDirectory folder;
@@ -180,15 +180,15 @@ const std::string PLY_HEADER =
 INSTANTIATE_TEST_SUITE_P(
     Files, BrokenMeshTest,
     ::testing::Values(
-        BrokenFile{"empty", "a.off", "", "empty"}, BrokenFile{"text", "a.ply", "hello", ""},
-        BrokenFile{"unknown_format", "a.xyzzy", "hello", ""},
-        BrokenFile{"no_triangle", "a.off", "OFF\n3 0 0\n0 0 0\n1 0 0\n0 1 0\n", "no triangle"},
-        BrokenFile{"line_only", "a.obj", "v 0 0 0\nv 1 0 0\nl 1 2\n", "no triangle"},
-        BrokenFile{"obj_index", "a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 9\n", "index"},
-        BrokenFile{"ply_index", "a.ply", PLY_HEADER + "0 0 0\n1 0 0\n0 1 0\n3 0 1 5\n", "names vertex 5"},
-        BrokenFile{"ply_nan", "a.ply", PLY_HEADER + "0 0 0\n1 nan 0\n0 1 0\n3 0 1 2\n", "vertex 1"},
-        BrokenFile{"coff_cut_short", "a.off", "COFF\n3 4 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n", "1 of 4 faces"},
-        BrokenFile{"off_index", "a.OFF", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 7\n", "line 6"}),
+        BrokenMesh{"empty", "a.off", "", "empty"}, BrokenMesh{"text", "a.ply", "hello", ""},
+        BrokenMesh{"unknown_format", "a.xyzzy", "hello", ""},
+        BrokenMesh{"no_triangle", "a.off", "OFF\n3 0 0\n0 0 0\n1 0 0\n0 1 0\n", "no triangle"},
+        BrokenMesh{"line_only", "a.obj", "v 0 0 0\nv 1 0 0\nl 1 2\n", "no triangle"},
+        BrokenMesh{"obj_index", "a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 9\n", "index"},
+        BrokenMesh{"ply_index", "a.ply", PLY_HEADER + "0 0 0\n1 0 0\n0 1 0\n3 0 1 5\n", "names vertex 5"},
+        BrokenMesh{"ply_nan", "a.ply", PLY_HEADER + "0 0 0\n1 nan 0\n0 1 0\n3 0 1 2\n", "vertex 1"},
+        BrokenMesh{"coff_cut_short", "a.off", "COFF\n3 4 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n", "1 of 4 faces"},
+        BrokenMesh{"off_index", "a.OFF", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 7\n", "line 6"}),
     [](const auto& parameter) { return parameter.param.name; });
 
 TEST(ImportTest, NamesAMissingFileAndAFolder) {

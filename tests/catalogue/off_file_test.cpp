@@ -83,11 +83,11 @@ TEST(OffFileTest, ReadsVariantsThatHaveMoreColumnsAndNoOthers) {
               HasSubstr("'4OFF'"));
 }
 
-struct BrokenFile {
+struct BrokenOff {
   std::string name, content, place, problem;
 };
 
-class BrokenOffTest : public ::testing::TestWithParam<BrokenFile> {};
+class BrokenOffTest : public ::testing::TestWithParam<BrokenOff> {};
 
 TEST_P(BrokenOffTest, IsRefusedWithItsPlaceAndARemedy) {
   const ScratchDirectory folder;
@@ -102,22 +102,22 @@ const std::string THREE = "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n";
 INSTANTIATE_TEST_SUITE_P(
     Files, BrokenOffTest,
     ::testing::Values(
-        BrokenFile{"nan", "OFF\n3 1 0\n0 0 0\n1 nan 0\n0 1 0\n3 0 1 2\n", "line 4", "vertex 1"},
-        BrokenFile{"infinity", "OFF\n3 1 0\n0 0 0\n1 -inf 0\n0 1 0\n3 0 1 2\n", "line 4", "vertex 1"},
-        BrokenFile{"too_large", "OFF\n3 1 0\n0 0 0\n1 1e999 0\n0 1 0\n3 0 1 2\n", "line 4", "out of range"},
-        BrokenFile{"word", "OFF\n3 1 0\n0 0 0\n1 2,5 0\n0 1 0\n3 0 1 2\n", "line 4", "'2,5' is not a number"},
-        BrokenFile{"two_coordinates", "OFF\n3 1 0\n0 0 0\n1 0\n0 1 0\n3 0 1 2\n", "line 4", "missing"},
-        BrokenFile{"index_too_large", THREE + "3 0 1 3\n", "line 6", "face 0 names vertex 3"},
-        BrokenFile{"index_negative", THREE + "3 0 1 -2\n", "line 6", "face 0 names vertex -2"},
-        BrokenFile{"index_missing", THREE + "3 0 1\n", "line 6", "missing"},
-        BrokenFile{"index_fraction", THREE + "3 0 1 1.5\n", "line 6", "'1.5' is not a number"},
-        BrokenFile{"no_corners", THREE + "0\n", "line 6", "has 0 corners"},
-        BrokenFile{"cut_in_vertices", "OFF\n5 1 0\n0 0 0\n1 0 0\n", "line 4", "after 2 of 5 vertices"},
-        BrokenFile{"cut_in_faces", "OFF\n3 4 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n", "line 6",
-                   "after 1 of 4 faces"},
-        BrokenFile{"cut_in_header", "OFF\n", "line 1", "ends after its keyword"},
-        BrokenFile{"negative_count", "OFF\n-3 1 0\n", "line 2", "negative"},
-        BrokenFile{"huge_count", "OFF\n4000000000 1 0\n", "line 2", "too large"}),
+        BrokenOff{"nan", "OFF\n3 1 0\n0 0 0\n1 nan 0\n0 1 0\n3 0 1 2\n", "line 4", "vertex 1"},
+        BrokenOff{"infinity", "OFF\n3 1 0\n0 0 0\n1 -inf 0\n0 1 0\n3 0 1 2\n", "line 4", "vertex 1"},
+        BrokenOff{"too_large", "OFF\n3 1 0\n0 0 0\n1 1e999 0\n0 1 0\n3 0 1 2\n", "line 4", "out of range"},
+        BrokenOff{"word", "OFF\n3 1 0\n0 0 0\n1 2,5 0\n0 1 0\n3 0 1 2\n", "line 4", "'2,5' is not a number"},
+        BrokenOff{"two_coordinates", "OFF\n3 1 0\n0 0 0\n1 0\n0 1 0\n3 0 1 2\n", "line 4", "missing"},
+        BrokenOff{"index_too_large", THREE + "3 0 1 3\n", "line 6", "face 0 names vertex 3"},
+        BrokenOff{"index_negative", THREE + "3 0 1 -2\n", "line 6", "face 0 names vertex -2"},
+        BrokenOff{"index_missing", THREE + "3 0 1\n", "line 6", "missing"},
+        BrokenOff{"index_fraction", THREE + "3 0 1 1.5\n", "line 6", "'1.5' is not a number"},
+        BrokenOff{"no_corners", THREE + "0\n", "line 6", "has 0 corners"},
+        BrokenOff{"cut_in_vertices", "OFF\n5 1 0\n0 0 0\n1 0 0\n", "line 4", "after 2 of 5 vertices"},
+        BrokenOff{"cut_in_faces", "OFF\n3 4 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n", "line 6",
+                  "after 1 of 4 faces"},
+        BrokenOff{"cut_in_header", "OFF\n", "line 1", "ends after its keyword"},
+        BrokenOff{"negative_count", "OFF\n-3 1 0\n", "line 2", "negative"},
+        BrokenOff{"huge_count", "OFF\n4000000000 1 0\n", "line 2", "too large"}),
     [](const auto& parameter) { return parameter.param.name; });
 
 TEST(OffFileTest, WritesAllOrNothing) {

@@ -16,12 +16,6 @@ using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
-constexpr int USAGE = 2;
-constexpr int INPUT_DATA = 3;
-constexpr int ENVIRONMENT = 4;
-
-const std::string SHAPES = "'" LMDBENCH_SOURCE_DIR "/experiments/shapes.json' ";
-
 class BadInput : public ::testing::Test {
  protected:
   /// Runs the shapes experiment with this change; nothing of it may leave a result.

@@ -21,8 +21,7 @@ using ::testing::IsEmpty;
 using ::testing::Not;
 using ::testing::StartsWith;
 
-const std::string SHAPES = "'" LMDBENCH_SOURCE_DIR "/experiments/shapes.json' ";
-const std::string SHORT = SHAPES + "--set /frames=60 --set /driver/repetitions=2 ";
+const std::string SHORT_RUN = SHAPES + "--set /frames=60 --set /driver/repetitions=2 ";
 
 std::vector<nlohmann::json> json_lines(const std::string& text) {
   std::vector<nlohmann::json> lines;
@@ -53,7 +52,7 @@ TEST(Program, StandardOutputThatIsFullIsAnError) {
 
 TEST(RunCommand, WritesAResultFromAnyDirectory) {
   const ScratchDirectory scratch;
-  const Outcome outcome = lmdbench("run " + SHORT, scratch.path());
+  const Outcome outcome = lmdbench("run " + SHORT_RUN, scratch.path());
   EXPECT_EQ(outcome.code, 0) << outcome.err;
   EXPECT_TRUE(std::filesystem::exists(scratch / "results/shapes.h5")) << "the default place";
   EXPECT_THAT(outcome.out, HasSubstr("shapes: 60 frames"));
@@ -64,7 +63,8 @@ TEST(RunCommand, WritesAResultFromAnyDirectory) {
 
 TEST(RunCommand, JsonSummaryIsOneDocument) {
   const ScratchDirectory scratch;
-  const Outcome outcome = lmdbench("run " + SHORT + "--json -q --out '" + (scratch / "r.h5").string() + "'");
+  const Outcome outcome =
+      lmdbench("run " + SHORT_RUN + "--json -q --out '" + (scratch / "r.h5").string() + "'");
   EXPECT_EQ(outcome.code, 0) << outcome.err;
   const auto json = nlohmann::json::parse(outcome.out);
   EXPECT_EQ(json["frames"], 60);
@@ -78,7 +78,7 @@ TEST_P(StopSignals, EndTheRunByTheSignalKeepWhatWasMeasuredAndTheEarlierResult) 
   const auto [name, number] = GetParam();
   const ScratchDirectory scratch;
   const std::string result = (scratch / "r.h5").string();
-  ASSERT_EQ(lmdbench("run " + SHORT + "--out '" + result + "'").code, 0);
+  ASSERT_EQ(lmdbench("run " + SHORT_RUN + "--out '" + result + "'").code, 0);
   const std::string earlier = read_text(result);
   const std::string run = "run " + SHAPES + "--set /driver/repetitions=1000 --out '" + result + "'";
   // The part grows from a few kilobytes to all its room when the first frame is about to run.
@@ -121,7 +121,7 @@ TEST(PlanCommand, FailsAsARunDoesOnWhatIsNotThere) {
   for (const std::string fault : {"/device=phantom-dektop", "/path/file=nowhere.tum",
                                   "/moving/mesh=./nowhere.stl", "/fixed/0/mesh=nomesh"}) {
     const Outcome plan = lmdbench("plan " + SHAPES + "--set " + fault);
-    const Outcome run = lmdbench("run " + SHORT + "--set " + fault + " --out /tmp/never.h5");
+    const Outcome run = lmdbench("run " + SHORT_RUN + "--set " + fault + " --out /tmp/never.h5");
     EXPECT_NE(plan.code, 0) << fault;
     EXPECT_EQ(plan.code, run.code) << fault;
     EXPECT_EQ(plan.err, run.err) << fault;

@@ -21,12 +21,6 @@ using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-constexpr int USAGE = 2;
-constexpr int INPUT_DATA = 3;
-constexpr int ENVIRONMENT = 4;
-
-const std::string SHAPES_FILE = LMDBENCH_SOURCE_DIR "/experiments/shapes.json";
-const std::string SHAPES = "'" + SHAPES_FILE + "' ";
 const std::string SHORT = SHAPES + "--set /frames=20 --set /driver/repetitions=1 ";
 
 class HostileInput : public ::testing::Test {

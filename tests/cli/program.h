@@ -20,6 +20,15 @@ inline std::string read_text(const std::filesystem::path& file) {
   return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
 }
 
+/// Exit codes that scripts rely on.
+inline constexpr int USAGE = 2;
+inline constexpr int INPUT_DATA = 3;
+inline constexpr int ENVIRONMENT = 4;
+
+inline const std::string SHAPES_FILE = LMDBENCH_SOURCE_DIR "/experiments/shapes.json";
+/// As an argument of a shell's command, with a blank behind it.
+inline const std::string SHAPES = "'" + SHAPES_FILE + "' ";
+
 struct Outcome {
   int code = -1;  ///< Exit code, or minus the signal that ended the program.
   std::string out;

@@ -6,6 +6,7 @@
 #include <lmdbench/experiment/run.h>
 #include <lmdbench/motion/tum_file.h>
 
+#include <experiment/committed.h>
 #include <gtest/gtest.h>
 #include <record/result_reading.h>
 #include <support/source_directory.h>
@@ -22,11 +23,9 @@ namespace {
 using testing::OpenResult;
 using testing::ScratchDirectory;
 
-const std::string WALL = LMDBENCH_SOURCE_DIR "/experiments/wall.json";
-
 Experiment wall(std::vector<Override> overrides = {}) {
   overrides.insert(overrides.begin(), {"/frames=600", "/loop/push_n=[0, 0, -6]"});
-  return load_experiment(WALL, overrides);
+  return load_experiment(testing::WALL_FILE, overrides);
 }
 
 LoopChoice loop_of(double mass, std::int64_t delay) {

@@ -16,16 +16,16 @@ namespace {
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 
-Experiment parse(const std::vector<Override>& overrides) {
+Experiment parse_loop(const std::vector<Override>& overrides) {
   return parse_experiment(R"({"name": "small", "moving": {"mesh": "a"}, "fixed": [{"mesh": "b"}],
     "path": {"file": "p.tum"}, "force": {"cutoff_m": 0.01, "maximum_force_n": 2},
     "methods": [{"name": "certified", "force_law": "linear"}]})",
                           "/data/e.json", overrides);
 }
 
-std::string message(const std::vector<Override>& overrides) {
+std::string loop_message(const std::vector<Override>& overrides) {
   try {
-    parse(overrides);
+    parse_loop(overrides);
   } catch (const UsageError& error) {
     return error.what();
   }
@@ -33,13 +33,13 @@ std::string message(const std::vector<Override>& overrides) {
 }
 
 TEST(LoopChoice, IsOpenUnlessAskedFor) {
-  EXPECT_FALSE(parse({}).loop.closed);
-  EXPECT_TRUE(parse({"/loop/kind=closed"}).loop.closed);
+  EXPECT_FALSE(parse_loop({}).loop.closed);
+  EXPECT_TRUE(parse_loop({"/loop/kind=closed"}).loop.closed);
 }
 
 TEST(LoopChoice, DeviceFillsWhatTheFileLeavesOut) {
   const Experiment experiment =
-      parse({"/device=phantom-omni", "/loop/kind=closed", "/loop/mass_kg=0.1", "/loop/delay_frames=3"});
+      parse_loop({"/device=phantom-omni", "/loop/kind=closed", "/loop/mass_kg=0.1", "/loop/delay_frames=3"});
   EXPECT_EQ(experiment.loop.dynamics.mass_kg, 0.1);
   EXPECT_EQ(experiment.loop.dynamics.damping_n_s_per_m, 0.005);
   EXPECT_EQ(experiment.loop.dynamics.friction_n, 0.26);
@@ -52,9 +52,9 @@ TEST(LoopChoice, DeviceFillsWhatTheFileLeavesOut) {
 }
 
 TEST(LoopChoice, HandIsNamedOrGivenByItsFigures) {
-  const Experiment named = parse({"/loop/hand=speich-2005"});
+  const Experiment named = parse_loop({"/loop/hand=speich-2005"});
   EXPECT_EQ(named.loop.dynamics.hand.value().grip_stiffness_n_per_m, 375.0);
-  const Experiment custom = parse({R"(/loop/hand={"mass_kg": 0.5, "stiffness_n_per_m": 100})"});
+  const Experiment custom = parse_loop({R"(/loop/hand={"mass_kg": 0.5, "stiffness_n_per_m": 100})"});
   EXPECT_EQ(custom.loop.dynamics.hand.value().mass_kg, 0.5);
   EXPECT_EQ(custom.loop.dynamics.hand.value().stiffness_n_per_m, 100.0);
   EXPECT_EQ(custom.loop.dynamics.hand.value().damping_n_s_per_m, 0.0);
@@ -62,28 +62,28 @@ TEST(LoopChoice, HandIsNamedOrGivenByItsFigures) {
 }
 
 TEST(LoopChoice, EveryIntegratorHasItsName) {
-  EXPECT_EQ(parse({}).loop.integration, Integration::EXACT);
-  EXPECT_EQ(parse({"/loop/integrator=runge-kutta-4"}).loop.integration, Integration::RUNGE_KUTTA_4);
-  EXPECT_EQ(parse({"/loop/integrator=dormand-prince"}).loop.integration, Integration::DORMAND_PRINCE);
-  EXPECT_EQ(parse({"/loop/integrator=rosenbrock"}).loop.integration, Integration::ROSENBROCK);
+  EXPECT_EQ(parse_loop({}).loop.integration, Integration::EXACT);
+  EXPECT_EQ(parse_loop({"/loop/integrator=runge-kutta-4"}).loop.integration, Integration::RUNGE_KUTTA_4);
+  EXPECT_EQ(parse_loop({"/loop/integrator=dormand-prince"}).loop.integration, Integration::DORMAND_PRINCE);
+  EXPECT_EQ(parse_loop({"/loop/integrator=rosenbrock"}).loop.integration, Integration::ROSENBROCK);
 }
 
 TEST(LoopChoice, MistakesNamePlaceAndRemedy) {
-  EXPECT_THAT(message({"/loop/hand=hogarth"}), AllOf(HasSubstr("/loop/hand"), HasSubstr("hogan-1989")));
-  EXPECT_THAT(message({"/loop/hand={\"mass\": 1}"}),
+  EXPECT_THAT(loop_message({"/loop/hand=hogarth"}), AllOf(HasSubstr("/loop/hand"), HasSubstr("hogan-1989")));
+  EXPECT_THAT(loop_message({"/loop/hand={\"mass\": 1}"}),
               AllOf(HasSubstr("/loop/hand/mass"), HasSubstr("mass_kg")));
-  EXPECT_THAT(message({"/loop/hand={\"grip_stiffness_n_per_m\": 1}"}), HasSubstr("/loop/hand/mass_kg"));
-  EXPECT_THAT(message({"/loop/hand=3"}), HasSubstr("/loop/hand"));
-  EXPECT_THAT(message({"/loop/mass_kg=0"}), HasSubstr("/loop/mass_kg"));
-  EXPECT_THAT(message({"/loop/damping_n_s_per_m=-1"}), HasSubstr("/loop/damping_n_s_per_m"));
-  EXPECT_THAT(message({"/loop/delay_frames=1.5"}), HasSubstr("/loop/delay_frames"));
-  EXPECT_THAT(message({"/loop/push_n=[1, 2]"}), HasSubstr("/loop/push_n"));
+  EXPECT_THAT(loop_message({"/loop/hand={\"grip_stiffness_n_per_m\": 1}"}), HasSubstr("/loop/hand/mass_kg"));
+  EXPECT_THAT(loop_message({"/loop/hand=3"}), HasSubstr("/loop/hand"));
+  EXPECT_THAT(loop_message({"/loop/mass_kg=0"}), HasSubstr("/loop/mass_kg"));
+  EXPECT_THAT(loop_message({"/loop/damping_n_s_per_m=-1"}), HasSubstr("/loop/damping_n_s_per_m"));
+  EXPECT_THAT(loop_message({"/loop/delay_frames=1.5"}), HasSubstr("/loop/delay_frames"));
+  EXPECT_THAT(loop_message({"/loop/push_n=[1, 2]"}), HasSubstr("/loop/push_n"));
 }
 
 TEST(ForceClip, IsTheDevicesUnlessAskedFor) {
-  EXPECT_FALSE(parse({}).profiles[0].clip_at_maximum);
-  EXPECT_TRUE(parse({"/force/clip=maximum"}).profiles[0].clip_at_maximum);
-  EXPECT_THAT(message({"/force/clip=none"}), HasSubstr("/force/clip"));
+  EXPECT_FALSE(parse_loop({}).profiles[0].clip_at_maximum);
+  EXPECT_TRUE(parse_loop({"/force/clip=maximum"}).profiles[0].clip_at_maximum);
+  EXPECT_THAT(loop_message({"/force/clip=none"}), HasSubstr("/force/clip"));
 }
 
 }  // namespace

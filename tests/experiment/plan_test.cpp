@@ -3,6 +3,7 @@
 #include <lmdbench/experiment/plan.h>
 #include <lmdbench/methods/registry.h>
 
+#include <experiment/committed.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -14,19 +15,19 @@ namespace {
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 
-Experiment shapes(const std::vector<Override>& overrides = {}) {
-  return load_experiment(LMDBENCH_SOURCE_DIR "/experiments/shapes.json", overrides);
+Experiment planned_shapes(const std::vector<Override>& overrides = {}) {
+  return load_experiment(testing::SHAPES_FILE, overrides);
 }
 
 TEST(Plan, FollowsTheExperiment) {
-  const Plan full = make_plan(shapes());
+  const Plan full = make_plan(planned_shapes());
   EXPECT_TRUE(full.needs(Part::LOCAL_TRACKING));
   EXPECT_FALSE(full.needs(Part::SEARCH_PER_FRAME));
   EXPECT_TRUE(full.needs(Part::TRUTH_PROBE));
   EXPECT_TRUE(full.needs(Part::FCL));
   EXPECT_FALSE(full.needs(Part::LMD_LISTS));
-  const Plan bare = make_plan(shapes({"/probes/truth/stride_frames=0", "/probes/fcl/stride_frames=0",
-                                      R"(/methods=[{"name":"exhaustive","force_law":"linear"}])"}));
+  const Plan bare = make_plan(planned_shapes({"/probes/truth/stride_frames=0", "/probes/fcl/stride_frames=0",
+                                              R"(/methods=[{"name":"exhaustive","force_law":"linear"}])"}));
   EXPECT_FALSE(bare.needs(Part::LOCAL_TRACKING));
   EXPECT_TRUE(bare.needs(Part::SEARCH_PER_FRAME));
   EXPECT_FALSE(bare.needs(Part::TRUTH_PROBE));
@@ -34,14 +35,14 @@ TEST(Plan, FollowsTheExperiment) {
 }
 
 TEST(Plan, EveryPartSaysWhy) {
-  for (const PlanItem& item : make_plan(shapes()).items) {
+  for (const PlanItem& item : make_plan(planned_shapes()).items) {
     EXPECT_FALSE(item.name.empty());
     EXPECT_FALSE(item.why.empty()) << item.name;
   }
 }
 
 TEST(Plan, JsonHoldsTheResolvedExperiment) {
-  const Experiment experiment = shapes();
+  const Experiment experiment = planned_shapes();
   const auto json = nlohmann::json::parse(plan_json(make_plan(experiment), experiment));
   EXPECT_EQ(json["experiment"]["frame_rate_hz"], 1000);
   EXPECT_EQ(json["needed"].size() + json["left_out"].size(), make_plan(experiment).items.size());
@@ -49,7 +50,7 @@ TEST(Plan, JsonHoldsTheResolvedExperiment) {
 }
 
 TEST(Plan, ListsEveryMethodWithItsOptionsAndDefaults) {
-  const Experiment experiment = shapes({"/methods/1/visibility=off"});
+  const Experiment experiment = planned_shapes({"/methods/1/visibility=off"});
   const auto json = nlohmann::json::parse(plan_json(make_plan(experiment), experiment));
   ASSERT_EQ(json["methods"].size(), experiment.methods.size());
   for (std::size_t i = 0; i < experiment.methods.size(); ++i) {

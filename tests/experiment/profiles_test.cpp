@@ -5,12 +5,12 @@
 #include <lmdbench/experiment/run.h>
 #include <lmdbench/experiment/summary.h>
 
+#include <experiment/committed.h>
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 #include <record/result_reading.h>
-#include <support/source_directory.h>
 
 #include <cmath>
 #include <numbers>
@@ -23,20 +23,20 @@ namespace {
 using ::testing::HasSubstr;
 using testing::OpenResult;
 using testing::ScratchDirectory;
+using testing::SHAPES_FILE;
+using testing::WALL_FILE;
 
-const std::string SHAPES = LMDBENCH_SOURCE_DIR "/experiments/shapes.json";
-const std::string WALL = LMDBENCH_SOURCE_DIR "/experiments/wall.json";
 const std::string HARD = R"({"name": "hard", "cutoff_m": 0.002, "maximum_force_n": 3})";
 const std::string SOFT = R"({"name": "soft", "cutoff_m": 0.008, "maximum_force_n": 2, "clip": "maximum"})";
 
 /// The approach and first contact, improved alone.
-Experiment shapes(const std::string& force, std::vector<Override> more = {}) {
+Experiment shapes_under(const std::string& force, std::vector<Override> more = {}) {
   more.insert(more.begin(),
               {"/frames=240", "/driver/repetitions=1", "/driver/search_every_frames=10",
                "/driver/search_latency_frames=10",
                "/methods=[{\"name\": \"improved\", \"force_law\": \"exponential\"}]",
                "/probes/truth/stride_frames=60", "/probes/fcl/stride_frames=80", "/force=" + force});
-  return load_experiment(SHAPES, more);
+  return load_experiment(SHAPES_FILE, more);
 }
 
 std::string both() {
@@ -45,7 +45,7 @@ std::string both() {
 
 TEST(Profiles, ListPutsEveryMethodUnderEachOfThem) {
   const Experiment experiment =
-      shapes(both(), {R"(/methods/-={"name": "certified", "force_law": "linear"})"});
+      shapes_under(both(), {R"(/methods/-={"name": "certified", "force_law": "linear"})"});
   ASSERT_EQ(experiment.profiles.size(), 2u);
   std::vector<std::string> labels;
   for (const MethodChoice& method : experiment.methods) labels.push_back(method.label);
@@ -57,16 +57,17 @@ TEST(Profiles, ListPutsEveryMethodUnderEachOfThem) {
 }
 
 TEST(Profiles, OneObjectStaysOneProfileWithoutALabel) {
-  const Experiment experiment = shapes(HARD);
+  const Experiment experiment = shapes_under(HARD);
   EXPECT_EQ(experiment.profiles.size(), 1u);
   EXPECT_EQ(experiment.methods[0].label, "improved");
-  EXPECT_EQ(shapes(fmt::format("[{}]", HARD)).methods[0].label, "improved-hard") << "a list of one is a list";
+  EXPECT_EQ(shapes_under(fmt::format("[{}]", HARD)).methods[0].label, "improved-hard")
+      << "a list of one is a list";
 }
 
 TEST(Profiles, MistakesNameTheProfile) {
   const auto place_of = [](const std::string& force) {
     try {
-      shapes(force);
+      shapes_under(force);
     } catch (const UsageError& error) {
       return std::string(error.what());
     }
@@ -83,17 +84,17 @@ TEST(Profiles, MistakesNameTheProfile) {
 }
 
 TEST(Profiles, EachIsTheSameBitsAsAlone) {
-  const RunResult together = run_experiment(shapes(both()));
-  EXPECT_EQ(together.records[0].result_hash, run_experiment(shapes(HARD)).records[0].result_hash);
-  EXPECT_EQ(together.records[1].result_hash, run_experiment(shapes(SOFT)).records[0].result_hash);
+  const RunResult together = run_experiment(shapes_under(both()));
+  EXPECT_EQ(together.records[0].result_hash, run_experiment(shapes_under(HARD)).records[0].result_hash);
+  EXPECT_EQ(together.records[1].result_hash, run_experiment(shapes_under(SOFT)).records[0].result_hash);
   EXPECT_NE(together.records[0].result_hash, together.records[1].result_hash);
 }
 
 TEST(Profiles, TruthContactAndCrosscheckAreEachProfilesOwn) {
-  const Experiment experiment = shapes(both());
+  const Experiment experiment = shapes_under(both());
   const RunResult together = run_experiment(experiment);
   for (const std::size_t i : {0u, 1u}) {
-    const RunResult alone = run_experiment(shapes(i == 0 ? HARD : SOFT));
+    const RunResult alone = run_experiment(shapes_under(i == 0 ? HARD : SOFT));
     const Track& track = together.track_of(i);
     EXPECT_EQ(track.profile, i);
     EXPECT_EQ(track.in_contact, alone.in_contact);
@@ -136,7 +137,7 @@ TEST(Profiles, TruthContactAndCrosscheckAreEachProfilesOwn) {
 TEST(Profiles, ResultKeepsEachGroupsProfile) {
   const ScratchDirectory scratch;
   const auto file = scratch / "profiles.h5";
-  run_experiment_to_file(shapes(both()), file, {"lmdbench", "run"});
+  run_experiment_to_file(shapes_under(both()), file, {"lmdbench", "run"});
   const OpenResult result(file);
   for (const char* const name : {"in_contact", "reference/frame", "crosscheck/fcl/distance", "truth/recall"})
     EXPECT_TRUE(result.has(std::string("/methods/improved-soft/") + name)) << name;
@@ -149,7 +150,7 @@ TEST(ClosedLoopFcl, IsComparedAtTheDevicesPoses) {
   const ScratchDirectory scratch;
   const auto file = scratch / "wall.h5";
   const Experiment experiment =
-      load_experiment(WALL, {"/frames=400", "/loop/push_n=[0, 0, -6]", "/probes/fcl/stride_frames=50"});
+      load_experiment(WALL_FILE, {"/frames=400", "/loop/push_n=[0, 0, -6]", "/probes/fcl/stride_frames=50"});
   const RunResult run = run_experiment_to_file(experiment, file, {"lmdbench", "run"});
   const FclCheck& check = run.track_of(0).fcl.value();
   ASSERT_EQ(check.frames.size(), 8u);

@@ -5,6 +5,7 @@
 #include <lmdbench/experiment/summary.h>
 #include <lmdbench/methods/registry.h>
 
+#include <experiment/committed.h>
 #include <experiment/deterministic_datasets.h>
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -32,14 +33,13 @@ using testing::deterministic_datasets;
 using ::testing::HasSubstr;
 using testing::OpenResult;
 using testing::ScratchDirectory;
-
-const std::string SHAPES = LMDBENCH_SOURCE_DIR "/experiments/shapes.json";
+using testing::SHAPES_FILE;
 
 /// The shapes experiment, cut to its approach and first contact so that the tests stay quick.
-Experiment shapes(std::vector<Override> overrides = {}) {
+Experiment short_shapes(std::vector<Override> overrides = {}) {
   overrides.insert(overrides.begin(),
                    {"/frames=320", "/driver/repetitions=2", "/record/lmds=true", "/record/torque=true"});
-  return load_experiment(SHAPES, overrides);
+  return load_experiment(SHAPES_FILE, overrides);
 }
 
 RunResult run_to(const std::filesystem::path& file, const Experiment& experiment) {
@@ -48,8 +48,8 @@ RunResult run_to(const std::filesystem::path& file, const Experiment& experiment
 
 TEST(Run, TwoRunsLeaveTheSameBitsButForTimesAndProvenance) {
   const ScratchDirectory scratch;
-  run_to(scratch / "a.h5", shapes());
-  run_to(scratch / "b.h5", shapes());
+  run_to(scratch / "a.h5", short_shapes());
+  run_to(scratch / "b.h5", short_shapes());
   const auto a = deterministic_datasets(scratch / "a.h5");
   EXPECT_GT(a.size(), 80u);
   EXPECT_TRUE(a.count("methods/improved/force"));
@@ -60,10 +60,10 @@ TEST(Run, TwoRunsLeaveTheSameBitsButForTimesAndProvenance) {
 
 TEST(Run, OrderOfMethodsBlocksAndRepetitionsDoesNotMatter) {
   const ScratchDirectory scratch;
-  run_to(scratch / "a.h5", shapes());
+  run_to(scratch / "a.h5", short_shapes());
   run_to(
       scratch / "b.h5",
-      shapes(
+      short_shapes(
           {R"(/methods=[{"name":"improved","force_law":"exponential"},{"name":"original","force_law":"linear"}])",
            "/driver/repetitions=3", "/driver/block_frames=7"}));
   const auto a = deterministic_datasets(scratch / "a.h5");
@@ -80,8 +80,8 @@ TEST(Run, OrderOfMethodsBlocksAndRepetitionsDoesNotMatter) {
 
 TEST(Run, AnotherSceneLeavesOtherBits) {
   const ScratchDirectory scratch;
-  run_to(scratch / "a.h5", shapes());
-  run_to(scratch / "b.h5", shapes({"/force/maximum_force_n=2.5"}));
+  run_to(scratch / "a.h5", short_shapes());
+  run_to(scratch / "b.h5", short_shapes({"/force/maximum_force_n=2.5"}));
   EXPECT_FALSE(deterministic_datasets(scratch / "a.h5") == deterministic_datasets(scratch / "b.h5"));
 }
 
@@ -91,7 +91,7 @@ TEST(Run, GroupsHoldWhatTheirMethodsDescribe) {
   const ScratchDirectory scratch;
   nlohmann::json methods = nlohmann::json::array();
   for (const std::string& name : method_names()) methods.push_back({{"name", name}, {"force_law", "linear"}});
-  run_to(scratch / "r.h5", shapes({"/frames=25", "/methods=" + methods.dump()}));
+  run_to(scratch / "r.h5", short_shapes({"/frames=25", "/methods=" + methods.dump()}));
   const OpenResult result(scratch / "r.h5");
   for (const MethodDescription& method : method_descriptions()) {
     const std::string group = "/methods/" + method.name;
@@ -123,7 +123,7 @@ TEST(Run, GroupsHoldWhatTheirMethodsDescribe) {
 
 TEST(Run, ResultHasTheContractsShapes) {
   const ScratchDirectory scratch;
-  run_to(scratch / "r.h5", shapes());
+  run_to(scratch / "r.h5", short_shapes());
   const OpenResult result(scratch / "r.h5");
   const std::size_t N = 320, R = 2, G = 16, T = 15;
   using Shape = std::vector<std::size_t>;
@@ -169,7 +169,7 @@ TEST(Run, ResultHasTheContractsShapes) {
 
 TEST(Run, UnsetValuesAreNaN) {
   const ScratchDirectory scratch;
-  run_to(scratch / "r.h5", shapes());
+  run_to(scratch / "r.h5", short_shapes());
   const OpenResult result(scratch / "r.h5");
   EXPECT_TRUE(std::isnan(result.doubles("/methods/improved/lmd_age")[0])) << "nothing has arrived in frame 0";
   EXPECT_DOUBLE_EQ(result.doubles("/methods/improved/lmd_age")[20], 0.02);
@@ -180,7 +180,7 @@ TEST(Run, UnsetValuesAreNaN) {
 
 TEST(Run, OnlyWhatTheSceneNeedsIsInTheResult) {
   const ScratchDirectory scratch;
-  const Experiment bare = shapes(
+  const Experiment bare = short_shapes(
       {"/record/lmds=false", "/probes/truth/stride_frames=0", "/probes/fcl/stride_frames=0", "/frames=50"});
   const RunResult run = run_to(scratch / "r.h5", bare);
   const OpenResult result(scratch / "r.h5");
@@ -194,8 +194,8 @@ TEST(Run, OnlyWhatTheSceneNeedsIsInTheResult) {
 
 TEST(Run, EveryMethodRunsSideBySide) {
   const Experiment all =
-      shapes({R"(/methods/-={"name":"certified","force_law":"exponential"})",
-              R"(/methods/-={"name":"exhaustive","force_law":"exponential"})", "/record/lmds=false"});
+      short_shapes({R"(/methods/-={"name":"certified","force_law":"exponential"})",
+                    R"(/methods/-={"name":"exhaustive","force_law":"exponential"})", "/record/lmds=false"});
   const RunResult run = run_experiment(all);
   ASSERT_EQ(run.records.size(), 4u);
   EXPECT_EQ(run.records[2].result_hash, run.records[3].result_hash) << "certified is exact and complete";
@@ -211,10 +211,10 @@ TEST(Run, EveryMethodRunsSideBySide) {
 
 TEST(Run, InterruptionLeavesTheEarlierResultWhole) {
   const ScratchDirectory scratch;
-  run_to(scratch / "r.h5", shapes());
+  run_to(scratch / "r.h5", short_shapes());
   const auto before = deterministic_datasets(scratch / "r.h5");
   EXPECT_THROW(
-      run_experiment_to_file(shapes({"/force/maximum_force_n=1"}), scratch / "r.h5", {},
+      run_experiment_to_file(short_shapes({"/force/maximum_force_n=1"}), scratch / "r.h5", {},
                              [](const std::string&, std::int64_t done, std::int64_t) { return done < 200; }),
       Interrupted);
   EXPECT_TRUE(before == deterministic_datasets(scratch / "r.h5"));
@@ -222,7 +222,7 @@ TEST(Run, InterruptionLeavesTheEarlierResultWhole) {
 
 TEST(Run, ProgressNamesItsPhases) {
   std::vector<std::string> phases;
-  run_experiment(shapes(), [&](const std::string& phase, std::int64_t done, std::int64_t total) {
+  run_experiment(short_shapes(), [&](const std::string& phase, std::int64_t done, std::int64_t total) {
     EXPECT_LE(done, total);
     if (phases.empty() || phases.back() != phase) phases.push_back(phase);
     return true;
@@ -232,7 +232,7 @@ TEST(Run, ProgressNamesItsPhases) {
 
 TEST(Run, OpenMeshGoesOnAndTheResultSaysSo) {
   const ScratchDirectory scratch;
-  run_to(scratch / "r.h5", shapes({"/fixed/0/mesh=patch", "/frames=30"}));
+  run_to(scratch / "r.h5", short_shapes({"/fixed/0/mesh=patch", "/frames=30"}));
   const OpenResult result(scratch / "r.h5");
   EXPECT_EQ(result.integer_attribute("/scene/fixed_0", "closed"), 0);
   EXPECT_EQ(result.integer_attribute("/scene/moving", "closed"), 1);
@@ -242,8 +242,9 @@ TEST(Run, OpenMeshGoesOnAndTheResultSaysSo) {
 TEST(Run, StartInPenetrationGoesOnAndTheResultSaysSo) {
   const ScratchDirectory scratch;
   std::ofstream(scratch / "path.tum") << "0 0.08 0 0 0 0 0 1\n0.05 0.085 0 0 0 0 0 1\n";
-  run_to(scratch / "r.h5", shapes({"/path/file=" + (scratch / "path.tum").string(),
-                                   "/driver/search_every_frames=5", "/driver/search_latency_frames=0"}));
+  run_to(scratch / "r.h5",
+         short_shapes({"/path/file=" + (scratch / "path.tum").string(), "/driver/search_every_frames=5",
+                       "/driver/search_latency_frames=0"}));
   const OpenResult result(scratch / "r.h5");
   EXPECT_EQ(result.integer_attribute("/scene", "starts_touching"), 1);
   EXPECT_THAT(result.strings("/scene/warnings"), Contains(HasSubstr("touch in the first frame")));
@@ -257,11 +258,11 @@ TEST(Run, PolylinesAreRecordedWhereTheyAreAskedFor) {
   std::ofstream(scratch / "path.tum") << "0 0.2 0 0 0 0 0 1\n0.1 0.06 0 0 0 0 0 1\n";
   const std::vector<Override> overrides{"/path/file=" + (scratch / "path.tum").string(),
                                         "/driver/search_every_frames=5", "/driver/search_latency_frames=0"};
-  run_to(scratch / "without.h5", shapes(overrides));
+  run_to(scratch / "without.h5", short_shapes(overrides));
   EXPECT_FALSE(OpenResult(scratch / "without.h5").has("/polylines"));
   std::vector<Override> asked = overrides;
   asked.emplace_back("/record/polylines/stride_frames=10");
-  const Experiment experiment = shapes(asked);
+  const Experiment experiment = short_shapes(asked);
   EXPECT_TRUE(make_plan(experiment).needs(Part::INTERSECTIONS));
   run_to(scratch / "with.h5", experiment);
   const OpenResult result(scratch / "with.h5");
@@ -300,8 +301,8 @@ TEST(Run, FixedPosesPlaceTheMeshInTheWorld) {
   std::vector<Override> turned = overrides("b.tum");
   turned.push_back("/fixed/0/pose/translation_m=[0.01,0.02,0]");
   turned.push_back("/fixed/0/pose/rotation_xyzw=[0,0,0.70710678118654752,0.70710678118654752]");
-  const RunResult a = run_experiment(shapes(overrides("a.tum")));
-  const RunResult b = run_experiment(shapes(turned));
+  const RunResult a = run_experiment(short_shapes(overrides("a.tum")));
+  const RunResult b = run_experiment(short_shapes(turned));
   const Vec3 force_a = a.records[1].frames.back().force;
   const Vec3 force_b = b.records[1].frames.back().force;
   ASSERT_GT(force_a.norm(), 0.1);
@@ -312,7 +313,7 @@ TEST(Run, FixedPosesPlaceTheMeshInTheWorld) {
 TEST(Run, ASinglePoseIsAPathOfOneFrame) {
   const ScratchDirectory scratch;
   std::ofstream(scratch / "path.tum") << "5 0.2 0 0 0 0 0 1\n";
-  const RunResult run = run_experiment(shapes({"/path/file=" + (scratch / "path.tum").string()}));
+  const RunResult run = run_experiment(short_shapes({"/path/file=" + (scratch / "path.tum").string()}));
   EXPECT_EQ(run.prepared.times, std::vector<double>{5.0});
   EXPECT_TRUE(run.tracks[0].truth.empty());
 }
@@ -322,7 +323,7 @@ TEST(Prepare, RefusesWhatCannotBeUsed) {
   std::ofstream(scratch / "long.tum") << "0 0.2 0 0 0 0 0 1\n1e12 0.2 0 0 0 0 0 1\n";
   const auto message = [](const std::vector<Override>& overrides) -> std::string {
     try {
-      run_experiment(shapes(overrides));
+      run_experiment(short_shapes(overrides));
     } catch (const Error& error) {
       return std::to_string(static_cast<int>(error.code())) + " " + error.what();
     }
@@ -338,7 +339,7 @@ TEST(Prepare, RefusesWhatCannotBeUsed) {
 }
 
 TEST(Summary, ShowsErrorsBesideTimes) {
-  const Experiment experiment = shapes();
+  const Experiment experiment = short_shapes();
   const RunSummary summary = summarise(experiment, run_experiment(experiment));
   ASSERT_EQ(summary.methods.size(), 2u);
   EXPECT_EQ(summary.frames_probed, 15) << "from frame 20 on, where the first search arrives";
@@ -352,7 +353,7 @@ TEST(Summary, ShowsErrorsBesideTimes) {
 /// What `run` prints, what `run --json` tells and what the result file carries is one number.
 TEST(Summary, IsTheSameInTheFileAndInJson) {
   const ScratchDirectory scratch;
-  const Experiment experiment = shapes();
+  const Experiment experiment = short_shapes();
   const RunSummary summary = summarise(experiment, run_to(scratch / "r.h5", experiment));
   const OpenResult result(scratch / "r.h5");
   const auto json = nlohmann::json::parse(summary_json(summary));

@@ -4,6 +4,7 @@
 #include <lmdbench/experiment/stability_search.h>
 #include <lmdbench/phantom/stability_boundary.h>
 
+#include <experiment/committed.h>
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -19,10 +20,8 @@
 namespace lmdbench {
 namespace {
 
-const std::string WALL = LMDBENCH_SOURCE_DIR "/experiments/wall.json";
-
 StabilityRow search(const std::vector<Override>& overrides) {
-  return find_critical_stiffness(load_experiment(WALL, overrides)).at(0);
+  return find_critical_stiffness(load_experiment(testing::WALL_FILE, overrides)).at(0);
 }
 
 /// Characterization: the simulation, through meshes and method, finds the table of the exact boundary.
@@ -91,7 +90,8 @@ TEST(StabilitySearch, DeviceRestsWhereTheContactCarriesThePush) {
   for (const char* const law : {"linear", "exponential"}) {
     for (const double push : {0.5, 3.0, 9.0}) {
       const Experiment experiment = load_experiment(
-          WALL, {fmt::format("/methods/0/force_law={}", law), fmt::format("/loop/push_n=[0, 0, {}]", -push)});
+          testing::WALL_FILE,
+          {fmt::format("/methods/0/force_law={}", law), fmt::format("/loop/push_n=[0, 0, {}]", -push)});
       const PreparedRun prepared = prepare(experiment);
       const StabilityTrial trial =
           try_stiffness(experiment, prepared.input, lockstep_methods(experiment, prepared).at(0), {});

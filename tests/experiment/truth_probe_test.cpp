@@ -18,11 +18,11 @@ namespace {
 using ::testing::ElementsAre;
 using ::testing::IsEmpty;
 
-constexpr double CUTOFF = 0.05;
+constexpr double PROBE_CUTOFF = 0.05;
 
 /// Two spheres that approach along x; their poles face each other as vertices.
-Scene spheres() {
-  return testing::make_scene(make_sphere(0.5, 3), make_sphere(0.5, 3), CUTOFF);
+Scene facing_spheres() {
+  return testing::make_scene(make_sphere(0.5, 3), make_sphere(0.5, 3), PROBE_CUTOFF);
 }
 
 LockstepInput approach(const std::vector<double>& gaps) {
@@ -36,7 +36,7 @@ LockstepInput approach(const std::vector<double>& gaps) {
   return input;
 }
 
-const ForceProfile PROFILE{ForceLaw::LINEAR, CUTOFF, 0.0, 2.0, 4.0};
+const ForceProfile PROFILE{ForceLaw::LINEAR, PROBE_CUTOFF, 0.0, 2.0, 4.0};
 
 /// A record whose frames hold exactly what the set would render.
 MethodRecord record_of(const std::vector<LmdSet>& sets, const std::vector<Vec3>& forces) {
@@ -61,7 +61,7 @@ TEST(ProbedFrames, StopBeforeTheLastFrame) {
 
 TEST(TruthProbe, TrueForceFollowsTheLawAndItsJumpTheNextFrame) {
   const LockstepInput input = approach({0.04, 0.02, 1.0});
-  const auto truth = probe_truth(spheres(), input, PROFILE, {0, 1}, {});
+  const auto truth = probe_truth(facing_spheres(), input, PROFILE, {0, 1}, {});
   ASSERT_EQ(truth.size(), 2u);
   ASSERT_EQ(truth[0].lmds.size(), 1u);
   EXPECT_NEAR(truth[0].lmds[0].distance, 0.04, 1e-9);
@@ -75,7 +75,7 @@ TEST(TruthProbe, TrueForceFollowsTheLawAndItsJumpTheNextFrame) {
 
 TEST(TruthProbe, APerfectSetHasNoError) {
   const LockstepInput input = approach({0.04, 0.02, 0.02});
-  const Scene scene = spheres();
+  const Scene scene = facing_spheres();
   const auto truth = probe_truth(scene, input, PROFILE, {0, 1}, {});
   const auto linear = static_cast<std::size_t>(ForceLaw::LINEAR);
   const MethodRecord record =
@@ -96,7 +96,7 @@ TEST(TruthProbe, APerfectSetHasNoError) {
 
 TEST(TruthProbe, ErrorsAreSignedAndUnsetWhereNothingCompares) {
   const LockstepInput input = approach({0.04, 0.02});
-  const Scene scene = spheres();
+  const Scene scene = facing_spheres();
   const auto truth = probe_truth(scene, input, PROFILE, {0}, {});
   LmdSet late = truth[0].lmds;
   late[0].distance += 0.003;
@@ -119,12 +119,12 @@ TEST(TruthProbe, ErrorsAreSignedAndUnsetWhereNothingCompares) {
 TEST(TruthProbe, StopsWhenAsked) {
   const LockstepInput input = approach({0.04, 0.02, 0.03});
   EXPECT_THROW(
-      probe_truth(spheres(), input, PROFILE, {0, 1}, [](std::int64_t, std::int64_t) { return false; }),
+      probe_truth(facing_spheres(), input, PROFILE, {0, 1}, [](std::int64_t, std::int64_t) { return false; }),
       Interrupted);
 }
 
 TEST(FclProbe, AgreesOnSpheresAndComparesOnlyWhereItMeansSomething) {
-  const Scene scene = spheres();
+  const Scene scene = facing_spheres();
   const LockstepInput input =
       approach({0.04, 0.06, -0.1, 0.01});  // within, beyond the cutoff, in contact, within
   const LockstepMethod improved{"improved", [scene] { return make_method("improved", scene); }, PROFILE};
@@ -144,7 +144,7 @@ TEST(FclProbe, AgreesOnSpheresAndComparesOnlyWhereItMeansSomething) {
 
 /// A tolerance that no two programs meet: rounding alone is a disagreement, and lands in the list.
 TEST(FclProbe, DisagreesBeyondTheTolerance) {
-  const Scene scene = spheres();
+  const Scene scene = facing_spheres();
   LockstepInput input = approach({0.04, 0.03, 0.02});
   for (Pose& pose : input.poses) pose.rotation = Eigen::AngleAxisd(0.7, Vec3(1.0, 2.0, 3.0).normalized());
   const FclCheck check = probe_fcl(scene, input, {}, {0, 1, 2}, 0.0, {});
@@ -185,7 +185,7 @@ class WrongMethod : public Method {
 };
 
 TEST(FclProbe, ListsExceptionsWithTheirPoses) {
-  const Scene scene = spheres();
+  const Scene scene = facing_spheres();
   const LockstepInput input = approach({0.04, 0.03});
   const LockstepMethod blind{"blind", [] { return std::make_unique<WrongMethod>(std::nan("")); }, PROFILE};
   const LockstepMethod off{"off", [] { return std::make_unique<WrongMethod>(0.044); }, PROFILE};

@@ -3,6 +3,7 @@
 #include <lmdbench/geometry/segment_distance.h>
 
 #include <gtest/gtest.h>
+#include <judge/random_triangles.h>
 
 #include <algorithm>
 #include <cmath>
@@ -11,12 +12,7 @@
 namespace lmdbench {
 namespace {
 
-Vec3 random_point(std::mt19937_64& random) {
-  std::uniform_real_distribution<double> coordinate(-1.0, 1.0);
-  const double x = coordinate(random);
-  const double y = coordinate(random);
-  return {x, y, coordinate(random)};
-}
+using testing::random_point;
 
 /// Nearest distance by ternary search over one segment of the distance to the other: convex, so it converges.
 double searched_distance(const Segment& a, const Segment& b) {

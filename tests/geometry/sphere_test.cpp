@@ -3,6 +3,7 @@
 #include <lmdbench/geometry/sphere.h>
 
 #include <gtest/gtest.h>
+#include <judge/random_triangles.h>
 
 #include <array>
 #include <cmath>
@@ -12,12 +13,7 @@
 namespace lmdbench {
 namespace {
 
-Vec3 random_point(std::mt19937_64& random) {
-  std::uniform_real_distribution<double> coordinate(-1.0, 1.0);
-  const double x = coordinate(random);
-  const double y = coordinate(random);
-  return {x, y, coordinate(random)};
-}
+using testing::random_point;
 
 TEST(BoundingSphere, OfNothingAndOfOnePointHasNoRadius) {
   EXPECT_EQ(bounding_sphere({}).radius, 0.0);

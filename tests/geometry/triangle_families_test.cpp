@@ -24,7 +24,7 @@ using testing::TrianglePair;
 
 /// Largest error of a distance, relative to the largest coordinate: taking edges as parallel may cost
 /// COINCIDENCE_TOLERANCE, the rest is a few roundings. The published bound is 1e-12.
-constexpr double ERROR_BOUND = 2.0 * COINCIDENCE_TOLERANCE;
+constexpr double KERNEL_ERROR_BOUND = 2.0 * COINCIDENCE_TOLERANCE;
 
 constexpr int PAIRS = 10000;
 
@@ -45,7 +45,7 @@ class TriangleFamilies : public ::testing::TestWithParam<TriangleFamily> {};
 /// Compares with the brute force and checks the result's invariants.
 void expect_right(const TrianglePair& pair) {
   const TrianglePairDistance result = triangle_distance(pair.a, pair.b);
-  const double bound = ERROR_BOUND * testing::magnitude(pair);
+  const double bound = KERNEL_ERROR_BOUND * testing::magnitude(pair);
   const auto truth = static_cast<double>(testing::brute_force_distance(pair.a, pair.b));
   ASSERT_NEAR(std::sqrt(result.squared_distance), truth, bound) << paste(pair);
   ASSERT_EQ(result.squared_distance, (result.point_a - result.point_b).squaredNorm()) << paste(pair);

@@ -15,29 +15,29 @@ namespace {
 using testing::Random;
 using testing::TrianglePair;
 
-const Triangle FLOOR{Vec3(0, 0, 0), Vec3(4, 0, 0), Vec3(0, 4, 0)};
+const Triangle GROUND{Vec3(0, 0, 0), Vec3(4, 0, 0), Vec3(0, 4, 0)};
 
 TEST(TrianglesIntersect, TellsTouchingFromOneUnitInTheLastPlaceAway) {
   const double up = std::nextafter(0.0, 1.0) * 0x1p+1000;  // about 5e-23: exact beside coordinates near 1
   const Triangle touching{Vec3(1, 1, 0), Vec3(2, 1, 4), Vec3(1, 2, 5)};
   const Triangle apart{Vec3(1, 1, up), Vec3(2, 1, 4), Vec3(1, 2, 5)};
   const Triangle through{Vec3(1, 1, -up), Vec3(2, 1, 4), Vec3(1, 2, 5)};
-  EXPECT_TRUE(triangles_intersect(FLOOR, touching));
-  EXPECT_FALSE(triangles_intersect(FLOOR, apart));
-  EXPECT_TRUE(triangles_intersect(FLOOR, through));
+  EXPECT_TRUE(triangles_intersect(GROUND, touching));
+  EXPECT_FALSE(triangles_intersect(GROUND, apart));
+  EXPECT_TRUE(triangles_intersect(GROUND, through));
 }
 
 TEST(TrianglesIntersect, KnowsCoplanarTriangles) {
-  EXPECT_TRUE(triangles_intersect(FLOOR, {Vec3(1, 1, 0), Vec3(1.5, 1, 0), Vec3(1, 1.5, 0)}));    // inside
-  EXPECT_TRUE(triangles_intersect(FLOOR, {Vec3(-9, -9, 0), Vec3(40, -9, 0), Vec3(-9, 40, 0)}));  // around
-  EXPECT_TRUE(triangles_intersect(FLOOR, {Vec3(4, 0, 0), Vec3(9, 0, 0), Vec3(9, 3, 0)}));        // a corner
-  EXPECT_TRUE(triangles_intersect(FLOOR, {Vec3(2, 2, 0), Vec3(9, 2, 0), Vec3(9, 3, 0)}));        // on an edge
-  EXPECT_FALSE(triangles_intersect(FLOOR, {Vec3(2.0001, 2, 0), Vec3(9, 2, 0), Vec3(9, 3, 0)}));
-  EXPECT_FALSE(triangles_intersect(FLOOR, {Vec3(-1, -1, 0), Vec3(-3, 4, 0), Vec3(-1, 9, 0)}));
+  EXPECT_TRUE(triangles_intersect(GROUND, {Vec3(1, 1, 0), Vec3(1.5, 1, 0), Vec3(1, 1.5, 0)}));    // inside
+  EXPECT_TRUE(triangles_intersect(GROUND, {Vec3(-9, -9, 0), Vec3(40, -9, 0), Vec3(-9, 40, 0)}));  // around
+  EXPECT_TRUE(triangles_intersect(GROUND, {Vec3(4, 0, 0), Vec3(9, 0, 0), Vec3(9, 3, 0)}));        // a corner
+  EXPECT_TRUE(triangles_intersect(GROUND, {Vec3(2, 2, 0), Vec3(9, 2, 0), Vec3(9, 3, 0)}));  // on an edge
+  EXPECT_FALSE(triangles_intersect(GROUND, {Vec3(2.0001, 2, 0), Vec3(9, 2, 0), Vec3(9, 3, 0)}));
+  EXPECT_FALSE(triangles_intersect(GROUND, {Vec3(-1, -1, 0), Vec3(-3, 4, 0), Vec3(-1, 9, 0)}));
 }
 
 TEST(IntersectionSegment, IsTheSharedPiece) {
-  const auto segment = intersection_segment(FLOOR, {Vec3(1, 1, -1), Vec3(1, 1, 1), Vec3(3, -9, 0)});
+  const auto segment = intersection_segment(GROUND, {Vec3(1, 1, -1), Vec3(1, 1, 1), Vec3(3, -9, 0)});
   ASSERT_TRUE(segment);
   // From the wall's edge over (1, 1) to the floor's edge y = 0, on the line to (3, -9).
   EXPECT_NEAR(((*segment)[0] - Vec3(1, 1, 0)).norm(), 0.0, 1e-15);
@@ -45,16 +45,16 @@ TEST(IntersectionSegment, IsTheSharedPiece) {
 }
 
 TEST(IntersectionSegment, OfACornerThatTouchesIsThatCorner) {
-  const auto segment = intersection_segment(FLOOR, {Vec3(1, 1, 0), Vec3(2, 1, 4), Vec3(1, 2, 5)});
+  const auto segment = intersection_segment(GROUND, {Vec3(1, 1, 0), Vec3(2, 1, 4), Vec3(1, 2, 5)});
   ASSERT_TRUE(segment);
   EXPECT_EQ((*segment)[0], Vec3(1, 1, 0));
   EXPECT_EQ((*segment)[1], Vec3(1, 1, 0));
 }
 
 TEST(IntersectionSegment, IsEmptyForDisjointCoplanarAndFlatTriangles) {
-  EXPECT_FALSE(intersection_segment(FLOOR, {Vec3(1, 1, 1), Vec3(2, 1, 4), Vec3(1, 2, 5)}));
-  EXPECT_FALSE(intersection_segment(FLOOR, FLOOR));
-  EXPECT_FALSE(intersection_segment(FLOOR, {Vec3(1, 1, -1), Vec3(1, 1, 0), Vec3(1, 1, 1)}));
+  EXPECT_FALSE(intersection_segment(GROUND, {Vec3(1, 1, 1), Vec3(2, 1, 4), Vec3(1, 2, 5)}));
+  EXPECT_FALSE(intersection_segment(GROUND, GROUND));
+  EXPECT_FALSE(intersection_segment(GROUND, {Vec3(1, 1, -1), Vec3(1, 1, 0), Vec3(1, 1, 1)}));
 }
 
 TEST(IntersectionSegment, LiesOnBothTrianglesWhateverTheOrder) {

@@ -20,7 +20,7 @@ using testing::TrianglePair;
 
 /// Two distances of one pair may each be off by this part of the largest coordinate (see
 /// triangle_families_test.cpp).
-constexpr double ERROR_BOUND = 4.0 * COINCIDENCE_TOLERANCE;
+constexpr double DIFFERENCE_BOUND = 4.0 * COINCIDENCE_TOLERANCE;
 
 double distance(const TrianglePair& pair) {
   return std::sqrt(triangle_distance(pair.a, pair.b).squared_distance);
@@ -66,7 +66,7 @@ RC_GTEST_PROP(TriangleDistanceProperty, DoesNotChangeUnderRigidMotion, ()) {
     const TrianglePair moved = testing::transformed(pair, 1.0, testing::random_rotation(random),
                                                     size * 3.0 * testing::random_point(random));
     // The motion itself rounds every corner.
-    const double bound = ERROR_BOUND * (size + testing::magnitude(moved));
+    const double bound = DIFFERENCE_BOUND * (size + testing::magnitude(moved));
     RC_ASSERT(std::abs(distance(pair) - distance(moved)) <= bound);
   }
 }
@@ -83,7 +83,7 @@ RC_GTEST_PROP(TriangleDistanceProperty, ScalesWithTheTriangles, ()) {
     const double factor = testing::log_uniform(random, 1e-6, 1e6);
     const TrianglePair scaled = testing::transformed(pair, factor, Mat3::Identity(), Vec3::Zero());
     RC_ASSERT(std::abs(factor * distance(pair) - distance(scaled)) <=
-              ERROR_BOUND * testing::magnitude(scaled));
+              DIFFERENCE_BOUND * testing::magnitude(scaled));
   }
 }
 
@@ -103,7 +103,7 @@ RC_GTEST_PROP(TriangleDistanceProperty, IsOneLipschitzAlongAMotion, ()) {
         moved = std::max(moved, (corner - old).norm());
       }
       const double after = distance(pair);
-      RC_ASSERT(std::abs(after - before) <= moved + ERROR_BOUND * size);
+      RC_ASSERT(std::abs(after - before) <= moved + DIFFERENCE_BOUND * size);
       before = after;
     }
   }
@@ -159,7 +159,7 @@ RC_GTEST_PROP(TriangleDistanceProperty, IsBoundedByTheFeaturePoints, ()) {
     for (const Vec3& p : feature_points(pair.a)) {
       for (const Vec3& q : feature_points(pair.b)) by_points = std::min(by_points, (q - p).norm());
     }
-    const double slack = ERROR_BOUND * testing::magnitude(pair);
+    const double slack = DIFFERENCE_BOUND * testing::magnitude(pair);
     RC_ASSERT(distance(pair) <= by_points + slack);
     RC_ASSERT(by_points <= distance(pair) + covering_radius(pair.a) + covering_radius(pair.b) + slack);
   }

@@ -12,10 +12,6 @@
 namespace lmdbench {
 namespace {
 
-double cross(const Vec2& a, const Vec2& b) {
-  return a[0] * b[1] - a[1] * b[0];
-}
-
 std::vector<PolygonSide> loop(const std::vector<Vec2>& corners) {
   std::vector<PolygonSide> sides;
   for (std::size_t k = 0; k < corners.size(); ++k)

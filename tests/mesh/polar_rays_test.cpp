@@ -18,7 +18,7 @@ namespace {
 
 using IntegerVector = std::array<std::int64_t, 3>;
 
-IntegerVector cross(const IntegerVector& a, const IntegerVector& b) {
+IntegerVector exact_cross(const IntegerVector& a, const IntegerVector& b) {
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
 std::int64_t dot(const IntegerVector& a, const IntegerVector& b) {
@@ -31,7 +31,7 @@ bool is_polar_exactly_empty(const std::vector<IntegerVector>& directions) {
   bool all_parallel = true;
   for (const auto& a : directions) {
     for (const auto& b : directions) {
-      const IntegerVector c = cross(a, b);
+      const IntegerVector c = exact_cross(a, b);
       if (c == IntegerVector{0, 0, 0}) continue;
       all_parallel = false;
       for (const std::int64_t sign : {1, -1})

@@ -37,7 +37,7 @@ std::string with(const std::string& from, const std::string& to) {
   return text.replace(at, from.size(), to);
 }
 
-std::string complaint_about(const std::string& text) {
+std::string spec_complaint(const std::string& text) {
   try {
     parse_path_spec(text, "spec.json");
   } catch (const UsageError& error) {
@@ -93,36 +93,35 @@ TEST(PathSpec, WhatIsGivenReplacesTheDefaultLimits) {
 }
 
 TEST(PathSpec, ComplaintsNameThePlace) {
-  EXPECT_THAT(complaint_about("{"), HasSubstr("spec.json: line 1, column 2: not JSON"));
-  EXPECT_THAT(complaint_about("[]"), HasSubstr("spec.json: / (line 1): "));
-  EXPECT_THAT(complaint_about(with("\"seed\"", "\"sead\"")),
+  EXPECT_THAT(spec_complaint("{"), HasSubstr("spec.json: line 1, column 2: not JSON"));
+  EXPECT_THAT(spec_complaint("[]"), HasSubstr("spec.json: / (line 1): "));
+  EXPECT_THAT(spec_complaint(with("\"seed\"", "\"sead\"")),
               HasSubstr("spec.json: /sead (line 6): unknown key \"sead\" (remedy: did you mean \"seed\"?)"));
-  EXPECT_THAT(complaint_about(with("\"seed\": 7", "\"seed\": -7")), HasSubstr("/seed (line 6): "));
-  EXPECT_THAT(complaint_about(with("\"seed\": 7", "\"seed\": 1.5")), HasSubstr("/seed (line 6): "));
-  EXPECT_THAT(complaint_about(with("\"mesh\": \"armadillo\",", "")), HasSubstr("/fixed (line 3): "));
-  EXPECT_THAT(complaint_about(with("\"armadillo\"", "3")), HasSubstr("/fixed/mesh (line 3): "));
-  EXPECT_THAT(complaint_about(with("\"armadillo\"", "\"armadillo\", \"size\": 2")),
+  EXPECT_THAT(spec_complaint(with("\"seed\": 7", "\"seed\": -7")), HasSubstr("/seed (line 6): "));
+  EXPECT_THAT(spec_complaint(with("\"seed\": 7", "\"seed\": 1.5")), HasSubstr("/seed (line 6): "));
+  EXPECT_THAT(spec_complaint(with("\"mesh\": \"armadillo\",", "")), HasSubstr("/fixed (line 3): "));
+  EXPECT_THAT(spec_complaint(with("\"armadillo\"", "3")), HasSubstr("/fixed/mesh (line 3): "));
+  EXPECT_THAT(spec_complaint(with("\"armadillo\"", "\"armadillo\", \"size\": 2")),
               HasSubstr("/fixed/size (line 3): unknown key"));
-  EXPECT_THAT(complaint_about(with("0.2 }", "0 }")), HasSubstr("/fixed/diagonal_m (line 3): "));
-  EXPECT_THAT(complaint_about(with("0.2 }", "\"0.2\" }")), HasSubstr("/fixed/diagonal_m (line 3): "));
-  EXPECT_THAT(complaint_about(with("250", "300")),
-              HasSubstr("/stored_rate_hz (line 5): 300 does not divide"));
-  EXPECT_THAT(complaint_about(with("250", "4000")),
+  EXPECT_THAT(spec_complaint(with("0.2 }", "0 }")), HasSubstr("/fixed/diagonal_m (line 3): "));
+  EXPECT_THAT(spec_complaint(with("0.2 }", "\"0.2\" }")), HasSubstr("/fixed/diagonal_m (line 3): "));
+  EXPECT_THAT(spec_complaint(with("250", "300")), HasSubstr("/stored_rate_hz (line 5): 300 does not divide"));
+  EXPECT_THAT(spec_complaint(with("250", "4000")),
               HasSubstr("/stored_rate_hz (line 5): 4000 does not divide"));
-  EXPECT_THAT(complaint_about(with("[0, 3, -4]", "[0, 0, 0]")),
+  EXPECT_THAT(spec_complaint(with("[0, 3, -4]", "[0, 0, 0]")),
               HasSubstr("/start_direction (line 7): is not a direction"));
-  EXPECT_THAT(complaint_about(with("[0, 3, -4]", "[1, 0]")), HasSubstr("/start_direction (line 7): "));
-  EXPECT_THAT(complaint_about(with(": 18", ": -1")), HasSubstr("/slide_rate_deg_per_s (line 8): "));
-  EXPECT_THAT(complaint_about(with("0.0002", "1e999")), HasSubstr("out of range"));
-  EXPECT_THAT(complaint_about(with("\"time_s\": 0,", "\"time_s\": 0.5,")),
+  EXPECT_THAT(spec_complaint(with("[0, 3, -4]", "[1, 0]")), HasSubstr("/start_direction (line 7): "));
+  EXPECT_THAT(spec_complaint(with(": 18", ": -1")), HasSubstr("/slide_rate_deg_per_s (line 8): "));
+  EXPECT_THAT(spec_complaint(with("0.0002", "1e999")), HasSubstr("out of range"));
+  EXPECT_THAT(spec_complaint(with("\"time_s\": 0,", "\"time_s\": 0.5,")),
               HasSubstr("/gaps/0/time_s (line 13): the first time is not 0"));
-  EXPECT_THAT(complaint_about(with("\"time_s\": 1.5,", "\"time_s\": 0,")),
+  EXPECT_THAT(spec_complaint(with("\"time_s\": 1.5,", "\"time_s\": 0,")),
               HasSubstr("/gaps/1/time_s (line 13): 0 does not lie after 0"));
-  EXPECT_THAT(complaint_about(with("\"gap\": 0.001", "\"gap\": 0.0002")),
+  EXPECT_THAT(spec_complaint(with("\"gap\": 0.001", "\"gap\": 0.0002")),
               HasSubstr("/gaps/1/gap (line 13): 0.0002 is not above gap_floor"));
-  EXPECT_THAT(complaint_about(with("\"gap\": 0.001", "\"gap\": 0.001, \"x\": 1")),
+  EXPECT_THAT(spec_complaint(with("\"gap\": 0.001", "\"gap\": 0.001, \"x\": 1")),
               HasSubstr("/gaps/1/x (line 13): unknown key"));
-  EXPECT_THAT(complaint_about(with(", { \"time_s\": 1.5, \"gap\": 0.001 }", "")),
+  EXPECT_THAT(spec_complaint(with(", { \"time_s\": 1.5, \"gap\": 0.001 }", "")),
               HasSubstr("/gaps (line 13): "));
 }
 

@@ -25,7 +25,7 @@ Path read_text(const std::string& text) {
   return read_tum(stream, "some.tum");
 }
 
-std::string complaint_about(const std::string& text) {
+std::string tum_complaint(const std::string& text) {
   try {
     read_text(text);
   } catch (const InputError& error) {
@@ -117,32 +117,31 @@ TEST(ReadTum, IsIndependentOfTheLocale) {
 
 TEST(ReadTum, ComplaintsNameFileLineAndRemedy) {
   const std::string good = "0 0 0 0 0 0 0 1\n";
-  EXPECT_THAT(complaint_about(good + "1 0 nan 0 0 0 0 1\n"),
+  EXPECT_THAT(tum_complaint(good + "1 0 nan 0 0 0 0 1\n"),
               AllOf(HasSubstr("some.tum: line 2: "), HasSubstr("NaN"), HasSubstr("remedy")));
-  EXPECT_THAT(complaint_about("# c\n\n" + good + "1 0 0 inf 0 0 0 1\n"),
-              HasSubstr("line 4: NaN or infinity"));
-  EXPECT_THAT(complaint_about("nan 0 0 0 0 0 0 1\n"), HasSubstr("line 1: NaN"));
-  EXPECT_THAT(complaint_about(good + "1 0 0 0 0 0 1\n"), HasSubstr("line 2: 7 columns instead of 8"));
-  EXPECT_THAT(complaint_about(good + "1 0 0 0 0 0 0 1 9\n"), HasSubstr("line 2: 9 columns instead of 8"));
-  EXPECT_THAT(complaint_about("0,0,0,0,0,0,0,1\n"), HasSubstr("separated by blanks"));
-  EXPECT_THAT(complaint_about(good + good),
+  EXPECT_THAT(tum_complaint("# c\n\n" + good + "1 0 0 inf 0 0 0 1\n"), HasSubstr("line 4: NaN or infinity"));
+  EXPECT_THAT(tum_complaint("nan 0 0 0 0 0 0 1\n"), HasSubstr("line 1: NaN"));
+  EXPECT_THAT(tum_complaint(good + "1 0 0 0 0 0 1\n"), HasSubstr("line 2: 7 columns instead of 8"));
+  EXPECT_THAT(tum_complaint(good + "1 0 0 0 0 0 0 1 9\n"), HasSubstr("line 2: 9 columns instead of 8"));
+  EXPECT_THAT(tum_complaint("0,0,0,0,0,0,0,1\n"), HasSubstr("separated by blanks"));
+  EXPECT_THAT(tum_complaint(good + good),
               HasSubstr("line 2: time 0 does not lie after the time before it, 0"));
-  EXPECT_THAT(complaint_about(good + "-1 0 0 0 0 0 0 1\n"), HasSubstr("line 2: time -1 does not lie after"));
-  EXPECT_THAT(complaint_about("0 0 0 0 0 0 0 1.01\n"),
+  EXPECT_THAT(tum_complaint(good + "-1 0 0 0 0 0 0 1\n"), HasSubstr("line 2: time -1 does not lie after"));
+  EXPECT_THAT(tum_complaint("0 0 0 0 0 0 0 1.01\n"),
               HasSubstr("line 1: the quaternion's length is 1.01, not 1"));
-  EXPECT_THAT(complaint_about("0 0 0 0 0 0 0 0\n"), HasSubstr("the quaternion's length is 0, not 1"));
-  EXPECT_THAT(complaint_about("0 0 0 0 0 0 0 one\n"), HasSubstr("line 1: 'one' is not a number"));
-  EXPECT_THAT(complaint_about("0 0 0 0,5 0 0 0 1\n"), HasSubstr("line 1: '0,5' is not a number"));
-  EXPECT_THAT(complaint_about("0 0 0 1e999 0 0 0 1\n"), HasSubstr("'1e999' is out of the range"));
-  EXPECT_THAT(complaint_about("# nothing\n"), HasSubstr("some.tum: holds no pose"));
-  EXPECT_THAT(complaint_about(""), HasSubstr("holds no pose"));
+  EXPECT_THAT(tum_complaint("0 0 0 0 0 0 0 0\n"), HasSubstr("the quaternion's length is 0, not 1"));
+  EXPECT_THAT(tum_complaint("0 0 0 0 0 0 0 one\n"), HasSubstr("line 1: 'one' is not a number"));
+  EXPECT_THAT(tum_complaint("0 0 0 0,5 0 0 0 1\n"), HasSubstr("line 1: '0,5' is not a number"));
+  EXPECT_THAT(tum_complaint("0 0 0 1e999 0 0 0 1\n"), HasSubstr("'1e999' is out of the range"));
+  EXPECT_THAT(tum_complaint("# nothing\n"), HasSubstr("some.tum: holds no pose"));
+  EXPECT_THAT(tum_complaint(""), HasSubstr("holds no pose"));
 }
 
 TEST(ReadTum, QuaternionToleranceIsOnTheLength) {
-  EXPECT_EQ(complaint_about("0 0 0 0 0 0 0 1.00099\n"), "");
-  EXPECT_EQ(complaint_about("0 0 0 0 0 0 0 0.99901\n"), "");
-  EXPECT_NE(complaint_about("0 0 0 0 0 0 0 1.00101\n"), "");
-  EXPECT_NE(complaint_about("0 0 0 0 0 0 0 0.99899\n"), "");
+  EXPECT_EQ(tum_complaint("0 0 0 0 0 0 0 1.00099\n"), "");
+  EXPECT_EQ(tum_complaint("0 0 0 0 0 0 0 0.99901\n"), "");
+  EXPECT_NE(tum_complaint("0 0 0 0 0 0 0 1.00101\n"), "");
+  EXPECT_NE(tum_complaint("0 0 0 0 0 0 0 0.99899\n"), "");
 }
 
 TEST(ReadTum, MissingFileIsNamed) {

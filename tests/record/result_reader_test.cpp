@@ -24,7 +24,7 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
-constexpr double NOT_SET = std::numeric_limits<double>::quiet_NaN();
+constexpr double MISSING = std::numeric_limits<double>::quiet_NaN();
 
 /// A small result with one dataset of each kind, one of them compressed.
 std::filesystem::path small_result(const std::filesystem::path& file,
@@ -34,7 +34,7 @@ std::filesystem::path small_result(const std::filesystem::path& file,
   writer.attribute("/", "format", format);
   writer.attribute("/", "format_version", version);
   writer.attribute("/scene", "cutoff_m", 0.25);
-  writer.write({"/methods/b/force", "N", "force"}, std::vector<double>{1.0, NOT_SET, -3.0, 0.1, 5.0, 6.0},
+  writer.write({"/methods/b/force", "N", "force"}, std::vector<double>{1.0, MISSING, -3.0, 0.1, 5.0, 6.0},
                {2, 3});
   writer.write({"/methods/a/lmd_count", "1", "count"}, std::vector<std::int64_t>{1, -2}, {2});
   writer.write({"/methods/a/force_clipped", "1", "flag"}, std::vector<std::uint8_t>{0, 1}, {2});

@@ -27,6 +27,13 @@ inline Scene make_scene(TriangleMesh moving, TriangleMesh fixed, double cutoff) 
   return {make_body("moving", std::move(moving)), {make_body("fixed", std::move(fixed))}, cutoff};
 }
 
+/// A translation.
+inline Pose moved(double x, double y, double z) {
+  Pose pose;
+  pose.translation = Vec3(x, y, z);
+  return pose;
+}
+
 /// Uniform in [0, 1), the same on every standard library.
 inline double uniform(std::mt19937_64& random) {
   return static_cast<double>(random() >> 11) * 0x1.0p-53;

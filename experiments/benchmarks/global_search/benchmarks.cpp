@@ -11,14 +11,14 @@ namespace {
 
 constexpr std::size_t POSE_COUNT = 40;
 
-struct Checked {
+struct CheckedSearch {
   std::unique_ptr<GlobalSearch> search;
   LmdError error;
 };
 
-void add(const SearchImplementation& implementation, const Setting& setting) {
+void add_search(const SearchImplementation& implementation, const Setting& setting) {
   const auto checked = once([&setting, implementation] {
-    Checked made{implementation.make(setting.scene), {}};
+    CheckedSearch made{implementation.make(setting.scene), {}};
     made.error = check_search(implementation, *made.search, setting.scene, setting.poses, setting.truth);
     return made;
   });
@@ -42,7 +42,7 @@ void add_search_benchmarks(const std::vector<SearchImplementation>& implementati
   choice.meshes = benchmark_meshes();
   static const std::vector<Setting> settings = grazing_settings(choice, {0.005, 0.02, 0.05}, POSE_COUNT);
   for (const SearchImplementation& implementation : implementations)
-    for (const Setting& setting : settings) add(implementation, setting);
+    for (const Setting& setting : settings) add_search(implementation, setting);
 }
 
 void add_global_searches() {

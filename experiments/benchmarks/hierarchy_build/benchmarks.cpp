@@ -21,8 +21,8 @@ struct Prepared {
   std::vector<BuildProbe> probes;
 };
 
-void add(const BuildImplementation& implementation, const std::string& mesh,
-         const std::function<const Prepared&()>& prepared) {
+void add_build(const BuildImplementation& implementation, const std::string& mesh,
+               const std::function<const Prepared&()>& prepared) {
   const auto objection = once([implementation, prepared] {
     const auto build = implementation.make(prepared().body->surface());
     return check_build(implementation, *build, prepared().probes);
@@ -60,7 +60,8 @@ void add_build_benchmarks(const std::vector<BuildImplementation>& implementation
     const auto prepared = once([body] {
       return Prepared{body, build_probes(body->surface().mesh, PROBE_COUNT)};
     });
-    for (const BuildImplementation& implementation : implementations) add(implementation, mesh, prepared);
+    for (const BuildImplementation& implementation : implementations)
+      add_build(implementation, mesh, prepared);
   }
 }
 

@@ -9,14 +9,14 @@ namespace {
 
 constexpr std::size_t POSE_COUNT = 10;
 
-struct Checked {
+struct CheckedNodeTest {
   std::unique_ptr<NodeTest> test;
   std::string objection;
 };
 
-void add(const NodeTestImplementation& implementation, const Setting& setting) {
+void add_node_test(const NodeTestImplementation& implementation, const Setting& setting) {
   const auto checked = once([&setting, implementation] {
-    Checked made{implementation.make(setting), {}};
+    CheckedNodeTest made{implementation.make(setting), {}};
     made.objection = made.test->objection();
     return made;
   });
@@ -45,7 +45,7 @@ void add_node_tests() {
   choice.meshes = benchmark_meshes();
   static const std::vector<Setting> settings = grazing_settings(choice, {0.005, 0.05}, POSE_COUNT);
   for (const NodeTestImplementation& implementation : node_test_implementations())
-    for (const Setting& setting : settings) add(implementation, setting);
+    for (const Setting& setting : settings) add_node_test(implementation, setting);
 }
 
 }  // namespace lmdbench::experiments

@@ -15,7 +15,7 @@ namespace lmdbench {
 
 namespace {
 
-[[noreturn]] void fail(const std::filesystem::path& file, const char* action, int error) {
+[[noreturn]] void cannot_be(const std::filesystem::path& file, const char* action, int error) {
   throw EnvironmentError(file.string(), "",
                          fmt::format("cannot be {}: {}", action, std::generic_category().message(error)),
                          "check the disk space and the permissions of the folder");
@@ -33,7 +33,7 @@ class FreshFile {
           FileDescriptor(::open(name_.c_str(), O_RDWR | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666));
       if (!descriptor_.valid() && errno != EEXIST) break;
     }
-    if (!descriptor_.valid()) fail(name_, "opened for writing", errno);
+    if (!descriptor_.valid()) cannot_be(name_, "opened for writing", errno);
   }
   ~FreshFile() {
     if (!renamed_) ::unlink(name_.c_str());
@@ -45,10 +45,10 @@ class FreshFile {
     while (!content.empty()) {
       const ssize_t written = ::write(descriptor_.get(), content.data(), content.size());
       if (written < 0 && errno == EINTR) continue;
-      if (written < 0) fail(name_, "written", errno);
+      if (written < 0) cannot_be(name_, "written", errno);
       content.remove_prefix(static_cast<std::size_t>(written));
     }
-    if (::fsync(descriptor_.get()) != 0) fail(name_, "flushed to disk", errno);
+    if (::fsync(descriptor_.get()) != 0) cannot_be(name_, "flushed to disk", errno);
   }
 
   int descriptor() const { return descriptor_.get(); }
@@ -57,7 +57,7 @@ class FreshFile {
   void rename_to(const std::filesystem::path& file) {
     std::error_code error;
     std::filesystem::rename(name_, file, error);
-    if (error) fail(file, "replaced", error.value());
+    if (error) cannot_be(file, "replaced", error.value());
     renamed_ = true;
   }
 
@@ -71,14 +71,14 @@ class FreshFile {
 
 void write_file_atomically(const std::filesystem::path& file, std::string_view content) {
   FileDescriptor written = replace_file(file, content, {});
-  if (!written.close()) fail(file, "written", errno);
+  if (!written.close()) cannot_be(file, "written", errno);
 }
 
 FileDescriptor replace_file(const std::filesystem::path& file, std::string_view content,
                             const std::function<void(int descriptor)>& before_rename) {
   std::error_code error;
   if (file.has_parent_path()) std::filesystem::create_directories(file.parent_path(), error);
-  if (error) fail(file.parent_path(), "made", error.value());
+  if (error) cannot_be(file.parent_path(), "made", error.value());
   FreshFile part(file);
   part.write(content);
   if (before_rename) before_rename(part.descriptor());

@@ -11,6 +11,9 @@ namespace lmdbench {
 /// unset and do not count; NaN when nothing is left.
 double quantile(std::vector<double> values, double share);
 
+/// Share of the quantile that reports show as p99.
+inline constexpr double P99 = 0.99;
+
 /// quantile(values, 0.5)
 double median(std::vector<double> values);
 

@@ -4,6 +4,7 @@
 #include <lmdbench/base/error.h>
 #include <lmdbench/base/input_file.h>
 #include <lmdbench/base/limits.h>
+#include <lmdbench/catalogue/cut_short.h>
 #include <lmdbench/catalogue/off_file.h>
 
 #include <fmt/format.h>
@@ -20,7 +21,8 @@ namespace lmdbench {
 
 namespace {
 
-constexpr std::string_view BLANKS = " \t\r";
+/// Within a line of an OFF file.
+constexpr std::string_view OFF_BLANKS = " \t\r";
 
 // Positions come first in a vertex's line whatever follows: texture coordinates (ST), colours (C), normals (N).
 constexpr std::array<std::string_view, 8> KEYWORDS{"OFF",   "COFF",   "NOFF",   "CNOFF",
@@ -46,7 +48,7 @@ class LineReader {
   }
 
   std::string_view word() {
-    const std::string_view result = line_.substr(0, line_.find_first_of(BLANKS));
+    const std::string_view result = line_.substr(0, line_.find_first_of(OFF_BLANKS));
     line_.remove_prefix(result.size());
     skip_blanks();
     return result;
@@ -73,15 +75,12 @@ class LineReader {
   }
 
  private:
-  void skip_blanks() { line_.remove_prefix(std::min(line_.size(), line_.find_first_not_of(BLANKS))); }
+  void skip_blanks() { line_.remove_prefix(std::min(line_.size(), line_.find_first_not_of(OFF_BLANKS))); }
 
   std::string file_;
   std::string_view rest_, line_;
   std::size_t line_number_ = 0;
 };
-
-constexpr const char* CUT_SHORT =
-    "the file may be cut short: get it again, or correct the counts in its header";
 
 void read_vertices(LineReader& lines, std::int64_t count, TriangleMesh& mesh) {
   for (std::int64_t v = 0; v < count; ++v) {

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/base/error.h>
 #include <lmdbench/base/limits.h>
+#include <lmdbench/catalogue/cut_short.h>
 #include <lmdbench/catalogue/ply_check.h>
 
 #include <fmt/format.h>
@@ -16,9 +17,8 @@
 namespace lmdbench {
 namespace {
 
-constexpr const char* CUT_SHORT =
-    "the file may be cut short: get it again, or correct the counts in its header";
-constexpr std::string_view BLANKS = " \t\r\n\v\f";
+/// Between the words of a PLY file, whose text may go over lines.
+constexpr std::string_view PLY_BLANKS = " \t\r\n\v\f";
 
 struct ScalarType {
   std::string_view name;
@@ -59,8 +59,8 @@ struct Element {
 enum class Form : std::uint8_t { TEXT, LITTLE_ENDIAN_BINARY, BIG_ENDIAN_BINARY };
 
 std::string_view next_word(std::string_view& text) {
-  text.remove_prefix(std::min(text.size(), text.find_first_not_of(BLANKS)));
-  const std::string_view word = text.substr(0, text.find_first_of(BLANKS));
+  text.remove_prefix(std::min(text.size(), text.find_first_not_of(PLY_BLANKS)));
+  const std::string_view word = text.substr(0, text.find_first_of(PLY_BLANKS));
   text.remove_prefix(word.size());
   return word;
 }
@@ -111,7 +111,7 @@ class HeaderReader {
       fail("the header ends without 'end_header'", "the file may be cut short: get it again");
     std::string_view line = rest_.substr(0, end);
     rest_.remove_prefix(end + 1);
-    while (!line.empty() && BLANKS.find(line.back()) != std::string_view::npos) line.remove_suffix(1);
+    while (!line.empty() && PLY_BLANKS.find(line.back()) != std::string_view::npos) line.remove_suffix(1);
     return line;
   }
 

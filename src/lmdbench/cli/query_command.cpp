@@ -67,7 +67,7 @@ nlohmann::json chosen_options(const QueryOptions& options) {
   return complete_options(method_description(options.method, "", "--method"), chosen, "--option");
 }
 
-void run(const QueryOptions& options) {
+void run_query(const QueryOptions& options) {
   if (!(options.cutoff > 0.0 && options.cutoff <= LARGEST_COORDINATE))
     throw UsageError(
         "", "--cutoff",
@@ -114,7 +114,7 @@ void add_query_command(CLI::App& app) {
   command->add_option("--dir", options->folder, "folder of manifest.json and of the built meshes")
       ->capture_default_str();
   command->add_flag("--json", options->json, "one JSON object a pose, a line each");
-  command->callback([options] { run(*options); });
+  command->callback([options] { run_query(*options); });
 }
 
 }  // namespace lmdbench

@@ -3,6 +3,7 @@
 #include <lmdbench/base/error.h>
 #include <lmdbench/cli/commands.h>
 #include <lmdbench/cli/progress_bar.h>
+#include <lmdbench/cli/stop_signals.h>
 #include <lmdbench/cli/talk.h>
 #include <lmdbench/experiment/experiment.h>
 #include <lmdbench/experiment/run.h>
@@ -14,8 +15,6 @@
 #include <fmt/ranges.h>
 #include <spdlog/spdlog.h>
 
-#include <array>
-#include <csignal>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
@@ -24,23 +23,6 @@
 
 namespace lmdbench {
 namespace {
-
-volatile std::sig_atomic_t stop_requested = 0;
-
-void request_stop(int signal) {
-  stop_requested = signal;
-  std::signal(signal, SIG_DFL);  // a second Ctrl-C ends the program at once
-}
-
-/// What users, terminals and schedulers send to end a program.
-constexpr std::array<int, 3> STOP_SIGNALS{SIGINT, SIGTERM, SIGHUP};
-
-void heed_stop_signals() {
-  for (const int signal : STOP_SIGNALS) {
-    const auto before = std::signal(signal, request_stop);
-    if (signal == SIGHUP && before == SIG_IGN) std::signal(signal, SIG_IGN);  // nohup
-  }
-}
 
 struct RunOptions {
   std::string experiment;
@@ -51,7 +33,7 @@ struct RunOptions {
   bool resume = false;
 };
 
-void run(const RunOptions& options, const std::vector<std::string>& argv) {
+void run_to_file(const RunOptions& options, const std::vector<std::string>& argv) {
   std::vector<Override> overrides = options.overrides;
   if (!options.driver.empty()) overrides.push_back("/driver/kind=" + options.driver);
   const Experiment experiment = load_experiment(options.experiment, overrides);
@@ -64,7 +46,7 @@ void run(const RunOptions& options, const std::vector<std::string>& argv) {
         experiment, out, argv,
         [&bar](const std::string& phase, std::int64_t done, std::int64_t total) {
           bar.update(phase, done, total);
-          return stop_requested == 0;
+          return !stop_requested();
         },
         options.resume ? Leftover::RESUME : Leftover::REFUSE);
     bar.wipe();
@@ -98,9 +80,7 @@ void run(const RunOptions& options, const std::vector<std::string>& argv) {
                       ? part + " keeps what was measured (remedy: go on with --resume, or remove it)"
                       : "nothing was measured yet",
                   out.string());
-    const int signal = stop_requested;
-    std::signal(signal, SIG_DFL);
-    std::raise(signal);  // so that a calling shell or script sees the interruption, too
+    end_by_the_signal();
   }
 }
 
@@ -118,7 +98,7 @@ void add_run_command(CLI::App& app, const std::vector<std::string>& argv) {
   command->add_flag("--resume", options->resume,
                     "go on with what an interrupted run of the same experiment left, if anything");
   command->footer(methods_help());
-  command->callback([options, argv] { run(*options, argv); });
+  command->callback([options, argv] { run_to_file(*options, argv); });
 }
 
 }  // namespace lmdbench

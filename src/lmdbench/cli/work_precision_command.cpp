@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/cli/commands.h>
 #include <lmdbench/cli/progress_bar.h>
+#include <lmdbench/cli/stop_signals.h>
 #include <lmdbench/cli/talk.h>
 #include <lmdbench/sweep/run_sweep.h>
 #include <lmdbench/sweep/write_sweep.h>
@@ -10,7 +11,6 @@
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
-#include <csignal>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -19,13 +19,6 @@
 namespace lmdbench {
 namespace {
 
-volatile std::sig_atomic_t stop_requested = 0;
-
-void request_stop(int) {
-  stop_requested = 1;
-  std::signal(SIGINT, SIG_DFL);  // a second Ctrl-C ends the program at once
-}
-
 struct SweepOptions {
   std::string sweep;
   std::string out;
@@ -33,16 +26,16 @@ struct SweepOptions {
   bool json = false;
 };
 
-void run(const SweepOptions& options, const std::vector<std::string>& argv) {
+void sweep_to_file(const SweepOptions& options, const std::vector<std::string>& argv) {
   const Sweep sweep = load_sweep(options.sweep, options.overrides);
   const std::filesystem::path out = options.out.empty() ? "results/" + sweep.name + ".h5" : options.out;
   ProgressBar bar(progress_welcome());
-  std::signal(SIGINT, request_stop);
+  heed_stop_signals();
   try {
     const SweepResult result = run_sweep_to_file(
         sweep, out, argv, [&bar](const std::string& phase, std::int64_t done, std::int64_t total) {
           bar.update(phase, done, total);
-          return stop_requested == 0;
+          return !stop_requested();
         });
     bar.wipe();
     fmt::print("{}{}", options.json ? sweep_json(sweep, result) : sweep_text(sweep, result),
@@ -55,8 +48,7 @@ void run(const SweepOptions& options, const std::vector<std::string>& argv) {
     bar.wipe();
     spdlog::error("interrupted: the points that are done stay in {}; the same command goes on from there",
                   journal_of(out).string());
-    std::signal(SIGINT, SIG_DFL);
-    std::raise(SIGINT);  // so that a calling shell or script sees the interruption, too
+    end_by_the_signal();
   }
 }
 
@@ -74,7 +66,7 @@ void add_work_precision_command(CLI::App& app, const std::vector<std::string>& a
                    "override a value of the sweep: /json/pointer=value; repeatable")
       ->allow_extra_args(false);
   command->add_flag("--json", options->json, "a JSON array, one object a point");
-  command->callback([options, argv] { run(*options, argv); });
+  command->callback([options, argv] { sweep_to_file(*options, argv); });
 }
 
 }  // namespace lmdbench

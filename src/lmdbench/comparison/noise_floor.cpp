@@ -70,7 +70,7 @@ NoiseFloor summarise_noise(std::span<const double> times, std::size_t repetition
   floor.seconds = std::accumulate(times.begin(), times.end(), 0.0);
   floor.piece_seconds = least;
   floor.typical_excess = median(excess);
-  floor.slow_excess = quantile(excess, 0.99);
+  floor.slow_excess = quantile(excess, P99);
   floor.spread = std::sqrt(squares / static_cast<double>(groups - 1));
   floor.processes = PROCESSES;
   floor.detectable = detectable_effect(floor.spread, PROCESSES, FALSE_ALARM);

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/experiment/contact.h>
-#include <lmdbench/mesh/triangle_mesh.h>
+#include <lmdbench/mesh/radius_about.h>
 #include <lmdbench/snch/minimum_distance.h>
 #include <lmdbench/snch/nearest_tracker.h>
 
@@ -19,9 +19,8 @@ constexpr double ROUNDING = 1e-12;
 /// How far a point of the moving mesh can get between two poses.
 class MotionBound {
  public:
-  explicit MotionBound(const TriangleMesh& mesh) : centre_(bounding_box_centre(mesh)) {
-    for (const Vec3& vertex : mesh.vertices) radius_ = std::max(radius_, (vertex - centre_).norm());
-  }
+  explicit MotionBound(const TriangleMesh& mesh)
+      : centre_(bounding_box_centre(mesh)), radius_(radius_about(mesh, centre_)) {}
 
   /// The way of the centre, and of the point farthest from it as the mesh turns: a chord.
   double between(const Pose& a, const Pose& b) const {
@@ -36,7 +35,7 @@ class MotionBound {
 
  private:
   Vec3 centre_;
-  double radius_ = 0.0;
+  double radius_;
 };
 
 /// One fixed mesh: in contact or not, pose after pose.

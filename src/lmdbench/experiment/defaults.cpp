@@ -32,7 +32,7 @@ std::string name_from(const std::filesystem::path& file) {
   return first == std::string::npos ? "experiment" : name.substr(first);
 }
 
-void add_methods(Json& document, std::vector<DefaultNote>& notes) {
+void add_every_method(Json& document, std::vector<DefaultNote>& notes) {
   std::vector<std::string> names;
   document["methods"] = Json::array();
   for (const MethodDescription& method : method_descriptions()) {
@@ -76,7 +76,7 @@ std::vector<DefaultNote> add_file_defaults(Json& document, const std::filesystem
     document["name"] = name_from(file);
     notes.push_back({"/name", document["name"], "the file's name"});
   }
-  if (!document.contains("methods")) add_methods(document, notes);
+  if (!document.contains("methods")) add_every_method(document, notes);
   add_force(document, notes);
   return notes;
 }

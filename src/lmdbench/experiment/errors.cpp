@@ -11,8 +11,6 @@
 namespace lmdbench {
 namespace {
 
-constexpr double P99 = 0.99;
-
 double root_mean_square(std::vector<double> values) {
   for (double& value : values) value *= value;
   return std::sqrt(mean(values));

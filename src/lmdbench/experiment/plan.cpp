@@ -21,7 +21,7 @@ std::string join_labels(const std::vector<std::string>& labels) {
 }
 
 /// A method of the experiment with its options, with the default beside a value that is another.
-std::string method_text(const MethodChoice& choice) {
+std::string choice_text(const MethodChoice& choice) {
   const MethodDescription& method = method_description(choice.name);
   std::string text =
       fmt::format("  {}: {} ({}, force law {})\n", choice.label, method.summary, to_string(method.promise),
@@ -34,7 +34,7 @@ std::string method_text(const MethodChoice& choice) {
   return text;
 }
 
-nlohmann::ordered_json method_json(const MethodChoice& choice) {
+nlohmann::ordered_json choice_json(const MethodChoice& choice) {
   const MethodDescription& method = method_description(choice.name);
   nlohmann::ordered_json json{{"label", choice.label},
                               {"name", method.name},
@@ -138,7 +138,7 @@ std::string plan_text(const Plan& plan, const Experiment& experiment) {
   if (!plan.rules.empty()) text += rules_text(plan.rules);
   if (plan.scene) text += to_text(*plan.scene);
   text += "methods:\n";
-  for (const MethodChoice& choice : experiment.methods) text += method_text(choice);
+  for (const MethodChoice& choice : experiment.methods) text += choice_text(choice);
   return text;
 }
 
@@ -146,7 +146,7 @@ std::string plan_json(const Plan& plan, const Experiment& experiment) {
   nlohmann::ordered_json json;
   json["experiment"] = nlohmann::ordered_json::parse(experiment.resolved_json);
   json["methods"] = nlohmann::ordered_json::array();
-  for (const MethodChoice& choice : experiment.methods) json["methods"].push_back(method_json(choice));
+  for (const MethodChoice& choice : experiment.methods) json["methods"].push_back(choice_json(choice));
   json["needed"] = nlohmann::ordered_json::array();
   json["left_out"] = nlohmann::ordered_json::array();
   for (const PlanItem& item : plan.items)

@@ -11,7 +11,7 @@ namespace {
 using Json = nlohmann::json;
 
 /// An entry of "methods" with every method's options: which ones there are depends on its name.
-void add_methods(Json& entry) {
+void add_method_options(Json& entry) {
   Json choices = Json::array();
   for (const MethodDescription& method : method_descriptions()) {
     Json properties = entry["properties"];
@@ -30,7 +30,7 @@ void add_methods(Json& entry) {
 const Json& experiment_schema() {
   static const Json schema = [] {
     Json text = Json::parse(experiment_schema_text());
-    add_methods(text["properties"]["methods"]["items"]);
+    add_method_options(text["properties"]["methods"]["items"]);
     text["properties"]["plan"] = rules_schema();
     return text;
   }();

@@ -110,7 +110,7 @@ void measure(StabilityMapRun& run, const MethodRecord& record, const Scene& scen
   double sum = 0.0;
   for (std::size_t i = settled; i < frames; ++i) sum += high[i].squaredNorm();
   run.force_above_30_hz_n = std::sqrt(sum / static_cast<double>(frames - settled));
-  run.effective_stiffness_p99_n_per_m = quantile(stiffness, 0.99);
+  run.effective_stiffness_p99_n_per_m = quantile(stiffness, P99);
   run.clearance_m = nearest;
   run.penetration_share = static_cast<double>(touching) / static_cast<double>(looks);
   const double seconds = static_cast<double>(frames - 1 - settled) / rate;

@@ -10,7 +10,6 @@
 namespace lmdbench {
 namespace {
 
-constexpr double P99 = 0.99;
 constexpr double HAPTIC_FRAME_S = 1e-3;  ///< At 1 kHz, whatever the rate of the experiment.
 
 std::size_t first_measured(const MethodRecord& record) {

@@ -7,14 +7,6 @@
 
 namespace lmdbench {
 
-namespace {
-
-double cross(const Vec2& a, const Vec2& b) {
-  return a[0] * b[1] - a[1] * b[0];
-}
-
-}  // namespace
-
 ConvexPolygon::ConvexPolygon(const PlanarFrame& frame, const Triangle& triangle)
     : corners{frame.flat(triangle[0]), frame.flat(triangle[1]), frame.flat(triangle[2])} {
   if (cross(corners[1] - corners[0], corners[2] - corners[0]) < 0.0) std::swap(corners[1], corners[2]);
@@ -53,7 +45,7 @@ SegmentPart ConvexPolygon::part_of(const Vec2& p, const Vec2& q) const {
   return part;
 }
 
-AreaAndCentroid ConvexPolygon::measure() const {
+AreaAndCentroid area_and_centroid(std::span<const Vec2> corners) {
   AreaAndCentroid result;
   if (corners.size() < 3) return result;
   // A fan from the first corner keeps the products as small as the polygon.

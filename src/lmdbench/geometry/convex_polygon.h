@@ -11,6 +11,11 @@ namespace lmdbench {
 
 using Vec2 = Eigen::Vector2d;
 
+/// Twice the area of the triangle of the origin, a and b: positive where b lies to the left of a.
+inline double cross(const Vec2& a, const Vec2& b) {
+  return a[0] * b[1] - a[1] * b[0];
+}
+
 /// Coordinates in a plane square to a direction.
 struct PlanarFrame {
   Vec3 origin, u, v;
@@ -26,6 +31,9 @@ struct AreaAndCentroid {
   double area = 0.0;  ///< m^2
   Vec2 centroid = Vec2::Zero();
 };
+
+/// Of a convex polygon with corners counter-clockwise; nothing for fewer than three.
+AreaAndCentroid area_and_centroid(std::span<const Vec2> corners);
 
 /// Part of a segment, by parameters from 0 at its first end to 1; empty where end <= begin.
 struct SegmentPart {
@@ -46,7 +54,7 @@ struct ConvexPolygon {
   ConvexPolygon cut_by(const ConvexPolygon& other) const;
   /// The part of the segment from p to q that lies inside.
   SegmentPart part_of(const Vec2& p, const Vec2& q) const;
-  AreaAndCentroid measure() const;
+  AreaAndCentroid measure() const { return area_and_centroid(corners); }
 };
 
 }  // namespace lmdbench

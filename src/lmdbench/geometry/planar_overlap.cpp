@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/geometry/convex_polygon.h>
 #include <lmdbench/geometry/planar_overlap.h>
 
 #include <algorithm>
@@ -9,17 +10,11 @@
 namespace lmdbench::kernel {
 namespace {
 
-using Vec2 = Eigen::Vector2d;
-
 /// A triangle cut by three half planes has at most six corners.
 struct Polygon {
   std::array<Vec2, 6> corners;
   int size = 0;
 };
-
-double cross(const Vec2& a, const Vec2& b) {
-  return a[0] * b[1] - a[1] * b[0];
-}
 
 /// The part of the polygon to the left of the line from p to q (Sutherland and Hodgman 1974).
 Polygon cut(const Polygon& polygon, const Vec2& p, const Vec2& q) {
@@ -44,26 +39,6 @@ FaceFrame::Weights planar_weights(const std::array<Vec2, 3>& t, const Vec2& x) {
   const double b = cross(x - t[0], t[2] - t[0]) / double_area;
   const double c = cross(t[1] - t[0], x - t[0]) / double_area;
   return {1.0 - b - c, b, c};
-}
-
-struct AreaAndCentroid {
-  double area = 0.0;
-  Vec2 centroid = Vec2::Zero();
-};
-
-AreaAndCentroid measure(const Polygon& polygon) {
-  AreaAndCentroid result;
-  // A fan from the first corner keeps the products as small as the polygon.
-  const Vec2& origin = polygon.corners[0];
-  for (int i = 1; i + 1 < polygon.size; ++i) {
-    const Vec2 a = polygon.corners[i] - origin;
-    const Vec2 b = polygon.corners[i + 1] - origin;
-    const double area = 0.5 * cross(a, b);
-    result.area += area;
-    result.centroid += area / 3.0 * (a + b);
-  }
-  if (result.area > 0.0) result.centroid = origin + result.centroid / result.area;
-  return result;
 }
 
 }  // namespace
@@ -113,7 +88,8 @@ FaceOverFace face_over_face(const FaceFrame& first, const FaceFrame& second, dou
   const std::array<Vec2, 3> frame{Vec2::Zero(), Vec2(length_e, 0.0), Vec2(first.u * length_e, length_h)};
   for (int k = 0; k < 3 && polygon.size > 0; ++k) polygon = cut(polygon, frame[k], frame[(k + 1) % 3]);
   if (polygon.size < 3) return result;
-  const AreaAndCentroid whole = measure(polygon);
+  const AreaAndCentroid whole =
+      area_and_centroid({polygon.corners.data(), static_cast<std::size_t>(polygon.size)});
   double longest = 0.0;
   for (int i = 0; i < polygon.size; ++i) {
     longest = std::max(longest, (polygon.corners[(i + 1) % polygon.size] - polygon.corners[i]).norm());

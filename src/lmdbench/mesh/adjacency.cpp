@@ -15,7 +15,7 @@ namespace {
 using SideIndex = std::uint32_t;
 
 /// Vertices that one task takes at a time.
-constexpr std::size_t GRAIN = 4096;
+constexpr std::size_t VERTICES_A_TASK = 4096;
 
 /// Calls visit(vertex) for each vertex of a triangle, once where the triangle names it twice.
 template <class Visit>
@@ -45,7 +45,7 @@ CsrRows triangles_of_vertices(const TriangleMesh& mesh) {
 /// only the few sides to sort that it is the smaller end of, and vertices can be treated apart.
 std::vector<SideIndex> first_sides(const TriangleMesh& mesh, const CsrRows& vertex_triangles) {
   std::vector<SideIndex> first(3 * mesh.triangles.size());
-  parallel_ranges(mesh.vertices.size(), GRAIN, [&](std::size_t begin, std::size_t end) {
+  parallel_ranges(mesh.vertices.size(), VERTICES_A_TASK, [&](std::size_t begin, std::size_t end) {
     std::vector<std::uint64_t> sides;  // larger vertex, then the side
     for (auto vertex = static_cast<std::int32_t>(begin); vertex < static_cast<std::int32_t>(end); ++vertex) {
       sides.clear();

@@ -13,11 +13,11 @@ namespace lmdbench {
 namespace {
 
 /// Items that one task takes at a time.
-constexpr std::size_t GRAIN = 4096;
+constexpr std::size_t ITEMS_A_TASK = 4096;
 
 template <class Body>
 void for_each_index(std::size_t count, Body body) {
-  parallel_ranges(count, GRAIN, [&](std::size_t begin, std::size_t end) {
+  parallel_ranges(count, ITEMS_A_TASK, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) body(i);
   });
 }

@@ -7,14 +7,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <numbers>
 #include <string>
 #include <utility>
 
 namespace lmdbench {
 namespace {
-
-constexpr double DEGREE = std::numbers::pi / 180.0;
 
 /// A path counts as grazing when it comes this near, in cutoffs.
 constexpr double NEAR_ENOUGH = 0.5;

@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/mesh/radius_about.h>
 #include <lmdbench/mesh/surface.h>
 #include <lmdbench/motion/mesh_scene.h>
 #include <lmdbench/snch/first_approach.h>
@@ -40,12 +41,6 @@ class MeshPair {
   FirstApproach last_approach_;
 };
 
-double radius_about(const Vec3& centre, const TriangleMesh& mesh) {
-  double radius = 0.0;
-  for (const Vec3& vertex : mesh.vertices) radius = std::max(radius, (vertex - centre).norm());
-  return radius;
-}
-
 }  // namespace
 
 PathScene mesh_scene(TriangleMesh moving, TriangleMesh fixed) {
@@ -53,8 +48,8 @@ PathScene mesh_scene(TriangleMesh moving, TriangleMesh fixed) {
   scene.diagonal = bounding_box_diagonal(moving);
   scene.moving_centre_M = bounding_box_centre(moving);
   scene.fixed_centre_W = bounding_box_centre(fixed);
-  scene.moving_radius = radius_about(scene.moving_centre_M, moving);
-  scene.fixed_radius = radius_about(scene.fixed_centre_W, fixed);
+  scene.moving_radius = radius_about(moving, scene.moving_centre_M);
+  scene.fixed_radius = radius_about(fixed, scene.fixed_centre_W);
   const auto pair = std::make_shared<MeshPair>(std::move(moving), std::move(fixed));
   scene.distance = [pair](const Pose& X_WM) { return pair->distance(X_WM); };
   const Vec3 moving_centre_M = scene.moving_centre_M, fixed_centre_W = scene.fixed_centre_W;

@@ -7,7 +7,6 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <numbers>
 
 namespace lmdbench {
 
@@ -16,8 +15,6 @@ const std::string& path_schema_text();  // path.schema.json, compiled in
 namespace {
 
 using Json = nlohmann::json;
-
-constexpr double DEGREE = std::numbers::pi / 180.0;
 
 /// Rates count as multiples of each other within this relative error.
 constexpr double RATE_RATIO_TOLERANCE = 1e-9;

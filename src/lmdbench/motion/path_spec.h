@@ -8,11 +8,14 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <numbers>
 #include <optional>
 #include <string>
 #include <vector>
 
 namespace lmdbench {
+
+inline constexpr double DEGREE = std::numbers::pi / 180.0;  ///< radians
 
 /// A mesh of a path's scene, placed as experiments place theirs.
 struct PlacedMesh {

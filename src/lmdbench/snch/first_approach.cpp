@@ -20,7 +20,7 @@ constexpr int MAXIMUM_STEPS = 100;
 /// Part of the sizes by which rounding may put a sphere's crossing too near.
 constexpr double ROUNDING = 1e-12;
 
-struct Candidate {
+struct MeetingPair {
   double upper_bound;  ///< First crossing of the spheres.
   std::int32_t index_a;
   std::int32_t index_b;
@@ -47,9 +47,9 @@ class ApproachSearch {
       if (start > NEVER) try_pair(begin.triangle_moving, begin.triangle_fixed, start);
     }
     // Depth first, the child pair that may come first on top, as in `nearest_pair`.
-    std::vector<Candidate> stack{candidate(0, 0)};
+    std::vector<MeetingPair> stack{candidate(0, 0)};
     while (!stack.empty()) {
-      const Candidate pair = stack.back();
+      const MeetingPair pair = stack.back();
       stack.pop_back();
       if (!(pair.upper_bound > best_.reach)) continue;
       const HierarchyNode& a = moving_hierarchy_.nodes[static_cast<std::size_t>(pair.index_a)];
@@ -59,19 +59,19 @@ class ApproachSearch {
         continue;
       }
       const bool split_a = !a.is_leaf() && (b.is_leaf() || a.radius >= b.radius);
-      std::array<Candidate, 2> children = split_a ? std::array{candidate(a.first_child, pair.index_b),
-                                                               candidate(a.first_child + 1, pair.index_b)}
-                                                  : std::array{candidate(pair.index_a, b.first_child),
-                                                               candidate(pair.index_a, b.first_child + 1)};
+      std::array<MeetingPair, 2> children = split_a ? std::array{candidate(a.first_child, pair.index_b),
+                                                                 candidate(a.first_child + 1, pair.index_b)}
+                                                    : std::array{candidate(pair.index_a, b.first_child),
+                                                                 candidate(pair.index_a, b.first_child + 1)};
       if (children[0].upper_bound > children[1].upper_bound) std::swap(children[0], children[1]);
-      for (const Candidate& child : children)
+      for (const MeetingPair& child : children)
         if (child.upper_bound > best_.reach) stack.push_back(child);
     }
     return best_;
   }
 
  private:
-  Candidate candidate(std::int32_t index_a, std::int32_t index_b) const {
+  MeetingPair candidate(std::int32_t index_a, std::int32_t index_b) const {
     const HierarchyNode& a = moving_hierarchy_.nodes[static_cast<std::size_t>(index_a)];
     const HierarchyNode& b = fixed_hierarchy_.nodes[static_cast<std::size_t>(index_b)];
     const Vec3 between = transform_.point(a.centre) - b.centre;

@@ -11,7 +11,7 @@ namespace lmdbench {
 
 namespace {
 
-struct Candidate {
+struct NearPair {
   double lower_bound;  ///< distance of the spheres
   std::int32_t index_a;
   std::int32_t index_b;
@@ -29,14 +29,14 @@ void descend(const Surface& moving, const Hierarchy& moving_hierarchy, const Sur
     const HierarchyNode& a = moving_hierarchy.nodes[static_cast<std::size_t>(index_a)];
     const HierarchyNode& b = fixed_hierarchy.nodes[static_cast<std::size_t>(index_b)];
     const double gap = (b.centre - transform.point(a.centre)).norm() - a.radius - b.radius;
-    return Candidate{std::max(0.0, gap), index_a, index_b};
+    return NearPair{std::max(0.0, gap), index_a, index_b};
   };
 
   // Depth first, the nearer child pair on top: the bound tightens early and the stack stays small.
-  std::vector<Candidate> stack{candidate(0, 0)};
-  std::array<Candidate, 2> children;
+  std::vector<NearPair> stack{candidate(0, 0)};
+  std::array<NearPair, 2> children;
   while (!stack.empty()) {
-    const Candidate pair = stack.back();
+    const NearPair pair = stack.back();
     stack.pop_back();
     if (pair.lower_bound > best) continue;
     const HierarchyNode& a = moving_hierarchy.nodes[static_cast<std::size_t>(pair.index_a)];
@@ -53,7 +53,7 @@ void descend(const Surface& moving, const Hierarchy& moving_hierarchy, const Sur
       children = {candidate(pair.index_a, b.first_child), candidate(pair.index_a, b.first_child + 1)};
     }
     if (children[0].lower_bound < children[1].lower_bound) std::swap(children[0], children[1]);
-    for (const Candidate& child : children)
+    for (const NearPair& child : children)
       if (child.lower_bound <= best) stack.push_back(child);
   }
 }

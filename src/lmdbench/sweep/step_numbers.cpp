@@ -14,7 +14,7 @@ namespace {
 
 using S = StepNumbers;
 
-constexpr std::array NUMBERS = {
+constexpr std::array STEP_NUMBERS = {
     StepNumber{"seconds_in_contact", "s", "time in contact that counts", &S::seconds_in_contact},
     StepNumber{"jumps", "1", "changes of force in a frame above 25 % of F_max", &S::jumps},
     StepNumber{"true_jumps", "1", "the same of the true force under the same law", &S::true_jumps},
@@ -78,14 +78,14 @@ void add_changes(double& births, double& deaths, const LmdSet& before, const Lmd
 }  // namespace
 
 std::span<const StepNumber> step_numbers() {
-  return NUMBERS;
+  return STEP_NUMBERS;
 }
 
 StepNumbers count_steps(const MethodRecord& record, ForceLaw law, const std::vector<TruthFrame>& truth,
                         const std::vector<TruthComparison>& rows, const PreparedRun& run,
                         const PreparedRun& truth_run, const std::vector<bool>& in_contact) {
   StepNumbers numbers;
-  for (const StepNumber& number : NUMBERS) {
+  for (const StepNumber& number : STEP_NUMBERS) {
     // Counts begin at 0; what is a mean or a quantile stays unset until it is known.
     if (number.units == "1") numbers.*number.value = 0.0;
   }
@@ -132,7 +132,6 @@ StepNumbers count_steps(const MethodRecord& record, ForceLaw law, const std::vec
     numbers.candidates += static_cast<double>(search.candidates);
     numbers.kept += static_cast<double>(search.kept_after_reduction);
   }
-  constexpr double P99 = 0.99;
   numbers.seconds_in_contact = static_cast<double>(force.size()) / run.input.frame_rate_hz;
   numbers.force_mean_n = mean(force);
   numbers.true_force_mean_n = mean(true_force);

@@ -14,7 +14,7 @@ namespace {
 
 using T = TimeNumbers;
 
-constexpr std::array NUMBERS = {
+constexpr std::array TIME_NUMBERS = {
     TimeNumber{"processor_share", "1",
                "processor time of a second in contact, local updates and searches [s/s]",
                &T::processor_share},
@@ -43,7 +43,7 @@ double median_of(std::size_t repetitions, const Sample& sample) {
 }  // namespace
 
 std::span<const TimeNumber> time_numbers() {
-  return NUMBERS;
+  return TIME_NUMBERS;
 }
 
 TimeNumbers measure_times(const MethodRecord& record, const std::vector<bool>& counts, double frame_rate_hz) {

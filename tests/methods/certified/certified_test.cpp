@@ -19,6 +19,7 @@ namespace {
 using testing::grazing_pose;
 using testing::make_body;
 using testing::make_scene;
+using testing::moved;
 
 std::string describe(const LmdSet& lmds) {
   std::ostringstream text;
@@ -53,7 +54,7 @@ std::string describe(const LmdSet& lmds) {
 }
 
 /// Runs truth and both kernels at a pose; counts the LMDs, so that a test cannot pass on empty sets.
-class Comparison {
+class KernelComparison {
  public:
   void check(Scene scene, const Pose& pose, double cutoff) {
     scene.cutoff = cutoff;
@@ -85,7 +86,7 @@ class Comparison {
 void expect_truth_at_random_poses(const Scene& scene, int poses, std::uint64_t seed) {
   std::mt19937_64 random(seed);
   const double size = bounding_box_diagonal(scene.fixed[0]->surface().mesh);
-  Comparison comparison;
+  KernelComparison comparison;
   for (int i = 0; i < poses; ++i) {
     Pose pose = grazing_pose(scene, 0.002 * size, random);
     for (const double cutoff : {0.005, 0.02, 0.05}) comparison.check(scene, pose, cutoff * size);
@@ -94,10 +95,6 @@ void expect_truth_at_random_poses(const Scene& scene, int poses, std::uint64_t s
     comparison.check(scene, pose, 0.02 * size);
   }
   EXPECT_GT(comparison.lmds(), static_cast<std::size_t>(poses));
-}
-
-Pose moved(double x, double y, double z) {
-  return {{x, y, z}, Eigen::Quaterniond::Identity()};
 }
 
 TEST(Certified, FindsTheTruthOnBlobs) {
@@ -133,7 +130,7 @@ TEST(Certified, FindsTheTruthOnBoxesInParallel) {
   // Every kind of plateau: face to face, edge to edge, edge over face, corner over face, and rocking by less
   // and more than the tolerances.
   const Scene scene = make_scene(make_box({0.1, 0.1, 0.1}, 3), make_box({0.1, 0.1, 0.1}, 2), 0.0);
-  Comparison comparison;
+  KernelComparison comparison;
   for (const double x : {0.0, 0.03, 0.05, 0.1, 0.11}) {
     for (const double y : {0.0, 0.02, 0.1, 0.12}) {
       for (const double z : {0.1001, 0.11, 0.12}) {
@@ -150,7 +147,7 @@ TEST(Certified, FindsTheTruthOnBoxesInParallel) {
 
 TEST(Certified, FindsTheTruthOnItsOwnCopy) {
   const Scene scene = make_scene(make_blob(1.0, 0.2, 2), make_blob(1.0, 0.2, 2), 0.0);
-  Comparison comparison;
+  KernelComparison comparison;
   comparison.check(scene, moved(0.0, 0.0, 0.0), 0.01);
   comparison.check(scene, moved(0.0, 0.0, 1e-13), 0.01);
   comparison.check(scene, moved(0.0, 0.0, 1e-7), 0.01);
@@ -162,7 +159,7 @@ TEST(Certified, FindsTheTruthOnItsOwnCopy) {
 TEST(Certified, FindsTheTruthAtTinyGaps) {
   const Scene scene = make_scene(make_blob(1.0, 0.3, 3), make_blob(1.0, 0.2, 3), 0.0);
   std::mt19937_64 random(8);
-  Comparison comparison;
+  KernelComparison comparison;
   for (const double gap : {1e-3, 1e-5, 1e-7, 1e-8, 1e-9, 1e-10, 1e-12, 1e-14})
     comparison.check(scene, grazing_pose(scene, gap, random), 0.02);
   EXPECT_GT(comparison.lmds(), 8u);
@@ -184,7 +181,7 @@ TEST(Certified, FindsTheTruthFarFromTheOrigin) {
   Scene scene = make_scene(make_blob(1.0, 0.3, 2), translated(make_torus(1.0, 0.4, 20, 10), offset), 0.0);
   const Scene near = make_scene(make_blob(1.0, 0.3, 2), make_torus(1.0, 0.4, 20, 10), 0.0);
   std::mt19937_64 random(11);
-  Comparison comparison;
+  KernelComparison comparison;
   for (int i = 0; i < 10; ++i) {
     Pose pose = grazing_pose(near, 0.005, random);
     pose.translation += offset;
@@ -218,7 +215,7 @@ TEST(Certified, FindsTheTruthWithSeveralFixedBodies) {
   scene.fixed.push_back(make_body("other", translated(make_torus(1.0, 0.3, 20, 10), {0.0, 2.2, 0.4})));
   scene.fixed.push_back(make_body("far", translated(make_box({1.0, 1.0, 1.0}), {50.0, 0.0, 0.0})));
   std::mt19937_64 random(14);
-  Comparison comparison;
+  KernelComparison comparison;
   for (int i = 0; i < 20; ++i) {
     Pose pose = moved(1.2, 1.0, 0.0);
     pose.rotation = testing::random_rotation(random);
@@ -229,7 +226,7 @@ TEST(Certified, FindsTheTruthWithSeveralFixedBodies) {
 
 TEST(Certified, FindsEverythingWithoutCutoff) {
   const Scene scene = make_scene(make_blob(1.0, 0.3, 2), make_torus(1.0, 0.4, 12, 8), 0.0);
-  Comparison comparison;
+  KernelComparison comparison;
   for (const double x : {0.0, 0.2, 3.0}) comparison.check(scene, moved(x, 0.5, 1.9), 1e3);
   EXPECT_GT(comparison.lmds(), 3u);
 }

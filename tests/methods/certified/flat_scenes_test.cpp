@@ -56,9 +56,9 @@ void expect_same(const LmdSet& set, const LmdSet& truth, const Pose& pose) {
 }
 
 /// Searches from scratch and, along a path, with what earlier frames left.
-class Comparison {
+class FlatComparison {
  public:
-  explicit Comparison(Scene scene)
+  explicit FlatComparison(Scene scene)
       : scene_(std::move(scene)),
         truth_(make_method("exhaustive", scene_)),
         coherent_(make_method("certified", scene_)) {}
@@ -81,7 +81,7 @@ class Comparison {
   std::size_t found_ = 0;
 };
 
-Pose on_top(std::mt19937_64& random, double height) {
+Pose turned_on_top(std::mt19937_64& random, double height) {
   return {Vec3(0.16 * (uniform(random) - 0.5), 0.16 * (uniform(random) - 0.5), height),
           Eigen::Quaterniond(Eigen::AngleAxisd(2.0 * std::numbers::pi * uniform(random), Vec3::UnitZ()))};
 }
@@ -89,15 +89,15 @@ Pose on_top(std::mt19937_64& random, double height) {
 TEST(FlatScenes, BoxesFaceToFace) {
   std::mt19937_64 random(1);
   for (const int cells : {1, 2, 5}) {
-    Comparison boxes(make_scene(make_box({0.1, 0.1, 0.1}, cells), make_box({0.1, 0.12, 0.1}, 3), 0.02));
-    for (int i = 0; i < 40; ++i) boxes.check(on_top(random, 0.11));
+    FlatComparison boxes(make_scene(make_box({0.1, 0.1, 0.1}, cells), make_box({0.1, 0.12, 0.1}, 3), 0.02));
+    for (int i = 0; i < 40; ++i) boxes.check(turned_on_top(random, 0.11));
     EXPECT_GT(boxes.found(), 30u);
   }
 }
 
 TEST(FlatScenes, AlignedBoxesOfAllOffsets) {
   // Edges over edges, corners over corners, tessellations that coincide.
-  Comparison boxes(make_scene(make_box({0.1, 0.1, 0.1}, 2), make_box({0.1, 0.1, 0.1}, 2), 0.04));
+  FlatComparison boxes(make_scene(make_box({0.1, 0.1, 0.1}, 2), make_box({0.1, 0.1, 0.1}, 2), 0.04));
   for (int x = -5; x <= 5; ++x)
     for (int y = -5; y <= 5; ++y)
       boxes.check({Vec3(0.025 * x, 0.025 * y, 0.11), Eigen::Quaterniond::Identity()});
@@ -106,9 +106,9 @@ TEST(FlatScenes, AlignedBoxesOfAllOffsets) {
 
 TEST(FlatScenes, NonConvexFacesAndSeveralOverlaps) {
   std::mt19937_64 random(2);
-  Comparison blocks(make_scene(make_l_block(0.1), make_two_boxes({0.08, 0.1, 0.1}, 0.02), 0.03));
+  FlatComparison blocks(make_scene(make_l_block(0.1), make_two_boxes({0.08, 0.1, 0.1}, 0.02), 0.03));
   for (int i = 0; i < 40; ++i) {
-    Pose pose = on_top(random, 0.0);
+    Pose pose = turned_on_top(random, 0.0);
     pose.rotation = pose.rotation * Eigen::AngleAxisd(0.5 * std::numbers::pi * (i % 4), Vec3::UnitX()) *
                     Eigen::AngleAxisd(0.5 * std::numbers::pi * (i % 3), Vec3::UnitY());
     pose.translation.z() = 0.11;
@@ -132,14 +132,14 @@ TEST(FlatScenes, OverlapsThatAreApartAreTwoContactsHoweverLargeTheTriangles) {
 
 TEST(FlatScenes, EdgesOnFacesAndAlongEdges) {
   std::mt19937_64 random(3);
-  Comparison wedge(make_scene(make_wedge(0.05, 0.1, 0.05), make_box({0.2, 0.2, 0.1}, 4), 0.03));
+  FlatComparison wedge(make_scene(make_wedge(0.05, 0.1, 0.05), make_box({0.2, 0.2, 0.1}, 4), 0.03));
   for (int i = 0; i < 40; ++i) {
-    Pose pose = on_top(random, 0.085);
+    Pose pose = turned_on_top(random, 0.085);
     pose.rotation = pose.rotation * Eigen::AngleAxisd(std::numbers::pi, Vec3::UnitX());
     wedge.check(pose);
   }
   EXPECT_GT(wedge.found(), 30u);
-  Comparison boxes(make_scene(make_box({0.1, 0.1, 0.1}, 3), make_box({0.1, 0.1, 0.1}, 2), 0.05));
+  FlatComparison boxes(make_scene(make_box({0.1, 0.1, 0.1}, 3), make_box({0.1, 0.1, 0.1}, 2), 0.05));
   for (int i = 0; i < 20; ++i)
     boxes.check({Vec3(0.11 + 0.01 * uniform(random), 0.11, 0.16 * (uniform(random) - 0.5)),
                  Eigen::Quaterniond::Identity()});
@@ -148,22 +148,22 @@ TEST(FlatScenes, EdgesOnFacesAndAlongEdges) {
 
 TEST(FlatScenes, TiltedBoxesAtAnyAngle) {
   std::mt19937_64 random(4);
-  Comparison boxes(make_scene(make_box({0.1, 0.1, 0.1}, 3), make_box({0.3, 0.3, 0.1}, 4), 0.03));
+  FlatComparison boxes(make_scene(make_box({0.1, 0.1, 0.1}, 3), make_box({0.3, 0.3, 0.1}, 4), 0.03));
   for (int i = 0; i < 60; ++i) {
-    Pose pose = on_top(random, 0.115);
+    Pose pose = turned_on_top(random, 0.115);
     const double tilt = std::pow(10.0, -14.0 + 13.0 * uniform(random));
     pose.rotation = Eigen::AngleAxisd(tilt, random_direction(random)) * pose.rotation;
     boxes.check(pose);
   }
   for (int i = 0; i < 60; ++i) {
-    Pose pose = on_top(random, 0.05 + 0.12 * uniform(random));
+    Pose pose = turned_on_top(random, 0.05 + 0.12 * uniform(random));
     pose.rotation = testing::random_rotation(random);
     boxes.check(pose);
   }
 }
 
 TEST(FlatScenes, BoxesThatRockAndSlide) {
-  Comparison boxes(make_scene(make_box({0.1, 0.1, 0.1}, 3), make_box({0.3, 0.3, 0.1}, 4), 0.03));
+  FlatComparison boxes(make_scene(make_box({0.1, 0.1, 0.1}, 3), make_box({0.3, 0.3, 0.1}, 4), 0.03));
   for (int i = 0; i < 150; ++i) {
     const double t = 0.01 * i;
     Pose pose;
@@ -176,9 +176,9 @@ TEST(FlatScenes, BoxesThatRockAndSlide) {
 
 TEST(FlatScenes, BoxesInContact) {
   std::mt19937_64 random(5);
-  Comparison boxes(make_scene(make_box({0.1, 0.1, 0.1}, 2), make_box({0.1, 0.1, 0.1}, 2), 0.02));
+  FlatComparison boxes(make_scene(make_box({0.1, 0.1, 0.1}, 2), make_box({0.1, 0.1, 0.1}, 2), 0.02));
   for (int i = 0; i < 30; ++i) {
-    Pose pose = on_top(random, i % 3 == 0 ? 0.1 : 0.09);
+    Pose pose = turned_on_top(random, i % 3 == 0 ? 0.1 : 0.09);
     if (i % 3 == 2) pose.rotation = testing::random_rotation(random);
     boxes.check(pose);
   }

@@ -18,7 +18,7 @@ Vec3 unit_normal(const Triangle& t) {
   return (t[1] - t[0]).cross(t[2] - t[0]).normalized();
 }
 
-Triangle random_triangle(std::mt19937_64& random, const Vec3& centre) {
+Triangle triangle_about(std::mt19937_64& random, const Vec3& centre) {
   Triangle t;
   for (Vec3& corner : t) corner = centre + testing::uniform(random) * testing::random_direction(random);
   return t;
@@ -36,9 +36,9 @@ TEST(ClearGap, IsTheGapAlongItsAxisAndNoMoreThanTheDistance) {
   std::mt19937_64 random(31);
   std::size_t clear = 0, apart = 0, together = 0;
   for (int i = 0; i < 20000; ++i) {
-    const Triangle a = random_triangle(random, Vec3::Zero());
+    const Triangle a = triangle_about(random, Vec3::Zero());
     const Triangle b =
-        random_triangle(random, 2.0 * testing::uniform(random) * testing::random_direction(random));
+        triangle_about(random, 2.0 * testing::uniform(random) * testing::random_direction(random));
     const double distance = std::sqrt(triangle_distance(a, b).squared_distance);
     const ClearGap found = clear_gap(a, unit_normal(a), b, unit_normal(b), MARGIN);
     if (distance > 4.0 * MARGIN) ++apart;

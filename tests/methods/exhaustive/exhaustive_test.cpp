@@ -15,16 +15,13 @@ namespace lmdbench {
 namespace {
 
 using testing::make_scene;
+using testing::moved;
 
 LmdSet truth(const Scene& scene, const Pose& pose) {
   LmdSet lmds;
   WorkCounters counters;
   Exhaustive(scene).search(pose, lmds, counters);
   return lmds;
-}
-
-Pose moved(double x, double y, double z) {
-  return {{x, y, z}, Eigen::Quaterniond::Identity()};
 }
 
 std::set<std::tuple<FeatureId, FeatureId>> feature_pairs(const LmdSet& lmds) {

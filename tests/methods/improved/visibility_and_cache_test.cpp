@@ -99,13 +99,13 @@ TEST(ResultCache, FindsWhatItHoldsUntilItIsErased) {
   for (std::int32_t i = 0; i < 5000; ++i) EXPECT_FALSE(cache.find_or_insert(i % 3, i, 7 * i).second);
 }
 
-/// Among so many pairs some meet the other body's entry where they look for their own.
+/// Among so many bodies some meet the first one's entry where they look for their own.
 TEST(ResultCache, TellsBodiesApartWhereTheirSlotsMeet) {
   ResultCache cache;
-  for (std::int32_t t = 0; t < 20000; ++t) {
+  for (std::int32_t body = 1; body < 20000; ++body) {
     cache.erase();
-    cache.find_or_insert(0, t, 0);
-    ASSERT_FALSE(cache.find_or_insert(1, t, 0).second) << t;
+    cache.find_or_insert(0, 5, 7);
+    ASSERT_FALSE(cache.find_or_insert(body, 5, 7).second) << body;
   }
 }
 

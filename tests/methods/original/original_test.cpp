@@ -14,7 +14,7 @@ namespace {
 
 using testing::make_scene;
 
-Triangle random_triangle(std::mt19937_64& random, double size) {
+Triangle triangle_of_size(std::mt19937_64& random, double size) {
   const Vec3 centre = testing::random_direction(random);
   return {centre + size * testing::random_direction(random),
           centre + size * testing::random_direction(random),
@@ -39,7 +39,7 @@ double covering_radius(const Triangle& t) {
 TEST(FeaturePoints, OverestimateTheDistanceByNoMoreThanTheCoveringRadii) {
   std::mt19937_64 random(2);
   for (int i = 0; i < 300; ++i) {
-    const Triangle a = random_triangle(random, 0.4), b = random_triangle(random, 0.4);
+    const Triangle a = triangle_of_size(random, 0.4), b = triangle_of_size(random, 0.4);
     const double exact = std::sqrt(triangle_distance(a, b).squared_distance);
     const double seven =
         std::sqrt(nearest_feature_points(feature_points(a), feature_points(b)).squared_distance);

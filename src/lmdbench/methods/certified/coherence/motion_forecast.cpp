@@ -21,7 +21,7 @@ constexpr double MEMORY = 0.9;
 /// Largest norm of the rotation's change since an epoch's start. Between two frames of an epoch it is then at
 /// most twice that, for which the angle is the norm over sqrt(2) to within ANGLE_ROUNDING: the angle is 2
 /// asin(norm / sqrt(8)), and asin(x) <= 1.01 x for x <= 0.23.
-constexpr double LARGEST_TURN = 0.32;
+constexpr double LARGEST_EPOCH_TURN = 0.32;
 constexpr double ANGLE_ROUNDING = 1.01;
 /// Speeds are at least this where something is divided by them.
 constexpr double LEAST = 1e-30;
@@ -55,7 +55,7 @@ double MotionForecast::deviation_of(const Epoch& epoch, const RigidTransform& X_
   const double tau = frame_ - epoch.start;
   const Mat3 turned = X_WH.rotation - epoch.X_WH.rotation;
   const double rest = (turned - tau * (epoch.turn + 0.5 * tau * epoch.curve)).norm();
-  if (!(turned.norm() <= LARGEST_TURN)) return UNKNOWN;
+  if (!(turned.norm() <= LARGEST_EPOCH_TURN)) return UNKNOWN;
   return (X_WH.translation - epoch.X_WH.translation - tau * epoch.velocity).norm() + rest * reach_;
 }
 
@@ -76,10 +76,10 @@ void MotionForecast::start_epoch(const RigidTransform& X_WH) {
 
   const double turn = epoch.turn.norm(), curve = epoch.curve.norm();
   const double speed = epoch.velocity.norm() + turn * radius_;
-  // With half of LARGEST_TURN for what deviates.
+  // With half of LARGEST_EPOCH_TURN for what deviates.
   longest_plan_ =
       std::min({static_cast<double>(LONGEST_PLAN), PLAN_CUTOFFS * cutoff_ / std::max(speed, LEAST),
-                0.5 * LARGEST_TURN / std::max(turn + LONGEST_PLAN * curve, LEAST)});
+                0.5 * LARGEST_EPOCH_TURN / std::max(turn + LONGEST_PLAN * curve, LEAST)});
   // A plan from frame s to frame t of an epoch: (t^2 - s^2) / 2 = (t - s) (t + s) / 2.
   const double frames = EPOCH_FRAMES + 0.5 * longest_plan_;
   creep_ = frames * curve * radius_ + SINGLE_ROUNDING * speed;

@@ -20,8 +20,6 @@ namespace lmdbench {
 namespace {
 
 constexpr std::size_t WIDTH = WIDE_WIDTH;
-/// Sets smaller than this are divided by one thread.
-constexpr std::size_t PARALLEL_GRAIN = 4096;
 /// Widening of stored cosines and sines: a few roundings of single precision.
 constexpr double CONE_ROUNDING = 5e-7;
 
@@ -56,12 +54,12 @@ class Deduplicator {
 
 /// What a thread needs for itself. Not to be held while other tasks are waited for:
 /// this thread may work on them.
-struct Scratch {
+struct BuildScratch {
   Deduplicator deduplicator;
   LaneCaps caps;
   LaneSets points;
 
-  explicit Scratch(std::size_t vertex_count) : deduplicator(vertex_count) {}
+  explicit BuildScratch(std::size_t vertex_count) : deduplicator(vertex_count) {}
 };
 
 /// One child of a node while the node is made.
@@ -84,7 +82,7 @@ class Builder {
         items_(items),
         flat_(flat),
         result_(result),
-        scratch_([&surface] { return Scratch(surface.mesh.vertices.size()); }) {}
+        scratch_([&surface] { return BuildScratch(surface.mesh.vertices.size()); }) {}
 
   void build() {
     if (items_.empty()) return;
@@ -104,7 +102,7 @@ class Builder {
   /// Appends the vertices of the node's features to a list.
   /// @return false when the cone of some child is all directions: then the parent's is too
   bool build_node(std::size_t node_index, const Range& range, std::vector<std::int32_t>& vertices,
-                  Scratch& scratch) {
+                  BuildScratch& scratch) {
     const WideDivision division(range.size(), options_);
     const std::size_t nodes_below = count_wide_nodes(division.unit, options_);
     WideNode& node = result_.nodes[node_index];
@@ -120,7 +118,7 @@ class Builder {
     }
 
     const std::size_t before = vertices.size();
-    if (range.size() > PARALLEL_GRAIN) {
+    if (range.size() > SMALLEST_PARALLEL_SET) {
       parallel_for(lanes.size(), [&](std::size_t i) {
         Lane& lane = lanes[i];
         lane.may_have_cone = build_child(first_node(i), lane.items, lane.own_list, scratch_.local());
@@ -144,7 +142,7 @@ class Builder {
   }
 
   bool build_child(std::size_t node_index, const Range& range, std::vector<std::int32_t>& vertices,
-                   Scratch& scratch) {
+                   BuildScratch& scratch) {
     if (range.size() > 1) return build_node(node_index, range, vertices, scratch);
     const FeatureId feature = items_[range.begin].ref.feature_id();
     if (flat_ != nullptr && flat_->is_joined(feature)) {
@@ -165,7 +163,7 @@ class Builder {
 
   /// Bounds of a node's children, rounded outwards.
   /// @return false when the cone of some child is all directions
-  bool bound(WideNode& node, std::span<Lane> lanes, Scratch& scratch) const {
+  bool bound(WideNode& node, std::span<Lane> lanes, BuildScratch& scratch) const {
     const int steps = refinement_steps(lanes.front().items.size());
     const std::array<PolarCap, WIDTH> caps = enclosing_caps(lanes, steps, scratch);
     LaneVectors axes{};
@@ -193,7 +191,7 @@ class Builder {
   }
 
   /// Cones around the caps of each lane's features.
-  std::array<PolarCap, WIDTH> enclosing_caps(std::span<Lane> lanes, int steps, Scratch& scratch) const {
+  std::array<PolarCap, WIDTH> enclosing_caps(std::span<Lane> lanes, int steps, BuildScratch& scratch) const {
     std::array<PolarCap, WIDTH> result;
     bool any = false;
     for (std::size_t i = 0; i < lanes.size(); ++i) {
@@ -256,7 +254,7 @@ class Builder {
   }
 
   void bound_bodies(WideNode& node, std::span<const Lane> lanes, const LaneVectors& axes, int steps,
-                    Scratch& scratch) const {
+                    BuildScratch& scratch) const {
     std::size_t size = 0;
     for (const Lane& lane : lanes) size = std::max(size, lane.vertices.size());
     LaneSets& points = scratch.points;
@@ -307,7 +305,7 @@ class Builder {
   const std::vector<WideItem>& items_;
   const FlatMesh* flat_;
   WideHierarchy& result_;
-  PerThread<Scratch> scratch_;
+  PerThread<BuildScratch> scratch_;
 };
 
 }  // namespace

@@ -18,9 +18,6 @@ namespace lmdbench {
 
 namespace {
 
-/// Sets smaller than this are treated by one thread.
-constexpr std::size_t PARALLEL_GRAIN = 4096;
-
 /// Bins of a selection; smaller sets are selected by the library.
 constexpr std::size_t BINS = 256;
 
@@ -86,7 +83,7 @@ class Partition {
     select(places, middle);
     const auto left = [&] { bisect(places.first(middle), unit, left_units); };
     const auto right = [&] { bisect(places.subspan(middle), unit, units - left_units); };
-    if (places.size() > PARALLEL_GRAIN) {
+    if (places.size() > SMALLEST_PARALLEL_SET) {
       parallel_invoke(left, right);
     } else {
       left();
@@ -212,12 +209,12 @@ std::size_t count_wide_nodes(std::size_t size, const WideBuildOptions& options) 
 void partition_wide_items(const Surface& surface, const WideBuildOptions& options, const FlatMesh* flat,
                           const Vec3& origin, double radius, std::vector<WideItem>& items) {
   std::vector<Place> places(items.size());
-  parallel_ranges(items.size(), PARALLEL_GRAIN, [&](std::size_t begin, std::size_t end) {
+  parallel_ranges(items.size(), SMALLEST_PARALLEL_SET, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) places[i] = make_place(surface, flat, origin, items[i], i);
   });
   Partition(options, items, radius, places).run();
   std::vector<WideItem> ordered(items.size());
-  parallel_ranges(items.size(), PARALLEL_GRAIN, [&](std::size_t begin, std::size_t end) {
+  parallel_ranges(items.size(), SMALLEST_PARALLEL_SET, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) ordered[i] = items[places[i].item];
   });
   items.swap(ordered);

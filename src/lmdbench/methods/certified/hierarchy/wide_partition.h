@@ -9,6 +9,9 @@
 
 namespace lmdbench {
 
+/// Sets of features smaller than this are treated by one thread.
+inline constexpr std::size_t SMALLEST_PARALLEL_SET = 4096;
+
 /// How a set of features is shared among the children of a node: all but the last child get `unit` of them.
 struct WideDivision {
   std::size_t unit;      ///< Sets are divided at multiples of this.

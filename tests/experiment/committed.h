@@ -1,0 +1,15 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <support/source_directory.h>
+
+#include <string>
+
+/// Experiments of the repository that tests run as they are or with overrides.
+namespace lmdbench::testing {
+
+inline const std::string SHAPES_FILE = LMDBENCH_SOURCE_DIR "/experiments/shapes.json";
+inline const std::string WALL_FILE = LMDBENCH_SOURCE_DIR "/experiments/wall.json";
+
+}  // namespace lmdbench::testing
