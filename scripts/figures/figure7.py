@@ -1,18 +1,20 @@
 #!/usr/bin/env python3
 # SPDX-FileCopyrightText: The lmdbench authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Figure 7 of the paper from two result files: hard contact on the left, soft contact on the right; over time the
-force, the LMD counts, the time of global searches and of local updates of the methods that search now and then and
-track locally in between.
+"""Figure 7 of the paper from result files, in the paper hard contact on the left and soft contact on the right: over time
+the force, the LMD counts, the time of global searches and of local updates of the methods that search now and then and
+track locally in between; where a result has none of those, of all its methods. A column a result, or a force profile where
+a result has several.
 Beyond the paper: the true force beside both forces, and the share of true LMDs that each method knows. Times are
 medians over the repetitions without the warm-up."""
 
 import argparse
+from types import SimpleNamespace
 
 import numpy as np
 
 import figure_style as style
-from lmdbench_results import Result, reference_force, run_script, truth_of
+from lmdbench_results import Result, ResultError, reference_force, run_script, true_forces, truth_of
 
 import matplotlib.pyplot as plt
 from matplotlib.lines import Line2D
@@ -32,14 +34,43 @@ HAPTIC_BUDGET_US = 1000.0  # one frame at 1 kHz
 NOTE = {"fontsize": 6.2, "color": "#444444"}
 
 
-def shown(result):
-    """Methods at two rates, under their own names."""
-    return [method for method in result.methods.values() if method.tracks_locally and method.label == method.name]
+MOST_COLUMNS = 4
 
 
-def look(method):
-    return {"color": style.colour_of(method), "ls": style.line_of(method), "lw": 1.0 if method.reduces else 0.6,
-            "zorder": 2 + method.order}
+class Column:
+    """A result's methods under one force profile."""
+
+    def __init__(self, result, methods):
+        self.result, self.time = result, result.time
+        two_rates = [method for method in methods if method.tracks_locally]
+        self.methods = two_rates or methods
+        # Under several profiles the column's title names the profile, so that a method looks the same in all columns.
+        self.names = {method.label: method.label.removesuffix(f"-{method.profile}") if method.profile else method.label for method in methods}
+        colours = style.colours_of([SimpleNamespace(label=self.names[method.label], name=method.name, order=method.order) for method in methods])
+        self.look = {}
+        for method in self.methods:
+            name = self.names[method.label]
+            self.look[method.label] = {"color": colours[name], "ls": style.line_of(method) if name == method.name else "-",
+                                       "lw": 1.0 if method.reduces else 0.6, "zorder": 2 + method.order}
+
+    def profile(self):
+        return self.methods[0].profile
+
+    def title(self):
+        method = self.methods[0]
+        name = self.result.name + (f", {self.profile()}" if self.profile() else "")
+        return f"{name}: cutoff {method.constant('cutoff_m') * 1e3:.3g} mm, $F_{{max}}$ {method.constant('maximum_force_n'):g} N"
+
+
+def columns_of(results):
+    """A column a result and profile."""
+    columns = []
+    for result in results:
+        profiles = {}
+        for method in result.methods.values():
+            profiles.setdefault(method.profile, []).append(method)
+        columns += [Column(result, methods) for methods in profiles.values()]
+    return columns
 
 
 def note(axes, text):
@@ -47,16 +78,15 @@ def note(axes, text):
               bbox={"facecolor": "white", "edgecolor": "none", "alpha": 0.85, "pad": 0.8}, **NOTE)
 
 
-def plot_force(axes, result):
-    for method in shown(result):
-        axes.plot(result.time, method.force_magnitude(), **look(method))
-    for law in dict.fromkeys(method.force_law for method in shown(result)):
-        frames, force = reference_force(result, law)
-        if frames.size:
-            axes.plot(result.time[frames], force, lw=TRUTH_WIDTH, color=TRUTH_COLOURS[law], zorder=1,
-                      solid_capstyle="round", solid_joinstyle="round")
-    limit = result.scene("device_maximum_force_n")
-    highest = max(float(line.get_ydata().max(initial=0.0)) for line in axes.lines)
+def plot_force(axes, column):
+    for method in column.methods:
+        axes.plot(column.time, method.force_magnitude(), **column.look[method.label])
+    for _, method in true_forces(column.methods):
+        frames, force = reference_force(method)
+        axes.plot(column.time[frames], force, lw=TRUTH_WIDTH, color=TRUTH_COLOURS[method.force_law], zorder=1,
+                  solid_capstyle="round", solid_joinstyle="round")
+    limit = column.result.scene("device_maximum_force_n")
+    highest = max(float(np.nanmax(line.get_ydata(), initial=0.0)) for line in axes.lines)
     if highest >= 0.99 * limit:
         axes.axhline(limit, color=style.GREY, lw=0.6, ls=(0, (1, 1.5)), zorder=1)
         axes.annotate(f"device clips at {limit:g} N", (0.0, limit), xycoords=("axes fraction", "data"), xytext=(2, 1.5),
@@ -66,26 +96,32 @@ def plot_force(axes, result):
     axes.yaxis.set_major_locator(MaxNLocator(4, steps=[1, 2, 2.5, 5, 10]))
 
 
-def plot_counts(axes, result):
-    for method in shown(result):
-        axes.plot(result.time, method.read("lmd_count"), **look(method))
-    for method in shown(result):
+def plot_counts(axes, column):
+    for method in column.methods:
+        axes.plot(column.time, method.read("lmd_count"), **column.look[method.label])
+    for method in column.methods:
         if method.reduces:
-            axes.plot(result.time, method.read("lmd_count_before_reduction"), color=style.SKY, lw=0.8, zorder=1)
+            axes.plot(column.time, method.read("lmd_count_before_reduction"), color=style.SKY, lw=0.8, zorder=1)
     # Linear up to 1, so that no LMD at all has its place; logarithmic above.
     axes.set_yscale("symlog", linthresh=1, linscale=0.5)
     axes.yaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
     axes.set_ylim(bottom=0)
 
 
-def plot_searches(axes, result):
-    for method in shown(result):
-        time = result.time[method.read("global_frame").astype(int)]
+def plot_searches(axes, column):
+    searching = [method for method in column.methods if method.tracks_locally]
+    if not searching:
+        axes.text(0.5, 0.5, "no method with searches of their own rate: the local update is the whole search", transform=axes.transAxes, ha="center",
+                  va="center", wrap=True, **NOTE)
+        axes.set_yticks([])
+        return
+    for method in searching:
+        time = column.time[method.read("global_frame").astype(int)]
         search = method.median_times("global_search_time") * 1e3
         if method.reduces:
             axes.plot(time, search, color=style.SKY, lw=0.9, zorder=2)
             search = search + np.nan_to_num(method.median_times("first_reduction_time")) * 1e3
-        axes.plot(time, search, **{**look(method), "lw": 0.9})
+        axes.plot(time, search, **{**column.look[method.label], "lw": 0.9})
     values = np.concatenate([line.get_ydata() for line in axes.lines])
     values = values[np.isfinite(values)]
     top = AXIS_MARGIN * np.quantile(values, AXIS_QUANTILE) if values.size else 1.0
@@ -98,9 +134,9 @@ def plot_searches(axes, result):
     axes.yaxis.set_major_locator(MaxNLocator(4, steps=[1, 2, 5, 10]))
 
 
-def plot_updates(axes, result):
-    for method in shown(result):
-        axes.plot(result.time, method.median_times("local_update_time") * 1e6, **{**look(method), "lw": 0.6})
+def plot_updates(axes, column):
+    for method in column.methods:
+        axes.plot(column.time, method.median_times("local_update_time") * 1e6, **{**column.look[method.label], "lw": 0.6})
     axes.set_yscale("log")
     axes.set_ylim(bottom=SHORTEST_UPDATE_US)
     axes.yaxis.set_major_locator(LogLocator(numticks=12))
@@ -112,18 +148,18 @@ def plot_updates(axes, result):
                       textcoords="offset points", **NOTE)
 
 
-def plot_recall(axes, result):
+def plot_recall(axes, column):
     axes.set_ylim(-4, 104)
     axes.yaxis.set_major_locator(FixedLocator([0, 50, 100]))
-    edges = np.linspace(result.time[0], result.time[-1], RECALL_BINS + 1)
-    for method in shown(result):
+    edges = np.linspace(column.time[0], column.time[-1], RECALL_BINS + 1)
+    for method in column.methods:
         truth = truth_of(method)
         if truth is None:
             axes.text(0.5, 0.5, "no truth probe in this run", transform=axes.transAxes, ha="center", va="center")
             return
-        bins = np.clip(np.digitize(result.time[truth.frames], edges) - 1, 0, RECALL_BINS - 1)
-        for shares, options in ((truth.recall, {**look(method), "lw": 1.1}),
-                                (truth.recall_adjacent, {**look(method), "lw": 0.8, "ls": ":"})):
+        bins = np.clip(np.digitize(column.time[truth.frames], edges) - 1, 0, RECALL_BINS - 1)
+        for shares, options in ((truth.recall, {**column.look[method.label], "lw": 1.1}),
+                                (truth.recall_adjacent, {**column.look[method.label], "lw": 0.8, "ls": ":"})):
             found = [truth.found_in(shares, bins == i) for i in range(RECALL_BINS)]
             axes.stairs(np.array(found) * 100.0, edges, baseline=None, **options)
 
@@ -132,27 +168,25 @@ def key(label, colour, line="-", width=1.2):
     return Line2D([], [], color=colour, ls=line, lw=width, label=label)
 
 
-def keys_of_rows(result):
-    methods = shown(result)
-    base = [key(method.label, style.colour_of(method), style.line_of(method), width=1.5 if method.reduces else 1.0)
-            for method in methods]
-    laws = [key(f"truth, {law} law", TRUTH_COLOURS[law], width=TRUTH_WIDTH)
-            for law in dict.fromkeys(method.force_law for method in methods)]
-    searches = []
-    for method, plain in zip(methods, base):
-        if method.reduces:
-            searches.append(key(f"{method.label}, search alone", style.SKY))
-            searches.append(key(f"{method.label}, with first reduction", style.colour_of(method), style.line_of(method)))
-        else:
-            searches.append(plain)
+def keys_of_rows(columns):
+    """Legends of the rows; what stands in several columns is told once."""
+    base, laws, before, searches = {}, {}, {}, {}
+    for column in columns:
+        for method in column.methods:
+            look, name = column.look[method.label], column.names[method.label]
+            plain = key(name, look["color"], look["ls"], width=1.5 if method.reduces else 1.0)
+            base[name] = plain
+            if method.reduces:
+                before[name] = key(f"{name}, before reduction", style.SKY)
+                searches[name + " alone"] = key(f"{name}, search alone", style.SKY)
+                searches[name] = key(f"{name}, with first reduction", look["color"], look["ls"])
+            elif method.tracks_locally:
+                searches[name] = plain
+        for _, method in true_forces(column.methods):
+            laws[method.force_law] = key(f"truth, {method.force_law} law", TRUTH_COLOURS[method.force_law], width=TRUTH_WIDTH)
     near = [key("dotted: a neighbouring feature counts, too", "#444444", ":", width=0.9)]
-    return [
-        base + laws,
-        base + [key(f"{method.label}, before reduction", style.SKY) for method in methods if method.reduces],
-        searches,
-        base,
-        base + near,
-    ]
+    base = list(base.values())
+    return [base + list(laws.values()), base + list(before.values()), list(searches.values()), base, base + near]
 
 
 ROWS = (
@@ -164,40 +198,39 @@ ROWS = (
 )
 
 
-def heading(name, result):
-    return f"{name} contact: cutoff {result.scene('cutoff_m') * 1e3:g} mm, $F_{{max}}$ {result.maximum_force():g} N"
-
-
-def draw(hard, soft):
+def draw(*results):
+    columns = columns_of(results)
+    if len(columns) > MOST_COLUMNS:
+        raise ResultError(f"{results[0].file}: {len(columns)} columns are more than a page holds (remedy: at most {MOST_COLUMNS} results or profiles)")
     style.use_style()
     heights = [height for _, _, height in ROWS]
     figure, axes = plt.subplots(
-        len(ROWS), 2, figsize=(style.TWO_COLUMNS_IN, 8.4), sharex="col",
-        gridspec_kw={"height_ratios": heights, "hspace": 0.36, "wspace": 0.16, "left": 0.092, "right": 0.992,
+        len(ROWS), len(columns), figsize=(style.TWO_COLUMNS_IN, 8.4), sharex="col", squeeze=False,
+        gridspec_kw={"height_ratios": heights, "hspace": 0.36, "wspace": 0.16, "left": 0.092, "right": 0.988,
                      "top": 0.932, "bottom": 0.046})
-    for column, (name, result) in enumerate((("hard", hard), ("soft", soft))):
-        for panel, (plot, _, _) in zip(axes[:, column], ROWS):
-            plot(panel, result)
-        axes[0, column].set_title(heading(name, result), pad=19, fontweight="bold")
-        axes[-1, column].set_xlabel("time [s]")
-        axes[-1, column].set_xlim(result.time[0], result.time[-1])
-    for row, ((_, label, _), keys) in enumerate(zip(ROWS, keys_of_rows(hard))):
+    for panels, column in zip(axes.T, columns):
+        for panel, (plot, _, _) in zip(panels, ROWS):
+            plot(panel, column)
+        panels[0].set_title(column.title(), pad=19, fontweight="bold", fontsize=8.5 if len(columns) < 3 else 5.5)
+        panels[-1].set_xlabel("time [s]")
+        panels[-1].set_xlim(column.time[0], column.time[-1])
+    for row, ((_, label, _), keys) in enumerate(zip(ROWS, keys_of_rows(columns))):
         axes[row, 0].set_ylabel(label)
-        axes[row, 0].yaxis.set_label_coords(-0.125, 0.5)
+        axes[row, 0].yaxis.set_label_coords(-0.125 if len(columns) > 1 else -0.07, 0.5)
         box = axes[row, 0].get_position()
         figure.text(0.012, box.y1 + 0.0045, "abcdefgh"[row], fontweight="bold", fontsize=8.5)
-        figure.legend(handles=keys, loc="lower left", bbox_to_anchor=(box.x0 - 0.008, box.y1 - 0.003), ncol=len(keys),
-                      handlelength=2.6, columnspacing=1.6, borderpad=0.1, handletextpad=0.6)
+        if keys:
+            figure.legend(handles=keys, loc="lower left", bbox_to_anchor=(box.x0 - 0.008, box.y1 - 0.003), ncol=len(keys), borderpad=0.1,
+                          handletextpad=0.6, **({"handlelength": 2.6, "columnspacing": 1.6} if len(keys) < 6 else {"handlelength": 1.5, "columnspacing": 0.9, "fontsize": 5.5}))
     return figure
 
 
 def main(argv):
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("hard", help="result file of the experiment with hard contact")
-    parser.add_argument("soft", help="result file of the experiment with soft contact")
+    parser.add_argument("results", nargs="+", metavar="RESULT.h5", help="result files, from left to right: in the paper hard, soft")
     parser.add_argument("--out", required=True, metavar="DIR", help="directory of figure7.svg and figure7.png")
     arguments = parser.parse_args(argv)
-    figure = draw(Result(arguments.hard), Result(arguments.soft))
+    figure = draw(*map(Result, arguments.results))
     for file in style.save(figure, arguments.out, "figure7"):
         print(file)
     return 0

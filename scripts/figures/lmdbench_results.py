@@ -39,6 +39,7 @@ class Method:
         self.promise = result.text_attribute(group, "promise")
         self.tracks_locally = bool(attributes["tracks_locally"])
         self.reduces = int(attributes["trackings_after_search"]) > 0
+        self.profile = result.text_attribute(group, "profile") or ""
 
     def has(self, dataset):
         return self.result.has(f"/methods/{self.label}/{dataset}")
@@ -68,6 +69,16 @@ class Method:
     def number(self, name):
         """A number of the program's summary; NaN where it was not measured."""
         return self.result.summary_number(f"/methods/{self.label}/summary/{name}")
+
+    def constant(self, name):
+        """A number of its force profile: cutoff_m, maximum_force_n, ...; the scene's where all methods share one."""
+        attributes = self.result.h5[f"/methods/{self.label}"].attrs
+        return float(attributes[name]) if name in attributes else self.result.scene(name)
+
+    def reference(self):
+        """Group of the true sets at its frames: its own in a closed loop or under one of several profiles."""
+        own = f"/methods/{self.label}/reference"
+        return own if self.result.has(f"{own}/frame") else "/reference"
 
     def searches_every_frame(self):
         """Whether the method has no search of its own rate: its whole set is found anew in the local part."""
@@ -204,11 +215,12 @@ class Truth:
     def __init__(self, method):
         result = method.result
         group = "truth/"
+        reference = method.reference()
         self.frames = method.read(group + "frame").astype(int)
-        self.reference_frames = result.read("/reference/frame").astype(int)
+        self.reference_frames = result.read(f"{reference}/frame").astype(int)
         if not np.array_equal(self.frames, self.reference_frames):
-            raise ResultError(f"{result.file}: /methods/{method.label}/truth/frame and /reference/frame differ")
-        self.true_count = result.read("/reference/lmd_count").astype(float)
+            raise ResultError(f"{result.file}: /methods/{method.label}/truth/frame and {reference}/frame differ")
+        self.true_count = result.read(f"{reference}/lmd_count").astype(float)
         self.recall = method.read(group + "recall")
         self.recall_adjacent = method.read(group + "recall_adjacent")
         self.force_error = method.read(group + "force_error")
@@ -222,16 +234,30 @@ class Truth:
 
 def truth_of(method):
     """Truth of a method, or None when the run had no truth probe."""
-    if not method.has("truth/frame") or not method.result.has("/reference/frame"):
+    if not method.has("truth/frame") or not method.result.has(f"{method.reference()}/frame"):
         return None
     return Truth(method) if method.read("truth/frame").size else None
 
 
-def reference_force(result, law):
-    """(K) frames and (K) length of the true rendered force under a law [N]; empty without a truth probe."""
-    if not result.has(f"/reference/force_{law}"):
+def reference_force(method):
+    """(K) frames and (K) length of the true rendered force under a method's law, at its poses [N]; empty without a truth probe."""
+    dataset = f"{method.reference()}/force_{method.force_law}"
+    if not method.result.has(dataset):
         return np.empty(0, dtype=int), np.empty(0)
-    return result.read("/reference/frame").astype(int), np.linalg.norm(result.read(f"/reference/force_{law}"), axis=1)
+    force = np.linalg.norm(method.result.read(dataset), axis=1)
+    distance = f"{method.reference()}/minimum_distance"
+    if method.result.has(distance):
+        force[method.result.read(distance) == 0.0] = np.nan  # touching triangles have no direction: no force is the true one
+    return method.result.read(f"{method.reference()}/frame").astype(int), force
+
+
+def true_forces(methods):
+    """[(what it is the truth of, a method)]: one for each law that methods share poses and profile under."""
+    found = {}
+    for method in methods:
+        if method.result.has(f"{method.reference()}/force_{method.force_law}"):
+            found.setdefault((method.reference() if method.reference() != "/reference" else "", method.force_law), method)
+    return [(f"truth of {method.label}" if reference else f"truth, {law} law", method) for (reference, law), method in found.items()]
 
 
 def run_script(main):
