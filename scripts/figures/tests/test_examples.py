@@ -36,8 +36,22 @@ def add_lmds(file):
             method["lmds/point_fixed"] = np.zeros((2 * frames, 3))
 
 
+def add_curves_and_inputs(file):
+    """One closed curve of 3 mm in frame 0, two open ones of 1 mm in frame 5; a mesh file."""
+    with h5py.File(file, "a") as h5:
+        h5["polylines/frame"], h5["polylines/frame_offset"] = [0, 5], [0, 1, 3]
+        h5["polylines/length"], h5["polylines/closed"] = [0.003, 0.001, 0.001], np.array([1, 0, 0], dtype="u1")
+        h5["provenance"].attrs["git_commit"] = "0123abcd"
+        for name, text in (("role", "mesh:a"), ("file", "a.off"), ("sha256", "feed")):
+            h5[f"provenance/inputs/{name}"] = [text]
+        for method in h5["methods"].values():
+            method.attrs["result_hash"] = "beef"
+
+
 class Examples(unittest.TestCase):
-    EXPECTED = {"forces.py": "original: mean", "worst_frames.py": " N at ", "lmds_of_a_frame.py": "original, frame 7:\n  0.5000 mm",
+    EXPECTED = {"two_runs.py": "improved frames_late [1]: ", "polylines.py": "0.005 s: 2 curves, 2 mm, 0 closed",
+                "provenance.py": "mesh:a: a.off, SHA-256 feed\n",
+                "forces.py": "original: mean", "worst_frames.py": " N at ", "lmds_of_a_frame.py": "original, frame 7:\n  0.5000 mm",
                 "times.py": "improved: median", "front.py": "hard: certified {}: 30 ms/s, 0 % of F_max"}
 
     def test_each_prints_its_answer(self):
@@ -45,9 +59,11 @@ class Examples(unittest.TestCase):
             run, sweep = os.path.join(folder, "run.h5"), os.path.join(folder, "sweep.h5")
             write_result(run)
             add_lmds(run)
+            add_curves_and_inputs(run)
             write_sweep(sweep, [{**row, "on_front": float(row["series"] == "certified")} for row in ROWS])
             for name, expected in self.EXPECTED.items():
-                outcome = subprocess.run([sys.executable, os.path.join(EXAMPLES, name), sweep if name == "front.py" else run],
+                files = {"front.py": [sweep], "two_runs.py": [run, run]}.get(name, [run])
+                outcome = subprocess.run([sys.executable, os.path.join(EXAMPLES, name), *files],
                                          capture_output=True, text=True, check=False)
                 self.assertEqual(outcome.returncode, 0, outcome.stderr)
                 self.assertIn(expected, outcome.stdout, name)
