@@ -196,6 +196,48 @@ class FigureTest(ScriptsTest):
         self.assertIn("no truth probe in this run", texts)
         figure_style.plt.close(figure)
 
+    def test_figure7_takes_any_labels_profiles_and_methods(self):
+        def profiles(h5):
+            for name, profile, cutoff in (("original", "hard", 0.001), ("improved", "soft", 0.01)):
+                h5["methods"].move(name, f"{name}-{profile}")
+                h5[f"methods/{name}-{profile}"].attrs.update({"profile": profile, "cutoff_m": cutoff})
+
+        two = figure7.columns_of([Result(self.edited("profiles.h5", profiles))])
+        self.assertEqual([column.title().split(",")[0] + column.title().split(",")[1] for column in two], ["hard hard: cutoff 1 mm", "hard soft: cutoff 10 mm"])
+        self.assertEqual([list(column.names.values()) for column in two], [["original"], ["improved"]])
+        self.assertEqual(two[1].look["improved-soft"]["color"], figure_style.BLUE, "as without profiles")
+
+        mine = figure7.columns_of([Result(self.edited("mine.h5", lambda h5: h5["methods"].move("original", "mine")))])[0]
+        self.assertEqual(sorted(mine.look), ["improved", "mine"])
+        self.assertNotEqual(mine.look["mine"]["color"], mine.look["improved"]["color"])
+
+        exact = Result(self.edited("exact.h5", lambda h5: None, methods=("certified",)))
+        figure = figure7.draw(exact)
+        self.assertEqual(len(figure.axes), len(figure7.ROWS))
+        self.assertIn("no method with searches of their own rate", figure.axes[2].texts[0].get_text())
+        figure_style.plt.close(figure)
+        with self.assertRaisesRegex(ResultError, "5 columns are more than a page holds"):
+            figure7.draw(*[exact] * 5)
+
+    def test_no_true_force_where_triangles_touch(self):
+        def touch(h5):
+            distance = np.full(h5["reference/frame"].shape[0], 1e-3)
+            distance[3] = 0.0
+            h5["reference/minimum_distance"] = distance
+
+        _, force = lmdbench_results.reference_force(Result(self.edited("touch.h5", touch)).method("improved"))
+        self.assertEqual(list(np.flatnonzero(np.isnan(force))), [3])
+
+    def test_truth_of_a_device_of_its_own_is_its_own(self):
+        def close(h5):
+            h5.copy("reference", "methods/improved/reference")
+            h5["methods/improved/reference/force_exponential"][:] *= 2.0
+
+        result = Result(self.edited("closed.h5", close))
+        forces = {name: lmdbench_results.reference_force(method)[1] for name, method in lmdbench_results.true_forces(result.methods.values())}
+        self.assertEqual(sorted(forces), ["truth of improved", "truth, linear law"])
+        np.testing.assert_allclose(forces["truth of improved"], 2.0 * forces["truth, linear law"])
+
     def test_work_precision_places_exact_failed_and_other_methods(self):
         def fail(h5):
             h5["/methods/improved/force"][5] = np.nan
