@@ -14,34 +14,14 @@ import numpy as np
 
 import figure_style as style
 from lmdbench_results import ResultError, run_script
+from mesh_drawing import FIXED, MOVING, draw_triangles, read_off, rotation, view_towards
 
 import matplotlib.pyplot as plt
-from matplotlib.collections import LineCollection, PolyCollection
-
-LIGHT = np.array([0.35, 0.45, 0.82])
-MOVING, FIXED = np.array([0.68, 0.80, 0.92]), np.array([0.94, 0.86, 0.70])
-
-
-def read_off(file):
-    """(V, 3) vertices and (T, 3) triangles of an OFF file."""
-    try:
-        with open(file, encoding="ascii") as stream:
-            words = [word for line in stream for word in line.split("#")[0].split()]
-    except OSError as error:
-        raise ResultError(f"{error} (remedy: lmdbench mesh build)")
-    vertices, triangles = int(words[1]), int(words[2])
-    points = np.array(words[4:4 + 3 * vertices], dtype=float).reshape(-1, 3)
-    return points, np.array(words[4 + 3 * vertices:4 + 3 * vertices + 4 * triangles], dtype=int).reshape(-1, 4)[:, 1:]
+from matplotlib.collections import LineCollection
 
 
 def scaled(points, diagonal):
     return points if diagonal is None else points * diagonal / np.linalg.norm(points.max(axis=0) - points.min(axis=0))
-
-
-def rotation(x, y, z, w):
-    return np.array([[1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)],
-                     [2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)],
-                     [2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)]])
 
 
 def write_off(file, points, triangles):
@@ -66,31 +46,6 @@ def query(program, folder, meshes, cutoff, pose, method):
     return json.loads(outcome.stdout.splitlines()[0])["lmds"]
 
 
-def view_towards(direction):
-    """(3, 3) rows right, up, towards the reader; looks square at the direction of contact."""
-    right = direction / np.linalg.norm(direction)
-    up = np.array([0.0, 1.0, 0.0]) - right[1] * right
-    up = up / np.linalg.norm(up) if np.linalg.norm(up) > 1e-6 else np.array([0.0, 0.0, 1.0])
-    return np.array([right, up, np.cross(right, up)])
-
-
-def draw_meshes(axes, meshes, view, alpha):
-    """Painter's algorithm over all triangles that face the reader."""
-    corners, colours = [], []
-    for (points, triangles), colour in zip(meshes, (MOVING, FIXED)):
-        seen = (points @ view.T)[triangles]
-        normals = np.cross(seen[:, 1] - seen[:, 0], seen[:, 2] - seen[:, 0])
-        length = np.linalg.norm(normals, axis=1)
-        faces = (length > 0) & (normals[:, 2] > 0)
-        shade = 0.45 + 0.55 * np.clip((normals[faces] / length[faces, None]) @ LIGHT, 0, 1)
-        corners.append(seen[faces])
-        colours.append(np.clip(colour[None, :] * shade[:, None], 0, 1))
-    corners, colours = np.concatenate(corners), np.concatenate(colours)
-    order = np.argsort(corners[:, :, 2].mean(axis=1))
-    axes.add_collection(PolyCollection(corners[order][:, :, :2], facecolors=colours[order], edgecolors="none" if alpha is None else alpha,
-                                       linewidths=0.15, rasterized=True))
-
-
 def draw(meshes, lmds, title):
     style.use_style()
     moving, fixed = (np.array([lmd[f"point_{side}"] for lmd in lmds]) for side in ("moving", "fixed"))
@@ -100,9 +55,11 @@ def draw(meshes, lmds, title):
     every = np.concatenate([points for points, _ in meshes]) @ view.T
     reach = 0.52 * np.max(every.max(axis=0)[:2] - every.min(axis=0)[:2])
     spread = max(np.max(np.linalg.norm(np.concatenate([moving, fixed]) - centre, axis=1)), 4 * np.linalg.norm(moving[0] - fixed[0]))
-    for axes, middle, half, edges, words in ((panels[0], 0.5 * (every.max(axis=0) + every.min(axis=0)), reach, None, "whole"),
+    for axes, middle, half, edges, words in ((panels[0], 0.5 * (every.max(axis=0) + every.min(axis=0)), reach, "none", "whole"),
                                              (panels[1], centre @ view.T, 1.3 * spread, "#00000040", "where they meet")):
-        draw_meshes(axes, meshes, view, edges)
+        corners = [points[triangles] for points, triangles in meshes]
+        colours = np.concatenate([np.tile(colour, (len(part), 1)) for colour, part in zip((MOVING, FIXED), corners)])
+        draw_triangles(axes, np.concatenate(corners), view, colours, edge=edges)
         lines = np.stack([moving @ view.T, fixed @ view.T], axis=1)[:, :, :2]
         axes.add_collection(LineCollection(lines, colors=style.VERMILLION, linewidths=1.6, zorder=5))
         for points in (lines[:, 0], lines[:, 1]):

@@ -23,29 +23,39 @@ function save(name, text) {
 // A field with a comma or a quote is quoted (RFC 4180).
 const field = (text) => /[",\n]/.test(text) ? '"' + text.replace(/"/g, '""') + '"' : text;
 const csv = (rows) => rows.map((row) => row.map((cell) => field(String(cell))).join(",")).join("\n") + "\n";
+const table_csv = (table) => csv(Array.from(table.rows, (row) => Array.from(row.cells, (cell) => cell.textContent.trim())));
 
-const text_colour = () => getComputedStyle(document.documentElement).getPropertyValue("--soft").trim();
+function button(text, act, label) {
+  const made = document.createElement("button");
+  made.type = "button";
+  made.textContent = text;
+  if (label) made.setAttribute("aria-label", label);
+  made.addEventListener("click", act);
+  return made;
+}
+
 const grid_colour = () => getComputedStyle(document.documentElement).getPropertyValue("--line").trim();
 
-function panel_csv(panel, time, columns) {
-  const rows = [["time [s]", ...panel.series.map((line) => `${line.label} [${panel.unit}]`)]];
+// One table of time and every series of some panels.
+function panels_csv(panels, time) {
+  const lines = panels.flatMap((panel) => panel.series.map((line) => ({...line, name: `${panel.title}: ${line.label} [${panel.unit}]`})));
+  const columns = lines.map((line) => floats(line.values));
+  const rows = [["time [s]", ...lines.map((line) => line.name)]];
   for (let i = 0; i < time.length; ++i)
     rows.push([time[i], ...columns.map((column) => Number.isNaN(column[i]) ? "" : column[i])]);
   return csv(rows);
 }
 
-function draw_panel(place, result, panel, time) {
+function draw_panel(place, number, panel, time) {
+  const result = page.results[number];
   const columns = panel.series.map((line) => floats(line.values));
   const rows = Array.from(time, (t, i) => [t, ...columns.map((column) => Number.isNaN(column[i]) ? null : column[i])]);
   const box = document.createElement("div");
   box.className = "panel";
   box.innerHTML = '<div class="head"><b></b><span class="legend"></span></div><div class="plot"></div>';
   box.querySelector("b").textContent = `${panel.title} [${panel.unit === "us" ? "\u00b5s" : panel.unit}]`;
-  const button = document.createElement("button");
-  button.type = "button";
-  button.textContent = "Download CSV";
-  button.addEventListener("click", () => save(`${result.name}-${panel.id}`, panel_csv(panel, time, columns)));
-  box.querySelector(".head").append(button);
+  box.querySelector(".head").append(
+      button("Download CSV", () => save(`${result.name}-${panel.id}`, panels_csv([panel], time))));
   place.append(box);
   const looks = {};
   for (const line of panel.series)
@@ -62,38 +72,83 @@ function draw_panel(place, result, panel, time) {
     gridLineColor: grid_colour(),
     digitsAfterDecimal: 4,
     axes: {x: {valueFormatter: (value) => `${value.toFixed(3)} s`}, y: {axisLabelWidth: 56}},
+    clickCallback: (event, x) => page.views[number] && page.views[number].go_to(x),
   });
+}
+
+// What dragging does with a mouse, for the keyboard: shares of the window that both ends move by.
+const ZOOMS = [["+", "nearer", 0.25, -0.25], ["\u2212", "farther", -0.5, 0.5], ["\u2190", "earlier", -0.25, -0.25],
+               ["\u2192", "later", 0.25, 0.25]];
+
+function zoom_buttons(place, plots) {
+  const bar = document.createElement("p");
+  bar.className = "tools";
+  const [first, last] = plots[0].xAxisExtremes();
+  for (const [sign, meaning, left, right] of ZOOMS)
+    bar.append(button(sign, () => {
+      const [low, high] = plots[0].xAxisRange();
+      const window = [Math.max(first, low + left * (high - low)), Math.min(last, high + right * (high - low))];
+      if (window[1] > window[0]) for (const plot of plots) plot.updateOptions({dateWindow: window});
+    }, `${meaning} in time`));
+  bar.append(button("all", () => { for (const plot of plots) plot.resetZoom(); }, "the whole time"));
+  place.prepend(bar);
 }
 
 function draw_plots() {
   page.plots = [];
   for (const place of document.querySelectorAll(".panels")) {
-    const result = page.results[Number(place.dataset.result)];
+    const number = Number(place.dataset.result);
+    const result = page.results[number];
     const time = floats(result.time);
-    const plots = result.panels.map((panel) => draw_panel(place, result, panel, time));
+    const plots = result.panels.map((panel) => draw_panel(place, number, panel, time));
     if (plots.length > 1) Dygraph.synchronize(plots, {selection: true, zoom: true, range: false});
+    zoom_buttons(place, plots);
     page.plots.push(plots);
   }
 }
 
 function connect_buttons() {
-  for (const button of document.querySelectorAll("[data-csv-table]"))
-    button.addEventListener("click", () => {
-      const table = document.getElementById(button.dataset.csvTable);
-      save(button.dataset.name, csv(Array.from(table.rows, (row) => Array.from(row.cells, (cell) => cell.textContent))));
-    });
-  for (const button of document.querySelectorAll("[data-csv-text]"))
-    button.addEventListener("click",
-        () => save(button.dataset.csvText, document.getElementById("csv-" + button.dataset.csvText).textContent));
+  for (const made of document.querySelectorAll("[data-csv-table]"))
+    made.addEventListener("click", () => save(made.dataset.name, table_csv(document.getElementById(made.dataset.csvTable))));
+  for (const made of document.querySelectorAll("[data-csv-text]"))
+    made.addEventListener("click",
+        () => save(made.dataset.csvText, document.getElementById("csv-" + made.dataset.csvText).textContent));
+  for (const made of document.querySelectorAll("[data-csv-result]")) {
+    const result = page.results[Number(made.dataset.csvResult)];
+    made.addEventListener("click", () => save(`${result.name}-frames`, panels_csv(result.panels, floats(result.time))));
+  }
+  document.querySelectorAll(".study table").forEach((table, i) => {
+    const study = table.closest(".study").id;
+    const bar = document.createElement("p");
+    bar.className = "tools";
+    bar.append(button("Download CSV", () => save(`${study}-${i}`, table_csv(table))));
+    const wide = document.createElement("div");
+    wide.className = "wide";
+    table.replaceWith(wide);
+    wide.append(table);
+    wide.after(bar);
+  });
   document.getElementById("theme").addEventListener("click", () => {
     const root = document.documentElement;
     const dark = root.dataset.theme ? root.dataset.theme === "dark" : matchMedia("(prefers-color-scheme: dark)").matches;
     root.dataset.theme = dark ? "light" : "dark";
     for (const plots of page.plots)
       for (const plot of plots) plot.updateOptions({axisLineColor: grid_colour(), gridLineColor: grid_colour()});
-    for (const view of page.views || []) view.repaint();
+    for (const view of page.views) if (view) view.repaint();
   });
+}
+
+// A link to a folded section unfolds it.
+function unfold() {
+  const target = location.hash && document.getElementById(decodeURIComponent(location.hash.slice(1)));
+  const folded = target && target.querySelector(":scope > details");
+  if (folded) {
+    folded.open = true;
+    target.scrollIntoView();
+  }
 }
 
 draw_plots();
 connect_buttons();
+addEventListener("hashchange", unfold);
+unfold();

@@ -8,7 +8,7 @@ import base64
 import numpy as np
 
 import figure_style as style
-from lmdbench_results import truth_of
+from lmdbench_results import reference_force, true_forces, truth_of
 
 # Lines must be seen on a white and on a dark page.
 TRUTH_COLOURS = {"linear": style.GREY, "exponential": style.SKY}
@@ -51,13 +51,9 @@ def moving_recall(truth):
 
 def force_panel(result, colours):
     lines = [series(method.label, method.force_magnitude(), colours[method.label]) for method in result.methods.values()]
-    if result.has("/reference/frame"):
-        frames = result.read("/reference/frame").astype(int)
-        for law in dict.fromkeys(method.force_law for method in result.methods.values()):
-            if result.has(f"/reference/force_{law}"):
-                force = np.linalg.norm(result.read(f"/reference/force_{law}"), axis=1)
-                lines.append(series(f"truth, {law} law", at_frames(result, frames, force), TRUTH_COLOURS.get(law, style.GREY),
-                                    points=True))
+    for name, method in true_forces(result.methods.values()):
+        frames, force = reference_force(method)
+        lines.append(series(name, at_frames(result, frames, force), TRUTH_COLOURS[method.force_law], points=True))
     return {"id": "force", "title": "Force", "unit": "N", "series": lines}
 
 

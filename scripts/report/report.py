@@ -5,9 +5,6 @@
 it. `lmdbench report` calls this with the scenes of the results; everything else comes from the result files alone."""
 
 import argparse
-import base64
-import csv
-import io
 import json
 import os
 import re
@@ -17,17 +14,15 @@ HERE = os.path.dirname(os.path.abspath(__file__))
 sys.path.insert(0, os.path.join(HERE, "..", "figures"))
 
 import jinja2  # noqa: E402  (the figures' folder must be found first)
-import markdown  # noqa: E402
 import markupsafe  # noqa: E402
 
-import figure7  # noqa: E402
-import sweep as sweep_figure  # noqa: E402
-import figure_style as style  # noqa: E402
-import work_precision  # noqa: E402
 from answer import answer  # noqa: E402
-from lmdbench_results import Result, ResultError, run_script, truth_of  # noqa: E402
+from claims_section import claims_of, evidence  # noqa: E402
+from lmdbench_results import Result, run_script, truth_of  # noqa: E402
 from page_data import page_colours, time_panels  # noqa: E402
+from page_figures import figures  # noqa: E402
 from scene_data import scene  # noqa: E402
+from studies import FIRST, studies as study_sections  # noqa: E402
 from sweep_results import Sweep, is_sweep  # noqa: E402
 
 JAVASCRIPT = "/usr/share/javascript"
@@ -59,8 +54,9 @@ def what_was_run(result):
     methods = ", ".join(method.label for method in result.methods.values())
     probed = next((truth_of(method) for method in result.methods.values() if truth_of(method)), None)
     truth = f"errors against exhaustive truth in {probed.frames.size} frames" if probed else "no truth probe"
+    cutoffs = dict.fromkeys(f"{method.constant('cutoff_m') * 1e3:.4g}" for method in result.methods.values())
     return (f"{result.experiment.get('title') or result.name}. {result.time.size} frames, {result.triangles()} triangles, cutoff "
-            f"{result.scene('cutoff_m') * 1e3:.4g} mm; methods {methods}; {truth}.")
+            f"{' and '.join(cutoffs)} mm; methods {methods}; {truth}.")
 
 
 def provenance(result):
@@ -74,89 +70,9 @@ def provenance(result):
     return [(name, value) for name, value in rows if value]
 
 
-def work_precision_csv(results):
-    stream = io.StringIO()
-    writer = csv.writer(stream, lineterminator="\n")
-    writer.writerow(["experiment", "method", "median [ms]", "99 % [ms]", "RMS force error / F_max [1]", "missed LMDs [1]",
-                     "missed, neighbouring features count [1]", "failure"])
-    for result in results:
-        for method in result.methods.values():
-            point = work_precision.Point(result, method)
-            writer.writerow([point.experiment, point.method.label, point.median_ms, point.p99_ms, point.force_error,
-                             point.missed, point.missed_adjacent, point.failure])
-    return stream.getvalue()
-
-
-def paper_pairs(results):
-    """Results with methods that search now and then, as the paper's do, hard beside soft: the first two of them."""
-    able = [result for result in results if figure7.shown(result)]
-    return (able[0], able[1]) if len(able) > 1 else (able[0], able[0]) if able else None
-
-
-def figure_entry(figure, folder, name, title, text, table=""):
-    svg = next(file for file in style.save(figure, folder, name) if file.endswith(".svg"))
-    with open(svg, "rb") as stream:
-        data = base64.b64encode(stream.read()).decode("ascii")
-    return {"id": name, "title": title, "text": text, "svg": data, "csv": in_script(table), "html": ""}
-
-
-def sweep_csv(sweep):
-    """Every point with all its numbers."""
-    stream = io.StringIO()
-    writer = csv.writer(stream, lineterminator="\n")
-    numbers = sorted(sweep.columns)
-    writer.writerow(["scene", "series", "axes", "failure", *numbers])
-    for point in sweep.points:
-        writer.writerow([point.scene, point.series, json.dumps(point.axes), point.failure, *(point.number(name) for name in numbers)])
-    return stream.getvalue()
-
-
-def sweep_entry(sweep, folder):
-    """Figure and answer of a sweep: which method at which budget, and where one gets cheaper than the other."""
-    tables = ["Least RMS force error [% of F_max of one LMD] within so much processor time of a second in contact, searches included:",
-              "", *sweep_figure.budget_table(sweep), ""]
-    crossing = sweep_figure.crossings(sweep)
-    if len(crossing) > 2:
-        tables += ["`improved` costs less than `certified`, with older sets, where it searches more rarely than every", "", *crossing, ""]
-    entry = figure_entry(
-        sweep_figure.draw(sweep), folder, f"sweep-{sweep.name}", "Error against run time" if sweep.name == "budget" else sweep.title,
-        f"{sweep.title}. A line a series, a point a setting, truth in every frame. Lower left is better; shaded lanes hold errors of exactly "
-        "zero and points that fail or find no true LMD.", sweep_csv(sweep))
-    return {**entry, "html": markdown.markdown("\n".join(tables), extensions=["tables"])}
-
-
 def sweep_provenance(sweep):
     rows = [*sorted(sweep.provenance.items()), *((f"machine: {name}", value) for name, value in sorted(sweep.machine.items()))]
     return {"name": sweep.name, "provenance": [(name, value) for name, value in rows if value], "experiment": sweep.definition}
-
-
-def figures(results, sweeps, folder):
-    entries = [sweep_entry(sweep, folder) for sweep in sweeps]
-    probed = [result for result in results if any(truth_of(method) for method in result.methods.values())]
-    if probed:
-        entries.append(figure_entry(
-            work_precision.draw(probed), folder, "work_precision", "Error against run time of these runs" if sweeps else "Error against run time",
-            "A point a method and experiment: what error it leaves for what run time of a frame in contact. Lower left is better; "
-            "shaded lanes hold errors of exactly zero and methods that fail.", work_precision_csv(probed)))
-    pair = paper_pairs(results)
-    if pair:
-        entries.append(figure_entry(
-            figure7.draw(*pair), folder, "figure7", "The paper's Figure 7",
-            f"{pair[0].name} on the left, {pair[1].name} on the right: force, LMD counts, search and update times, and beyond the paper "
-            "the true force and the share of true LMDs that each method knows."))
-    return entries
-
-
-def study(file):
-    """A table of results/reference: its first heading is its title."""
-    text = text_of(file)
-    title = re.search(r"(?m)^# (.+)$", text)
-    name = os.path.splitext(os.path.basename(file))[0]
-    body = re.sub(r"(?m)^# .+\n", "", text, count=1)
-    # Pictures of other files would be requests.
-    body = re.sub(r"!\[([^\]]*)\]\([^)]*\)", r"*\1*", body)
-    return {"id": "study-" + re.sub(r"[^a-z0-9]+", "-", name.lower()), "title": title.group(1) if title else name,
-            "html": markdown.markdown(body, extensions=["tables", "fenced_code"]), "open": False}
 
 
 OMISSIONS = (
@@ -172,16 +88,26 @@ OMISSIONS = (
 )
 
 
-def page(results, sweeps, scenes, studies, folder):
-    entries = figures(results, sweeps, folder)
-    studies = [study(file) for file in studies]
-    of_runs = [{"id": "frames", "title": "Frame by frame"}, {"id": "scene", "title": "In space"}] if results else []
-    sections = [{"id": "answer", "title": "Answer"}, *entries, *of_runs, *studies, {"id": "omissions", "title": "Omissions"},
-                {"id": "provenance", "title": "Provenance"}]
-    colours = {label: colour for result in results for label, colour in page_colours(result).items()}
-    data = {"results": [time_panels(result) for result in results], "scenes": scenes, "colours": colours}
-    environment = jinja2.Environment(loader=jinja2.FileSystemLoader(HERE), autoescape=True, undefined=jinja2.StrictUndefined)
+def navigation(entries, results, studies):
+    """Every section of the page in its order; the tables that nobody looks for by name share one entry."""
+    of_runs = [{"id": "frames", "title": "Frame by frame"}, {"id": "scene", "title": "In space"},
+               {"id": "claims", "title": "The paper's claims"}] if results else []
+    first = [entry for entry in studies if entry["name"] in FIRST]
+    more = [{"id": "more", "title": "More tables"}] if len(first) < len(studies) else []
+    return [{"id": "answer", "title": "Answer"}, *entries, *of_runs, *first, *more, {"id": "omissions", "title": "Omissions"},
+            {"id": "provenance", "title": "Provenance"}]
+
+
+def page(results, sweeps, scenes, study_files, folder):
     raw = markupsafe.Markup
+    entries = [{**entry, "csv": raw(in_script(entry["csv"])), "html": raw(entry["html"])} for entry in figures(results, sweeps, folder)]
+    studies = [{**entry, "html": raw(entry["html"])} for entry in study_sections(study_files)]
+    sections = navigation(entries, results, studies)
+    claims = claims_of(results) if results else {"problem": ""}
+    linked = [(claim, evidence(claim.id, [*sections, *studies])) for claim in claims.get("claims", [])]
+    data = {"results": [time_panels(result) for result in results], "scenes": scenes,
+            "colours": [page_colours(result) for result in results]}
+    environment = jinja2.Environment(loader=jinja2.FileSystemLoader(HERE), autoescape=True, undefined=jinja2.StrictUndefined)
     described = [{"name": result.name, "what": what_was_run(result), "answer": answer(result), "provenance": provenance(result),
                   "experiment": json.dumps(result.experiment, indent=2),
                   "warnings": result.texts("/scene/warnings") if result.has("/scene/warnings") else []} for result in results]
@@ -189,8 +115,7 @@ def page(results, sweeps, scenes, studies, folder):
         title=" and ".join(result.experiment.get("title") or result.name for result in results)
         or " and ".join(sweep.title for sweep in sweeps),
         results=described, sections=sections, provenances=[*described, *map(sweep_provenance, sweeps)],
-        figures=[{**entry, "csv": raw(entry["csv"]), "html": raw(entry["html"])} for entry in entries],
-        studies=[{**entry, "html": raw(entry["html"])} for entry in studies],
+        figures=entries, studies=studies, first_studies=FIRST, claims=claims, linked_claims=linked,
         omissions=OMISSIONS, style=raw(text_of(HERE, "page.css")),
         libraries={"script": raw(in_script("\n".join(library(*item) for item in LIBRARIES))),
                    "style": raw("\n".join(library(*item) for item in STYLES))},

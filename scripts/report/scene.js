@@ -1,14 +1,16 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
 "use strict";
-// The 3D view: meshes, LMDs and forces of one frame, with a slider over the frames. Coordinates are the world's, in metres;
-// the camera works in units of the scene's size.
+// The 3D view: meshes, LMDs, forces and intersection polylines of one frame, with a slider over the frames. Coordinates are
+// the world's, in metres.
 
 const LEVELS = 65535;
 const MESH_COLOURS = [0xe0b48c, 0x9fb4c7, 0xa9c7a0, 0xc7a9c2];
-const LMD_COLOUR = 0xd01c8b;
+const EXACT_COLOUR = "#d01c8b";
+const CURVE_COLOUR = "#b8860b";
 // An arrow of F_max is this share of the moving mesh's size.
 const ARROW_SHARE = 0.35;
+const KEY_TURN = 0.12;  // radians a key press
 
 function mesh_geometry(mesh, meshes) {
   const source = mesh.triangles ? mesh : meshes.find((other) => other.role === mesh.triangles_of);
@@ -24,46 +26,115 @@ function mesh_geometry(mesh, meshes) {
   return geometry;
 }
 
+// Decodes what one slider steps through.
+function decoded_track(track) {
+  const sets = (packed) => ({offset: packed.offset, rows: floats(packed.rows)});
+  const each = (object, decode) => Object.fromEntries(Object.entries(object).map(([name, value]) => [name, decode(value)]));
+  return {...track, time: floats(track.time), position: floats(track.position), orientation: floats(track.orientation),
+          exact: sets(track.exact), own: each(track.own, sets), forces: each(track.forces, floats)};
+}
+// LMDs of a frame: [point on the moving mesh, point on the fixed mesh, distance].
+function lmds_of(set, index) {
+  const found = [];
+  for (let i = set.offset[index]; i < set.offset[index + 1]; ++i) {
+    const row = set.rows.subarray(7 * i, 7 * i + 7);
+    found.push([new THREE.Vector3(row[0], row[1], row[2]), new THREE.Vector3(row[3], row[4], row[5]), row[6]]);
+  }
+  return found;
+}
+
 class View {
-  constructor(figure, data, colours) {
+  constructor(figure, number, data, colours) {
+    this.number = number;
     this.data = data;
     this.colours = colours;
+    this.tracks = data.tracks.map(decoded_track);
+    this.track = this.tracks[0];
+    this.hidden = new Set();
     this.place = figure.querySelector(".canvas");
-    this.slider = figure.querySelector("input");
+    this.slider = figure.querySelector("input[type=range]");
     this.output = figure.querySelector("output");
     this.renderer = new THREE.WebGLRenderer({antialias: true, alpha: true, preserveDrawingBuffer: true});
     this.place.append(this.renderer.domElement);
+    this.build_scene();
+    this.controls = new THREE.OrbitControls(this.camera, this.place);
+    this.controls.enableKeys = false;
+    this.controls.addEventListener("change", () => this.render());
+    this.place.addEventListener("keydown", (event) => this.key(event));
+    this.slider.addEventListener("input", () => this.show(Number(this.slider.value)));
+    this.offer_choices(figure.querySelector(".choices"));
+    new ResizeObserver(() => this.resize()).observe(this.place);
+    this.begin_track();
+    this.look();
+    this.resize();
+  }
+
+  build_scene() {
     this.scene = new THREE.Scene();
-    this.bodies = data.meshes.map((mesh, i) => {
+    this.bodies = this.data.meshes.map((mesh, i) => {
       // The moving mesh is opaque, the fixed ones let it shine through.
       const fixed = mesh.role !== "moving";
       const material = new THREE.MeshLambertMaterial({color: MESH_COLOURS[i % MESH_COLOURS.length], transparent: fixed,
                                                       opacity: fixed ? 0.6 : 1});
-      const body = new THREE.Mesh(mesh_geometry(mesh, data.meshes), material);
+      const body = new THREE.Mesh(mesh_geometry(mesh, this.data.meshes), material);
       this.scene.add(body);
       return body;
     });
-    this.moving = this.bodies[data.meshes.findIndex((mesh) => mesh.role === "moving")];
+    this.moving = this.bodies[this.data.meshes.findIndex((mesh) => mesh.role === "moving")];
     this.size = Math.max(...this.bodies.map((body) => body.geometry.boundingSphere.radius));
     this.moving_size = this.moving.geometry.boundingSphere.radius;
     this.marks = new THREE.Group();
     this.scene.add(this.marks, new THREE.AmbientLight(0xffffff, 0.45));
     this.camera = new THREE.PerspectiveCamera(35, 1, this.size * 1e-3, this.size * 100);
-    this.camera.up.set(0, 1, 0);
     const lamp = new THREE.DirectionalLight(0xffffff, 0.75);
     this.camera.add(lamp);
     lamp.position.set(0.4, 0.8, 1);
     this.scene.add(this.camera);
-    this.controls = new THREE.OrbitControls(this.camera, this.place);
-    this.controls.addEventListener("change", () => this.render());
-    this.slider.max = String(data.frames.length - 1);
-    this.slider.addEventListener("input", () => this.show(Number(this.slider.value)));
-    new ResizeObserver(() => this.resize()).observe(this.place);
-    const counts = data.frames.map((frame) => frame.lmds.length);
+  }
+
+  // Everything that can be shown or hidden is a box with its colour; in a closed loop the device is chosen, too.
+  offer_choices(place) {
+    const box = (name, text, colour) => {
+      const label = document.createElement("label");
+      const input = document.createElement("input");
+      input.type = "checkbox";
+      input.checked = true;
+      input.addEventListener("change", () => {
+        if (input.checked) this.hidden.delete(name); else this.hidden.add(name);
+        this.show(Number(this.slider.value));
+      });
+      const swatch = document.createElement("span");
+      swatch.className = "swatch";
+      swatch.style.background = colour;
+      label.append(input, swatch, text);
+      place.append(label);
+    };
+    if (this.tracks.length > 1) {
+      const select = document.createElement("select");
+      for (const track of this.tracks) select.add(new Option(`device of ${track.label}`));
+      select.setAttribute("aria-label", "whose device");
+      select.addEventListener("change", () => {
+        this.track = this.tracks[select.selectedIndex];
+        this.begin_track();
+      });
+      place.append(select);
+    }
+    box("exact", "exact LMDs", EXACT_COLOUR);
+    const methods = [...new Set(this.tracks.flatMap((track) => Object.keys(track.forces)))];
+    const recorded = methods.filter((label) => this.tracks.some((track) => track.own[label]));
+    for (const label of recorded) box(`own ${label}`, `LMDs of ${label}`, this.colours[label]);
+    for (const label of methods) box(`force ${label}`, `force of ${label}`, this.colours[label]);
+    if (this.tracks.some((track) => track.polylines)) box("polylines", "intersection", CURVE_COLOUR);
+    if (!recorded.length) place.append("The run recorded no LMDs of its methods (--set /record/lmds=true).");
+  }
+
+  // Starts at the frame with most to see.
+  begin_track() {
+    const counts = this.track.frames.map((_, i) => this.track.exact.offset[i + 1] - this.track.exact.offset[i] +
+                                                   (this.track.polylines ? this.track.polylines[i].length : 0));
+    this.slider.max = String(counts.length - 1);
     this.slider.value = String(counts.indexOf(Math.max(...counts)));
     this.show(Number(this.slider.value));
-    this.look();
-    this.resize();
   }
 
   look() {
@@ -75,30 +146,75 @@ class View {
     this.controls.update();
   }
 
-  show(index) {
-    const frame = this.data.frames[index];
-    this.moving.position.fromArray(frame.position);
-    this.moving.quaternion.fromArray(frame.orientation);
+  // Arrows turn, plus and minus come nearer or go away, 0 looks at everything again.
+  key(event) {
+    const away = this.camera.position.clone().sub(this.controls.target);
+    const across = new THREE.Vector3().crossVectors(this.camera.up, away).normalize();
+    const turn = {ArrowLeft: [this.camera.up, -KEY_TURN], ArrowRight: [this.camera.up, KEY_TURN], ArrowUp: [across, -KEY_TURN],
+                  ArrowDown: [across, KEY_TURN]}[event.key];
+    const zoom = {"+": 0.9, "=": 0.9, "-": 1 / 0.9}[event.key];
+    if (turn) away.applyAxisAngle(turn[0], turn[1]);
+    else if (zoom) away.multiplyScalar(zoom);
+    else if (event.key === "0") return this.look();
+    else return;
+    event.preventDefault();
+    this.camera.position.copy(this.controls.target).add(away);
+    this.controls.update();
+  }
+
+  // Goes to the frame nearest to a time of the plots.
+  go_to(time) {
+    let nearest = 0;
+    this.track.time.forEach((t, i) => { if (Math.abs(t - time) < Math.abs(this.track.time[nearest] - time)) nearest = i; });
+    this.slider.value = String(nearest);
+    this.show(nearest, false);
+  }
+
+  show(index, tell_plots = true) {
+    const track = this.track;
+    this.moving.position.fromArray(track.position, 3 * index);
+    this.moving.quaternion.fromArray(track.orientation, 4 * index);
     this.moving.updateMatrixWorld(true);
-    while (this.marks.children.length) this.marks.remove(this.marks.children[0]);
-    for (const lmd of frame.lmds) this.add_lmd(lmd);
+    for (const mark of this.marks.children) mark.traverse((part) => { if (part.geometry) part.geometry.dispose(); });
+    this.marks.remove(...this.marks.children);
+    const exact = lmds_of(track.exact, index);
+    if (!this.hidden.has("exact")) for (const lmd of exact) this.add_lmd(lmd, EXACT_COLOUR, 0.016, 0.55);
+    const counts = [];
+    for (const [label, set] of Object.entries(track.own)) {
+      const own = lmds_of(set, index);
+      counts.push(`${label} ${own.length}`);
+      if (!this.hidden.has(`own ${label}`)) for (const lmd of own) this.add_lmd(lmd, this.colours[label], 0.009, 1);
+    }
+    if (track.polylines && !this.hidden.has("polylines")) for (const line of track.polylines[index]) this.add_curve(line);
     const origin = this.moving.geometry.boundingSphere.center.clone().applyMatrix4(this.moving.matrixWorld);
-    for (const [label, force] of Object.entries(frame.forces)) this.add_force(label, force, origin);
-    const nearest = frame.lmds.length ? `, nearest ${(Math.min(...frame.lmds.map((lmd) => lmd[6])) * 1e3).toPrecision(4)} mm` : "";
-    this.output.textContent = `frame ${frame.frame}, ${frame.time.toFixed(3)} s: ${frame.lmds.length} ${frame.lmds.length === 1 ? "LMD" : "LMDs"}${nearest}`;
+    for (const [label, force] of Object.entries(track.forces))
+      if (!this.hidden.has(`force ${label}`)) this.add_force(label, force.subarray(3 * index, 3 * index + 3), origin);
+    const nearest = exact.length ? `, nearest ${(Math.min(...exact.map((lmd) => lmd[2])) * 1e3).toPrecision(4)} mm` : "";
+    const own = counts.length ? `; ${counts.join(", ")}` : "";
+    this.output.textContent = `frame ${track.frames[index]}, ${track.time[index].toFixed(3)} s: ${exact.length} ` +
+                              `${exact.length === 1 ? "LMD" : "LMDs"}${nearest}${own}`;
+    if (tell_plots && page.plots) for (const plot of page.plots[this.number] || []) plot.setSelection(track.frames[index]);
     this.render();
   }
 
   // A pair closer than a pixel would be invisible: balls mark where it is.
-  add_lmd(lmd) {
-    const from = new THREE.Vector3(...lmd.slice(0, 3)), to = new THREE.Vector3(...lmd.slice(3, 6));
+  add_lmd([from, to], colour, radius, opacity) {
     const line = new THREE.BufferGeometry().setFromPoints([from, to]);
-    this.marks.add(new THREE.Line(line, new THREE.LineBasicMaterial({color: LMD_COLOUR, depthTest: false})));
-    const ball = new THREE.Mesh(new THREE.SphereBufferGeometry(this.size * 0.016, 12, 8),
-                                new THREE.MeshBasicMaterial({color: LMD_COLOUR, depthTest: false, transparent: true, opacity: 0.85}));
+    this.marks.add(new THREE.Line(line, new THREE.LineBasicMaterial({color: colour, depthTest: false})));
+    const ball = new THREE.Mesh(new THREE.SphereBufferGeometry(this.size * radius, 12, 8),
+                                new THREE.MeshBasicMaterial({color: colour, depthTest: false, transparent: true, opacity}));
     ball.position.copy(from).add(to).multiplyScalar(0.5);
     ball.renderOrder = 2;
     this.marks.add(ball);
+  }
+
+  add_curve([closed, packed]) {
+    const geometry = new THREE.BufferGeometry();
+    geometry.setAttribute("position", new THREE.BufferAttribute(floats(packed), 3));
+    const material = new THREE.LineBasicMaterial({color: CURVE_COLOUR, depthTest: false});
+    const curve = closed ? new THREE.LineLoop(geometry, material) : new THREE.Line(geometry, material);
+    curve.renderOrder = 1;
+    this.marks.add(curve);
   }
 
   add_force(label, force, origin) {
@@ -130,11 +246,12 @@ class View {
 
 page.views = [];
 for (const figure of document.querySelectorAll(".view")) {
-  const data = page.scenes[Number(figure.dataset.result)];
+  const number = Number(figure.dataset.result);
+  const data = page.scenes[number];
   let problem = data.problem;
   if (!problem) {
     try {
-      page.views.push(new View(figure, data, page.colours));
+      page.views[number] = new View(figure, number, data, page.colours[number]);
     } catch (error) {
       problem = "This browser shows no 3D graphics: " + error.message;
     }
@@ -142,6 +259,6 @@ for (const figure of document.querySelectorAll(".view")) {
   if (problem) {
     figure.querySelector(".canvas").outerHTML = "<p class=\"notes\"></p>";
     figure.querySelector("p").textContent = problem;
-    figure.querySelector("label").remove();
+    for (const part of figure.querySelectorAll(".step, .choices")) part.remove();
   }
 }

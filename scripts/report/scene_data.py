@@ -1,8 +1,9 @@
 # SPDX-FileCopyrightText: The lmdbench authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""The 3D view's data, from the folder that `lmdbench report` leaves for each result: the meshes as they stand in the
-scene (moving.off, fixed_0.off, ...) and lmds.jsonl, the exact LMD sets of some frames as `lmdbench query --json` prints
-them, each with its frame. Coordinates become 16-bit integers over the mesh's box: a thousandth of a pixel."""
+"""The 3D view's data: from the folder that `lmdbench report` leaves for each result the meshes as they stand in the scene
+(moving.off, fixed_0.off, ...) and lmds.jsonl, the exact LMD sets of some frames; from the result itself the methods' own sets
+where the run recorded them, forces and intersection polylines. Coordinates of meshes become 16-bit integers over the mesh's
+box, a thousandth of a pixel; everything else is single precision."""
 
 import base64
 import json
@@ -10,22 +11,12 @@ import os
 
 import numpy as np
 
+from mesh_drawing import read_off
+
 LEVELS = 65535
 
 
-def read_off(file):
-    """(vertices (n,3), triangles (m,3)) of an OFF file that the program wrote."""
-    with open(file, encoding="ascii") as stream:
-        words = stream.read().split()
-    vertex_count, triangle_count = int(words[1]), int(words[2])
-    start = 4
-    end = start + 3 * vertex_count
-    vertices = np.array(words[start:end], dtype=float).reshape(-1, 3)
-    faces = np.array(words[end:end + 4 * triangle_count], dtype=np.int64).reshape(-1, 4)
-    return vertices, faces[:, 1:]
-
-
-def packed(values, kind):
+def packed(values, kind="<f4"):
     return base64.b64encode(np.ascontiguousarray(values, dtype=kind).tobytes()).decode("ascii")
 
 
@@ -37,26 +28,45 @@ def mesh_json(vertices, triangles):
             "triangles": packed(triangles, "<u4" if len(vertices) > LEVELS else "<u2"), "wide": len(vertices) > LEVELS}
 
 
-def frame_json(line, result):
-    """One frame of the slider: pose, LMDs and each method's force at that frame."""
-    entry = json.loads(line)
-    frame = entry["frame"]
-    return {"frame": frame, "time": float(result.time[frame]),
-            "position": result.read("/path/position")[frame].tolist(),
-            "orientation": result.read("/path/orientation")[frame].tolist(),
-            "lmds": [[*lmd["point_moving"], *lmd["point_fixed"], lmd["distance"]] for lmd in entry["lmds"]],
-            "forces": {method.label: method.read("force")[frame].tolist() for method in result.methods.values()}}
+def sets_json(sets):
+    """A set a frame, each (n, 7): point on the moving mesh, point on the fixed mesh, distance."""
+    rows = [np.reshape(np.asarray(found, dtype=float), (-1, 7)) for found in sets]
+    return {"offset": np.concatenate([[0], np.cumsum([len(found) for found in rows])]).tolist(), "rows": packed(np.concatenate(rows))}
 
 
-def rounded(value):
-    """Six significant digits: a micrometre in a metre, and half the size of the page."""
-    if isinstance(value, float):
-        return float(f"{value:.6g}")
-    if isinstance(value, dict):
-        return {key: rounded(item) for key, item in value.items()}
-    if isinstance(value, list):
-        return [rounded(item) for item in value]
-    return value
+def recorded_sets(method, frames):
+    """The method's own LMDs at the frames, or None where the run did not record them."""
+    if not method.has("lmds/frame_offset"):
+        return None
+    offset = method.read("lmds/frame_offset").astype(int)
+    rows = np.column_stack([method.read("lmds/point_moving"), method.read("lmds/point_fixed"), method.read("lmds/distance")])
+    return sets_json([rows[offset[frame]:offset[frame + 1]] for frame in frames])
+
+
+def polylines_json(result, group, frames):
+    """Curves a frame: a list of (closed, points); None where the run did not record them."""
+    if not result.has(f"{group}/frame"):
+        return None
+    recorded = {int(frame): i for i, frame in enumerate(result.read(f"{group}/frame"))}
+    lines, ends = result.read(f"{group}/frame_offset").astype(int), result.read(f"{group}/point_offset").astype(int)
+    closed, points = result.read(f"{group}/closed"), result.read(f"{group}/point")
+    return [[[int(closed[line]), packed(points[ends[line]:ends[line + 1]])] for line in range(lines[recorded[frame]], lines[recorded[frame] + 1])]
+            if frame in recorded else [] for frame in frames]
+
+
+def track_json(result, label, entries):
+    """What one slider steps through: the shared path, or in a closed loop the poses of one method's device."""
+    frames = [entry["frame"] for entry in entries]
+    group = f"/methods/{label}" if label else ""
+    methods = [result.methods[label]] if label else list(result.methods.values())
+    # Several profiles on one path each keep the curves of the same poses.
+    curves = next((name for name in (f"{group}/polylines", *(f"/methods/{method.label}/polylines" for method in methods)) if result.has(name)), "/polylines")
+    own = {method.label: recorded_sets(method, frames) for method in methods}
+    return {"label": label, "frames": frames, "time": packed(result.time[frames]),
+            "position": packed(result.read(f"{group}/path/position")[frames]), "orientation": packed(result.read(f"{group}/path/orientation")[frames]),
+            "exact": sets_json([[[*lmd["point_moving"], *lmd["point_fixed"], lmd["distance"]] for lmd in entry["lmds"]] for entry in entries]),
+            "own": {name: sets for name, sets in own.items() if sets}, "polylines": polylines_json(result, curves, frames),
+            "forces": {method.label: packed(method.read("force")[frames]) for method in methods}}
 
 
 def scene(result, folder):
@@ -76,8 +86,9 @@ def scene(result, folder):
         if twin != role:
             meshes[-1]["triangles"] = None
             meshes[-1]["triangles_of"] = twin
+    tracks = {}
     with open(os.path.join(folder, "lmds.jsonl"), encoding="utf-8") as stream:
-        frames = [frame_json(line, result) for line in stream if line.strip()]
-    return rounded({"name": result.name, "meshes": meshes, "frames": frames,
-                    "cutoff": result.scene("cutoff_m"), "maximum_force": result.maximum_force(),
-                    "methods": list(result.methods)})
+        for entry in (json.loads(line) for line in stream if line.strip()):
+            tracks.setdefault(entry.get("track", ""), []).append(entry)
+    return {"name": result.name, "meshes": meshes, "tracks": [track_json(result, *track) for track in tracks.items()],
+            "maximum_force": max(method.constant("maximum_force_n") for method in result.methods.values())}

@@ -3,13 +3,17 @@
 """What the page says and holds, without a browser (tests/report opens it in one)."""
 
 import base64
+import io
 import json
 import os
+import re
 import sys
 import tempfile
 import unittest
 
+import h5py
 import numpy as np
+from PIL import Image
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 sys.path[:0] = [os.path.join(HERE, ".."), os.path.join(HERE, "..", "..", "figures"),
@@ -87,7 +91,84 @@ class Series(unittest.TestCase):
             self.assertEqual(lines["truth, exponential law"].size, 300)
 
 
+OCTAHEDRON = "OFF\n6 8 0\n1 0 0\n-1 0 0\n0 1 0\n0 -1 0\n0 0 1\n0 0 -1\n" + "".join(
+    f"3 {a} {b} {c}\n" for a, b, c in ((0, 2, 4), (2, 1, 4), (1, 3, 4), (3, 0, 4), (2, 0, 5), (1, 2, 5), (3, 1, 5), (0, 3, 5)))
+
+
+def write_scene(folder, tracks=("",), frames=(0, 100, 200)):
+    """What `lmdbench report` leaves of a result: two octahedra, an LMD of a millimetre in every frame but the first."""
+    os.makedirs(folder, exist_ok=True)
+    for role in ("moving", "fixed_0"):
+        with open(os.path.join(folder, f"{role}.off"), "w", encoding="utf-8") as stream:
+            stream.write(OCTAHEDRON)
+    with open(os.path.join(folder, "lmds.jsonl"), "w", encoding="utf-8") as stream:
+        for track in tracks:
+            for frame in frames:
+                lmds = [{"distance": 0.001, "point_moving": [1.0, 0.0, 0.0], "point_fixed": [1.001, 0.0, 0.0]}] if frame else []
+                stream.write(json.dumps({"frame": frame, "track": track, "time": frame / 1000, "lmds": lmds}) + "\n")
+
+
+def add_path(file):
+    with h5py.File(file, "a") as h5:
+        frames = h5["path/time"].shape[0]
+        h5["path/position"] = np.linspace(0, 1, 3 * frames).reshape(-1, 3)
+        h5["path/orientation"] = np.tile([0.0, 0.0, 0.0, 1.0], (frames, 1))
+
+
 class Scene(unittest.TestCase):
+    def made(self, change=lambda h5: None, **options):
+        with tempfile.TemporaryDirectory() as folder:
+            file = os.path.join(folder, "hard.h5")
+            write_result(file, frames=300)
+            add_path(file)
+            with h5py.File(file, "a") as h5:
+                change(h5)
+            write_scene(os.path.join(folder, "scene"), **options)
+            return scene_data.scene(Result(file), os.path.join(folder, "scene"))
+
+    def test_shows_exact_sets_poses_and_forces(self):
+        (track,) = self.made()["tracks"]
+        self.assertEqual(track["frames"], [0, 100, 200])
+        self.assertEqual(track["exact"]["offset"], [0, 0, 1, 2])
+        np.testing.assert_allclose(decoded(track["exact"]["rows"])[:7], [1, 0, 0, 1.001, 0, 0, 0.001], rtol=1e-6)
+        np.testing.assert_allclose(decoded(track["position"])[3:6], np.linspace(0, 1, 900)[300:303], rtol=1e-6)
+        self.assertEqual(list(track["forces"]), ["original", "improved"])
+        self.assertEqual(track["own"], {})
+        self.assertIsNone(track["polylines"])
+
+    def test_shows_the_methods_own_sets_where_they_were_recorded(self):
+        def record(h5):
+            lmds = h5["methods/improved"].create_group("lmds")
+            lmds["frame_offset"] = np.arange(301)  # one a frame: frame f has row f
+            lmds["point_moving"], lmds["point_fixed"] = np.full((300, 3), 2.0), np.full((300, 3), 3.0)
+            lmds["distance"] = np.arange(300.0)
+        (track,) = self.made(record)["tracks"]
+        self.assertEqual(list(track["own"]), ["improved"])
+        self.assertEqual(track["own"]["improved"]["offset"], [0, 1, 2, 3])
+        np.testing.assert_allclose(decoded(track["own"]["improved"]["rows"]).reshape(-1, 7)[:, 6], [0, 100, 200])
+
+    def test_shows_curves_at_their_frames(self):
+        def record(h5):
+            cut = h5.create_group("polylines")
+            cut["frame"], cut["frame_offset"] = [0, 200], [0, 1, 2]
+            cut["point_offset"], cut["closed"] = [0, 2, 5], np.array([0, 1], dtype="u1")
+            cut["point"] = np.arange(15.0).reshape(5, 3)
+        (track,) = self.made(record)["tracks"]
+        self.assertEqual([len(lines) for lines in track["polylines"]], [1, 0, 1])
+        closed, points = track["polylines"][2][0]
+        self.assertEqual(closed, 1)
+        np.testing.assert_array_equal(decoded(points), np.arange(6, 15))
+
+    def test_a_closed_loop_has_a_track_a_device(self):
+        def close(h5):
+            for number, label in enumerate(("original", "improved")):
+                h5[f"methods/{label}/path/position"] = np.full((300, 3), float(number))
+                h5[f"methods/{label}/path/orientation"] = np.tile([0.0, 0.0, 0.0, 1.0], (300, 1))
+        tracks = self.made(close, tracks=("original", "improved"))["tracks"]
+        self.assertEqual([track["label"] for track in tracks], ["original", "improved"])
+        self.assertEqual([list(track["forces"]) for track in tracks], [["original"], ["improved"]])
+        np.testing.assert_array_equal(decoded(tracks[1]["position"]), np.ones(9))
+
     def test_keeps_corners_within_half_a_step(self):
         vertices = np.array([[0.0, -1.0, 5.0], [1.0, 3.0, 5.0], [0.25, 1.0, 5.0]])
         mesh = scene_data.mesh_json(vertices, np.array([[0, 1, 2]]))
@@ -134,6 +215,55 @@ class Page(unittest.TestCase):
         self.assertIn("<td>1</td>", text)
         self.assertNotIn("elsewhere.png", text)
         self.assertEqual(text.count("</script>"), text.count("<script"))
+
+    def test_studies_carry_their_pictures_and_the_named_ones_come_first(self):
+        for name, text in (("a-table", "# A table\n\nwords\n"), ("scaling", "# Scaling\n\n![lines](lines.png)\n[other](other.md) [web](https://example.org)\n")):
+            with open(os.path.join(self.folder.name, f"{name}.md"), "w", encoding="utf-8") as stream:
+                stream.write(text)
+        Image.new("RGB", (3000, 30), "#336699").save(os.path.join(self.folder.name, "lines.png"))
+        text, _ = self.made("--study", *(os.path.join(self.folder.name, f"{name}.md") for name in ("a-table", "scaling")))
+        self.assertLess(text.index('id="study-scaling"'), text.index('id="more"'))
+        self.assertLess(text.index('id="more"'), text.index('id="study-a-table"'))
+        data = text.split('alt="lines" src="data:image/png;base64,', 1)[1].split('"', 1)[0]
+        with Image.open(io.BytesIO(base64.b64decode(data))) as picture:
+            self.assertEqual(picture.size, (1500, 15))
+            self.assertEqual(picture.convert("RGB").getpixel((700, 7)), (0x33, 0x66, 0x99))
+        self.assertNotIn('href="other.md"', text)
+        self.assertIn('href="https://example.org"', text)
+
+    def test_claims_link_to_sections_that_are_there(self):
+        text, _ = self.made()
+        claims = text.split('<section id="claims">', 1)[1].split("</section>", 1)[0]
+        self.assertIn('<th scope="row">K10</th>', claims)
+        links = re.findall(r'href="#([^"]+)"', claims)
+        self.assertIn("figure7", links)
+        self.assertNotIn("study-jumps", links)
+        for link in links:
+            self.assertIn(f'<section id="{link}"', text)
+        self.assertIn("hard alone", claims)
+
+    def test_own_scenes_get_what_they_have_and_are_told_what_they_lack(self):
+        """Labels of one's own, one method that searches in every frame, no truth probe, two profiles."""
+        def relabel(h5):
+            h5["methods"].move("original", "mine-hard")
+            h5["methods"].move("improved", "mine-soft")
+            for profile in ("hard", "soft"):
+                h5[f"methods/mine-{profile}"].attrs["profile"] = profile
+                h5[f"methods/mine-{profile}"].attrs["cutoff_m"] = 0.001 if profile == "hard" else 0.01
+        for name, methods, stride, change in (("certified", ("certified",), 50, lambda h5: None), ("bare", ("original", "certified"), 0, lambda h5: None),
+                                              ("profiles", ("original", "improved"), 50, relabel)):
+            self.file = os.path.join(self.folder.name, f"{name}.h5")
+            write_result(self.file, methods=methods, truth_stride=stride)
+            with h5py.File(self.file, "a") as h5:
+                change(h5)
+            text, out = self.made()
+            self.assertTrue(os.path.exists(os.path.join(out, "figure7.svg")))
+            self.assertEqual('<section id="work_precision">' in text, stride > 0)
+            claims = text.split('<section id="claims">', 1)[1].split("</section>", 1)[0]
+            self.assertIn("No claim can be judged", claims)
+            if not stride:
+                self.assertIn("No truth probe in this run", text)
+        self.assertIn("cutoff 1 and 10 mm", text)
 
     def test_data_is_json(self):
         text, _ = self.made()

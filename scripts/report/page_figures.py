@@ -1,0 +1,90 @@
+# SPDX-FileCopyrightText: The lmdbench authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""The page's figures, each also as SVG and PNG in the folder of the page, and the CSV files of their numbers."""
+
+import base64
+import csv
+import io
+import json
+
+import markdown
+
+import figure7
+import figure_style as style
+import sweep as sweep_figure
+import work_precision
+from lmdbench_results import truth_of
+
+
+def csv_text(headings, rows):
+    stream = io.StringIO()
+    writer = csv.writer(stream, lineterminator="\n")
+    writer.writerow(headings)
+    writer.writerows(rows)
+    return stream.getvalue()
+
+
+def work_precision_csv(results):
+    points = [work_precision.Point(result, method) for result in results for method in result.methods.values()]
+    return csv_text(["experiment", "method", "median [ms]", "99 % [ms]", "RMS force error / F_max [1]", "missed LMDs [1]",
+                     "missed, neighbouring features count [1]", "failure"],
+                    ([point.experiment, point.method.label, point.median_ms, point.p99_ms, point.force_error, point.missed,
+                      point.missed_adjacent, point.failure] for point in points))
+
+
+def sweep_csv(sweep):
+    """Every point with all its numbers."""
+    numbers = sorted(sweep.columns)
+    return csv_text(["scene", "series", "axes", "failure", *numbers],
+                    ([point.scene, point.series, json.dumps(point.axes), point.failure, *(point.number(name) for name in numbers)]
+                     for point in sweep.points))
+
+
+def entry(figure, folder, name, title, text, table=""):
+    svg = next(file for file in style.save(figure, folder, name) if file.endswith(".svg"))
+    with open(svg, "rb") as stream:
+        data = base64.b64encode(stream.read()).decode("ascii")
+    return {"id": name, "title": title, "text": text, "svg": data, "csv": table, "html": "", "csv_results": []}
+
+
+def sweep_entry(sweep, folder):
+    """Figure and answer of a sweep: which method at which budget, and where one gets cheaper than the other."""
+    tables = ["Least RMS force error [% of F_max of one LMD] within so much processor time of a second in contact, searches included:",
+              "", *sweep_figure.budget_table(sweep), ""]
+    crossing = sweep_figure.crossings(sweep)
+    if len(crossing) > 2:
+        tables += ["`improved` costs less than `certified`, with older sets, where it searches more rarely than every", "", *crossing, ""]
+    made = entry(
+        sweep_figure.draw(sweep), folder, f"sweep-{sweep.name}", "Error against run time" if sweep.name == "budget" else sweep.title,
+        f"{sweep.title}. A line a series, a point a setting, truth in every frame. Lower left is better; shaded lanes hold errors of exactly "
+        "zero and points that fail or find no true LMD.", sweep_csv(sweep))
+    return {**made, "html": markdown.markdown("\n".join(tables), extensions=["tables"])}
+
+
+def figure7_entry(results, folder):
+    """Hard beside soft where there are two results; as many columns as a page holds."""
+    columns, taken = 0, []
+    for number, result in enumerate(results):
+        wanted = len(figure7.columns_of([result]))
+        if wanted and columns + wanted <= figure7.MOST_COLUMNS:
+            columns += wanted
+            taken.append(number)
+    if not taken:
+        return None
+    names = ", ".join(column.title().split(":")[0] for column in figure7.columns_of([results[i] for i in taken]))
+    made = entry(figure7.draw(*(results[i] for i in taken)), folder, "figure7", "The paper's Figure 7",
+                 f"From left to right {names}: force, LMD counts, search and update times, and beyond the paper the true force and the share "
+                 "of true LMDs that each method knows. The same over all methods, to zoom: the next section.")
+    return {**made, "csv_results": [(i, results[i].name) for i in taken]}
+
+
+def figures(results, sweeps, folder):
+    entries = [sweep_entry(sweep, folder) for sweep in sweeps]
+    probed = [result for result in results if any(truth_of(method) for method in result.methods.values())]
+    if probed:
+        entries.append(entry(
+            work_precision.draw(probed), folder, "work_precision", "Error against run time of these runs" if sweeps else "Error against run time",
+            "A point a method and experiment: what error it leaves for what run time of a frame in contact. Lower left is better; "
+            "shaded lanes hold errors of exactly zero and methods that fail.", work_precision_csv(probed)))
+    paper = figure7_entry(results, folder)
+    return entries + ([paper] if paper else [])

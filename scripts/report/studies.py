@@ -1,0 +1,59 @@
+# SPDX-FileCopyrightText: The lmdbench authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Markdown tables of studies (results/reference/) as sections of the page, with the pictures that stand beside them."""
+
+import base64
+import html
+import io
+import os
+import re
+
+import markdown
+from PIL import Image
+
+# Those that a reader looks for come first and have their own place in the page's navigation.
+FIRST = ("extreme", "hard-soft", "stability", "scaling", "ledger")
+PICTURE_WIDTH = 1500  # pixels: sharp at the width of the page
+PICTURE_COLOURS = 64  # line drawings need no more
+
+
+def picture(file):
+    """A picture inside the page, at a size that a page can carry."""
+    with Image.open(file) as image:
+        image = image.convert("RGB")
+        if image.width > PICTURE_WIDTH:
+            image = image.resize((PICTURE_WIDTH, round(image.height * PICTURE_WIDTH / image.width)), Image.LANCZOS)
+        stream = io.BytesIO()
+        image.quantize(PICTURE_COLOURS, method=Image.MEDIANCUT, dither=Image.NONE).save(stream, format="PNG", optimize=True)
+    return "data:image/png;base64," + base64.b64encode(stream.getvalue()).decode("ascii")
+
+
+def pictures_inside(text, folder):
+    """Pictures become part of the page; one that is not there becomes its description, since asking for it would be a request."""
+    def inside(match):
+        words, file = match.group(1), os.path.join(folder, match.group(2))
+        if not match.group(2).endswith(".png") or not os.path.isfile(file):
+            return f"*{words}*"
+        return f'<img class="figure" alt="{html.escape(words)}" src="{picture(file)}">'
+    return re.sub(r"!\[([^\]]*)\]\(([^)]*)\)", inside, text)
+
+
+def study(file):
+    """A section: its first heading is its title."""
+    with open(file, encoding="utf-8") as stream:
+        text = stream.read()
+    title = re.search(r"(?m)^# (.+)$", text) or re.search(r"(?m)^##? (.+)$", text)
+    name = os.path.splitext(os.path.basename(file))[0]
+    body = re.sub(r"(?m)^# .+\n", "", text, count=1)
+    body = markdown.markdown(pictures_inside(body, os.path.dirname(file)), extensions=["tables", "fenced_code"])
+    # Links to files beside the study lead nowhere from the page.
+    body = re.sub(r'<a href="(?!https?:|#)[^"]*">(.*?)</a>', r"\1", body)
+    return {"id": "study-" + re.sub(r"[^a-z0-9]+", "-", name.lower()), "name": name, "title": title.group(1) if title else name, "html": body,
+            "open": False}
+
+
+def studies(files):
+    """All of them, those of FIRST in its order, the others by name."""
+    def place(entry):
+        return (FIRST.index(entry["name"]) if entry["name"] in FIRST else len(FIRST), entry["name"])
+    return sorted(map(study, files), key=place)
