@@ -25,5 +25,6 @@ void add_integrators(CLI::App& app, Run& chosen);
 void add_stability(CLI::App& app, Run& chosen);
 void add_passivity(CLI::App& app, Run& chosen);
 void add_leave_out(CLI::App& app, Run& chosen);
+void add_roles(CLI::App& app, Run& chosen);
 
 }  // namespace lmdbench::study

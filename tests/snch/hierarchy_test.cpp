@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/methods/exhaustive/exhaustive.h>
 #include <lmdbench/snch/hierarchy.h>
+#include <lmdbench/snch/leaf_cones.h>
 #include <lmdbench/snch/node_tests.h>
 
 #include <gtest/gtest.h>
@@ -10,6 +11,8 @@
 #include <algorithm>
 #include <functional>
 #include <map>
+#include <utility>
+#include <vector>
 
 namespace lmdbench {
 namespace {
@@ -177,6 +180,47 @@ TEST(NodeTests, AgreeWithTheAnglesOfThePaper) {
   EXPECT_GT(rejected_g3, 1000);
 }
 
+/// Decision E1: the more faces a leaf's cone covers, the wider it is, and only the widest keeps every LMD.
+TEST(LeafCones, TheNarrowerOnesLoseLmds) {
+  std::mt19937_64 random(3);
+  const Scene scene = make_scene(make_blob(0.04, 0.008, 3), make_torus(0.05, 0.02, 24, 12), 0.04);
+  const Surface& surface = scene.moving->surface();
+  std::vector<double> widths;
+  std::vector<std::int64_t> lost;
+  for (const LeafCones cones : {LeafCones::OWN, LeafCones::EDGE_NEIGHBOURS, LeafCones::ONE_RING}) {
+    const Hierarchy moving = hierarchy_with(surface, cones);
+    const Hierarchy fixed = hierarchy_with(scene.fixed[0]->surface(), cones);
+    EXPECT_EQ(prepared_hierarchy(*scene.moving, cones).nodes[0].cone_cosine, moving.nodes[0].cone_cosine);
+    const auto leaves_moving = chains_to_leaves(moving), leaves_fixed = chains_to_leaves(fixed);
+    double width = 0.0;
+    for (const auto& [triangle, chain] : leaves_moving) {
+      const HierarchyNode& leaf = *chain.back();
+      const Vec3& normal = surface.face_normals[static_cast<std::size_t>(triangle)];
+      EXPECT_GE(leaf.cone_axis.dot(normal), leaf.cone_cosine - 1e-12);
+      width += std::acos(leaf.cone_cosine);
+    }
+    widths.push_back(width);
+    Exhaustive exhaustive(scene);
+    std::mt19937_64 same = random;
+    lost.push_back(0);
+    for (int sample = 0; sample < 10; ++sample) {
+      const Pose pose = grazing_pose(scene, 0.02, same);
+      LmdSet lmds;
+      WorkCounters counters;
+      exhaustive.search(pose, lmds, counters);
+      for (const Lmd& lmd : lmds) {
+        const WorldNode a(*leaves_moving.at(lmd.triangle_moving).back(), RigidTransform(pose));
+        const HierarchyNode& b = *leaves_fixed.at(lmd.triangle_fixed).back();
+        lost.back() += rejected_by_collinearity(a, b) || rejected_by_direction(a, b, NodePair(a, b)) ? 1 : 0;
+      }
+    }
+  }
+  EXPECT_LT(widths[0], 0.5 * widths[1]);
+  EXPECT_LT(widths[1], 0.95 * widths[2]);
+  EXPECT_GT(lost[0], lost[1]);
+  EXPECT_EQ(lost[2], 0);
+}
+
 /// Decision E3: sigma is undefined where the spheres overlap.
 TEST(NodeTests, OverlappingSpheresPassG3) {
   WorldNode a;
@@ -189,8 +233,17 @@ TEST(NodeTests, OverlappingSpheresPassG3) {
   a.cone_cosine = b.cone_cosine = std::cos(0.1);
   a.cone_sine = b.cone_sine = std::sin(0.1);
   EXPECT_FALSE(rejected_by_direction(a, b, NodePair(a, b)));
+  EXPECT_TRUE(rejected_by_clamped_direction(a, b, NodePair(a, b))) << "the ablation takes 90 degrees for it";
+  b.cone_axis = -Vec3::UnitX();
+  EXPECT_TRUE(rejected_by_clamped_direction(a, b, NodePair(a, b))) << "the moving one alone faces away";
+  a.cone_axis = b.cone_axis = Vec3::UnitX();
+  EXPECT_TRUE(rejected_by_clamped_direction(a, b, NodePair(a, b))) << "the fixed one alone does";
+  b.cone_axis = -Vec3::UnitX();
+  EXPECT_FALSE(rejected_by_clamped_direction(a, b, NodePair(a, b)));
+  std::swap(a.cone_axis, b.cone_axis);
   a.radius = b.radius = 0.2;
   EXPECT_TRUE(rejected_by_direction(a, b, NodePair(a, b)));
+  EXPECT_TRUE(rejected_by_clamped_direction(a, b, NodePair(a, b)));
 }
 
 }  // namespace

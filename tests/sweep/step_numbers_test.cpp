@@ -112,6 +112,8 @@ TEST(StepNumbers, AFrameWithoutItsPairIsTwoFalseJumpsADeathAndABirth) {
   EXPECT_EQ(numbers.deaths, 1.0);
   EXPECT_EQ(numbers.true_births + numbers.true_deaths, 0.0);
   EXPECT_EQ(numbers.frames_empty, 1.0);
+  EXPECT_NEAR(numbers.lmd_count_mean, 4.0 / 5.0, 1e-12);
+  EXPECT_NEAR(numbers.true_lmd_count_mean, 1.0, 1e-12);
   const double lost = 2.0 * (1.0 - 0.011 / CUTOFF);
   EXPECT_NEAR(numbers.force_magnitude_error_rms_n, std::sqrt(lost * lost / 5.0), 1e-6);
 }

@@ -3,6 +3,7 @@
 #include <lmdbench/geometry/cone.h>
 #include <lmdbench/geometry/sphere.h>
 #include <lmdbench/snch/hierarchy.h>
+#include <lmdbench/snch/leaf_cones.h>
 
 #include <Eigen/Geometry>
 
@@ -16,22 +17,36 @@ namespace lmdbench {
 
 namespace {
 
-/// Cone of a leaf. Decision E1, ours: it covers the normals of all faces round the triangle's three corners,
+/// Triangles whose normals the cone of a leaf covers, repeated where they are found twice.
+template <class Visitor>
+void visit_covered(const Surface& surface, std::int32_t triangle, LeafCones leaf_cones, Visitor&& visit) {
+  const auto t = static_cast<std::size_t>(triangle);
+  if (leaf_cones != LeafCones::ONE_RING) visit(triangle);
+  if (leaf_cones == LeafCones::EDGE_NEIGHBOURS)
+    for (const std::int32_t edge : surface.adjacency.triangle_edges[t])
+      for (const std::int32_t neighbour : surface.adjacency.edge_triangles[edge]) visit(neighbour);
+  if (leaf_cones == LeafCones::ONE_RING)
+    for (const std::int32_t corner : surface.mesh.triangles[t])
+      for (const std::int32_t neighbour : surface.adjacency.vertex_triangles[corner]) visit(neighbour);
+}
+
+/// Cone of a leaf. Decision E1, ours: by default it covers the normals of all faces round the triangle's three corners,
 /// because the outward direction of an LMD on an edge or at a vertex lies between the normals of the faces
 /// that meet there. That hull holds the polar cone of every feature of a closed surface; on a boundary, at
 /// non-manifold edges and next to triangles without area it does not, and the cone is all directions.
-Cone leaf_cone(const Surface& surface, std::int32_t triangle, std::vector<Vec3>& normals) {
-  normals.clear();
+Cone leaf_cone(const Surface& surface, std::int32_t triangle, LeafCones leaf_cones,
+               std::vector<Vec3>& normals) {
   for (const std::int32_t corner : surface.mesh.triangles[static_cast<std::size_t>(triangle)]) {
     if (surface.vertex_is_boundary[static_cast<std::size_t>(corner)]) return {};
     if (surface.vertex_has_non_manifold_edge[static_cast<std::size_t>(corner)]) return {};
-    for (const std::int32_t neighbour : surface.adjacency.vertex_triangles[corner]) {
-      const Vec3& normal = surface.face_normals[static_cast<std::size_t>(neighbour)];
-      if (normal.isZero(0.0)) return {};
-      normals.push_back(normal);
-    }
   }
-  return convex_cone_of_directions(normals);
+  normals.clear();
+  bool degenerate = false;
+  visit_covered(surface, triangle, leaf_cones, [&](std::int32_t covered) {
+    normals.push_back(surface.face_normals[static_cast<std::size_t>(covered)]);
+    degenerate = degenerate || normals.back().isZero(0.0);
+  });
+  return degenerate ? Cone{} : convex_cone_of_directions(normals);
 }
 
 /// Cone of an inner node: the axis is the average of the leaf axes below it (paper, section 3.1), or the axis
@@ -62,14 +77,14 @@ Cone node_cone(const Cone& merged_children, std::span<const std::int32_t> triang
 
 class Builder {
  public:
-  explicit Builder(const Surface& surface)
+  Builder(const Surface& surface, LeafCones leaf_cones)
       : surface_(surface), order_(surface.mesh.triangles.size()), centroids_(surface.mesh.triangles.size()) {
     std::iota(order_.begin(), order_.end(), 0);
     std::vector<Vec3> normals;
     for (std::size_t t = 0; t < order_.size(); ++t) {
       const Triangle corners = surface.mesh.triangle(static_cast<std::int32_t>(t));
       centroids_[t] = (corners[0] + corners[1] + corners[2]) / 3.0;
-      leaf_cones_.push_back(leaf_cone(surface, static_cast<std::int32_t>(t), normals));
+      leaf_cones_.push_back(leaf_cone(surface, static_cast<std::int32_t>(t), leaf_cones, normals));
       leaf_half_angles_.push_back(leaf_cones_.back().half_angle());
     }
   }
@@ -141,7 +156,11 @@ class Builder {
 }  // namespace
 
 Hierarchy Hierarchy::of(const Surface& surface) {
-  return Builder(surface).build();
+  return hierarchy_with(surface, LeafCones::ONE_RING);
+}
+
+Hierarchy hierarchy_with(const Surface& surface, LeafCones leaf_cones) {
+  return Builder(surface, leaf_cones).build();
 }
 
 }  // namespace lmdbench

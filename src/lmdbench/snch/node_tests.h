@@ -104,14 +104,24 @@ inline bool rejected_by_literal_direction(const WorldNode& a, const HierarchyNod
                                 b.cone_sine);
 }
 
+/// Ablation of decision E3: where the spheres overlap, the arcsin of more than 1 is taken for the right angle that it
+/// reaches at touch. Lines between overlapping spheres have every direction, so LMDs are lost.
+inline bool rejected_by_clamped_direction(const WorldNode& a, const HierarchyNode& b, const NodePair& pair) {
+  if (pair.squared_distance > pair.radii * pair.radii) return rejected_by_direction(a, b, pair);
+  const double distance = std::sqrt(pair.squared_distance);
+  return direction_cone_misses(pair.centres.dot(a.cone_axis), 0.0, distance, a.cone_cosine, a.cone_sine) ||
+         direction_cone_misses(-pair.centres.dot(b.cone_axis), 0.0, distance, b.cone_cosine, b.cone_sine);
+}
+
 /// How G3 reads a normal cone against the spheres.
-enum class DirectionTest { RAY, LINE, LITERAL };
+enum class DirectionTest { RAY, LINE, LITERAL, CLAMPED };
 
 template <DirectionTest TEST>
 inline bool rejected_by_g3(const WorldNode& a, const HierarchyNode& b, const NodePair& pair) {
   if constexpr (TEST == DirectionTest::RAY) return rejected_by_direction(a, b, pair);
   if constexpr (TEST == DirectionTest::LINE) return rejected_by_solution_line(a, b, pair);
   if constexpr (TEST == DirectionTest::LITERAL) return rejected_by_literal_direction(a, b, pair);
+  if constexpr (TEST == DirectionTest::CLAMPED) return rejected_by_clamped_direction(a, b, pair);
 }
 
 }  // namespace lmdbench

@@ -27,6 +27,8 @@ constexpr std::array STEP_NUMBERS = {
     StepNumber{"deaths", "1", "LMDs without a neighbouring one in the frame after", &S::deaths},
     StepNumber{"true_births", "1", "births of the true set", &S::true_births},
     StepNumber{"true_deaths", "1", "deaths of the true set", &S::true_deaths},
+    StepNumber{"lmd_count_mean", "1", "LMDs within the cutoff, mean", &S::lmd_count_mean},
+    StepNumber{"true_lmd_count_mean", "1", "LMDs of the true set, mean", &S::true_lmd_count_mean},
     StepNumber{"force_mean_n", "N", "length of the force, mean", &S::force_mean_n},
     StepNumber{"true_force_mean_n", "N", "length of the true force under the same law, mean",
                &S::true_force_mean_n},
@@ -94,7 +96,7 @@ StepNumbers count_steps(const MethodRecord& record, ForceLaw law, const std::vec
   ForceProfile profile = truth_run.profiles.front().force;
   profile.law = law;
   RootMeanSquare magnitude, torque;
-  std::vector<double> angle, distance, force, true_force;
+  std::vector<double> angle, distance, force, true_force, count, true_count;
   for (std::size_t i = 0; i < truth.size(); ++i) {
     const TruthFrame& here = truth[i];
     const auto frame = static_cast<std::size_t>(here.frame);
@@ -103,6 +105,8 @@ StepNumbers count_steps(const MethodRecord& record, ForceLaw law, const std::vec
     const double true_length = here.force[index].norm();
     force.push_back(now.force.norm());
     true_force.push_back(true_length);
+    count.push_back(static_cast<double>(now.lmd_count));
+    true_count.push_back(static_cast<double>(here.lmds.size()));
     numbers.frames_clipped += now.force_clipped ? 1.0 : 0.0;
     numbers.frames_empty += now.lmd_count == 0 ? 1.0 : 0.0;
     distance.push_back(std::abs(rows[i].minimum_distance_error));
@@ -133,6 +137,8 @@ StepNumbers count_steps(const MethodRecord& record, ForceLaw law, const std::vec
     numbers.kept += static_cast<double>(search.kept_after_reduction);
   }
   numbers.seconds_in_contact = static_cast<double>(force.size()) / run.input.frame_rate_hz;
+  numbers.lmd_count_mean = mean(count);
+  numbers.true_lmd_count_mean = mean(true_count);
   numbers.force_mean_n = mean(force);
   numbers.true_force_mean_n = mean(true_force);
   numbers.force_magnitude_error_rms_n = magnitude.value();

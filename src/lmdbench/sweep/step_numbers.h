@@ -33,6 +33,8 @@ struct StepNumbers {
   double deaths = UNSET;  ///< LMDs without a neighbour in the frame after.
   double true_births = UNSET;
   double true_deaths = UNSET;
+  double lmd_count_mean = UNSET;  ///< LMDs within the cutoff.
+  double true_lmd_count_mean = UNSET;
   double force_mean_n = UNSET;       ///< Length of the rendered force.
   double true_force_mean_n = UNSET;  ///< The true one's under the same law.
   double force_magnitude_error_rms_n = UNSET;

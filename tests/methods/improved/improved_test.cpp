@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/lmd/method_description.h>
 #include <lmdbench/methods/exhaustive/exhaustive.h>
 #include <lmdbench/methods/improved/improved.h>
 
@@ -200,6 +201,50 @@ TEST_F(ImprovedTest, TheCacheSavesDistancesOfNeighbours) {
     improved.track(pose, lmds, work);
     EXPECT_GT(work[Improved::Counter::CACHE_HITS], work[Improved::Counter::TRIANGLE_DISTANCES]);
   });
+}
+
+TEST_F(ImprovedTest, APlainCacheGivesTheSameSetsForTheSameWork) {
+  on_poses(4, [&](const Scene& scene, const Pose& pose, const LmdSet&) {
+    ImprovedOptions options = with(Visibility::VERTEX_NORMAL, Reduction::PUBLISHED);
+    Improved usual(scene, options);
+    options.plain_cache = true;
+    Improved plain(scene, options);
+    LmdSet first, second;
+    usual.search(pose, first, counters_);
+    second = first;
+    for (int update = 0; update < 2; ++update) {  // what the first one left must be forgotten
+      WorkCounters one, other;
+      usual.track(pose, first, one);
+      plain.track(pose, second, other);
+      EXPECT_EQ(one, other);
+      ASSERT_EQ(first.size(), second.size());
+      for (std::size_t i = 0; i < first.size(); ++i) EXPECT_TRUE(same_feature_pair(first[i], second[i]));
+    }
+  });
+}
+
+/// Decision E3: where meshes overlap, what faces away behind a triangle is rejected by the ablation alone.
+TEST_F(ImprovedTest, AClampedSigmaRejectsAmongOverlappingSpheres) {
+  const Scene scene = make_scene(make_sphere(0.05, 2), make_sphere(0.05, 2), 0.01);
+  Pose pose;
+  pose.translation = {0.09, 0.001, 0.002};
+  ImprovedOptions options = with(Visibility::OFF, Reduction::PUBLISHED);
+  LmdSet lmds;
+  WorkCounters usual, clamped;
+  Improved(scene, options).search(pose, lmds, usual);
+  options.clamped_sigma = true;
+  Improved(scene, options).search(pose, lmds, clamped);
+  EXPECT_GT(clamped[Improved::Counter::REJECTED_G3], usual[Improved::Counter::REJECTED_G3]);
+}
+
+/// Decision E11.
+TEST_F(ImprovedTest, SaysHowOftenItsSetIsTrackedInTheGlobalThread) {
+  const Scene scene = make_scene(make_sphere(0.05, 1), make_sphere(0.05, 1), 0.01);
+  ImprovedOptions options;
+  EXPECT_EQ(Improved(scene, options).description().trackings_after_search, 2);
+  options.second_tracking = false;
+  EXPECT_EQ(Improved(scene, options).description().trackings_after_search, 1);
+  EXPECT_EQ(Improved(scene, options).description().name, "improved");
 }
 
 /// Decision E2: the printed inequality of G3 keeps the wrong pairs. It shows where

@@ -9,6 +9,9 @@
 #include <gtest/gtest.h>
 #include <support/scenes.h>
 
+#include <algorithm>
+#include <array>
+
 namespace lmdbench {
 namespace {
 
@@ -29,7 +32,7 @@ double covering_radius(const Triangle& t) {
     for (int j = 0; i + j <= 40; ++j) {
       const Vec3 point = t[0] + (i / 40.0) * (t[1] - t[0]) + (j / 40.0) * (t[2] - t[0]);
       double nearest = std::numeric_limits<double>::infinity();
-      for (const Vec3& feature : feature_points(t)) nearest = std::min(nearest, (feature - point).norm());
+      for (const Vec3& feature : feature_points<7>(t)) nearest = std::min(nearest, (feature - point).norm());
       radius = std::max(radius, nearest);
     }
   }
@@ -42,10 +45,60 @@ TEST(FeaturePoints, OverestimateTheDistanceByNoMoreThanTheCoveringRadii) {
     const Triangle a = triangle_of_size(random, 0.4), b = triangle_of_size(random, 0.4);
     const double exact = std::sqrt(triangle_distance(a, b).squared_distance);
     const double seven =
-        std::sqrt(nearest_feature_points(feature_points(a), feature_points(b)).squared_distance);
+        std::sqrt(nearest_feature_points<7>(feature_points<7>(a), feature_points<7>(b)).squared_distance);
     EXPECT_GE(seven, exact - 1e-12);
     EXPECT_LE(seven, exact + covering_radius(a) + covering_radius(b));
   }
+}
+
+/// Each point lies on the part that it stands for, and more points overestimate less.
+template <std::size_t N>
+double checked_overestimate(const Triangle& a, const Triangle& b) {
+  const FeaturePoints<N> points = feature_points<N>(a);
+  for (std::size_t i = 0; i < N; ++i) {
+    const TriangleFeature part = part_of_feature_point<N>(i);
+    const Vec3 normal = (a[1] - a[0]).cross(a[2] - a[0]);
+    std::array<double, 3> shares{};
+    for (std::size_t corner = 0; corner < 3; ++corner)
+      shares[corner] = (a[(corner + 1) % 3] - points[i]).cross(a[(corner + 2) % 3] - points[i]).dot(normal) /
+                       normal.squaredNorm();
+    const auto positive = std::count_if(shares.begin(), shares.end(), [](double s) { return s > 0.05; });
+    EXPECT_EQ(positive, is_vertex(part) ? 1 : is_edge(part) ? 2 : 3) << N << " points, number " << i;
+    if (is_edge(part)) {
+      EXPECT_NEAR(shares[static_cast<std::size_t>(local_index(part) + 2) % 3], 0.0, 1e-9);
+    }
+    for (std::size_t j = 0; j < i; ++j) EXPECT_GT((points[i] - points[j]).norm(), 0.0);
+  }
+  return std::sqrt(nearest_feature_points<N>(points, feature_points<N>(b)).squared_distance) -
+         std::sqrt(triangle_distance(a, b).squared_distance);
+}
+
+TEST(FeaturePoints, MoreOfThemOverestimateLess) {
+  std::mt19937_64 random(4);
+  std::array<double, 4> sums{};
+  for (int i = 0; i < 200; ++i) {
+    const Triangle a = triangle_of_size(random, 0.4), b = triangle_of_size(random, 0.4);
+    const std::array over{checked_overestimate<3>(a, b), checked_overestimate<7>(a, b),
+                          checked_overestimate<13>(a, b), checked_overestimate<25>(a, b)};
+    for (std::size_t k = 0; k < over.size(); ++k) {
+      EXPECT_GE(over[k], -1e-12);
+      sums[k] += over[k];
+    }
+  }
+  EXPECT_GT(sums[0], 1.2 * sums[1]);
+  EXPECT_GT(sums[1], 1.2 * sums[2]);
+  EXPECT_GT(sums[2], 1.2 * sums[3]);
+}
+
+/// Both triangles of an edge must have the same bits there, or an LMD would flicker between them.
+TEST(FeaturePoints, OfAnEdgeAreTheSameFromBothSides) {
+  std::mt19937_64 random(5);
+  const Triangle a = triangle_of_size(random, 0.4);
+  const Triangle b{a[1], a[0], a[2] + Vec3(0.3, 0.2, 0.1)};
+  const FeaturePoints<25> of_a = feature_points<25>(a), of_b = feature_points<25>(b);
+  int shared = 0;
+  for (const Vec3& p : of_a) shared += static_cast<int>(std::count(of_b.begin(), of_b.end(), p));
+  EXPECT_EQ(shared, 2 + 5);
 }
 
 TEST(DirectionVerification, AcceptsTheNormalSetAndItsTolerance) {

@@ -3,6 +3,7 @@
 #include <lmdbench/lmd/method_description.h>
 #include <lmdbench/lmd/search_counters.h>
 #include <lmdbench/methods/improved/improved.h>
+#include <lmdbench/methods/leaf_cones_option.h>
 
 namespace lmdbench {
 
@@ -13,7 +14,8 @@ NLOHMANN_JSON_SERIALIZE_ENUM(Reduction,
                              {{Reduction::PUBLISHED, "published"}, {Reduction::LOSS_FREE, "loss-free"}})
 NLOHMANN_JSON_SERIALIZE_ENUM(TrackingOrder, {{TrackingOrder::NEAREST_FIRST, "nearest-first"},
                                              {TrackingOrder::TRIANGLE_INDEX, "triangle-index"}})
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(ImprovedOptions, visibility, reduction, tracking_order, literal_g3)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(ImprovedOptions, visibility, reduction, tracking_order, leaf_cones,
+                                   second_tracking, plain_cache, literal_g3, clamped_sigma)
 
 const MethodDescription& improved_method() {
   using Counter = Improved::Counter;
@@ -37,8 +39,20 @@ const MethodDescription& improved_method() {
              {"description",
               "in which order tracking takes the LMDs of a set; what the published reduction drops depends "
               "on it"}}},
+           {"leaf_cones", leaf_cones_schema()},
+           {"second_tracking",
+            {{"type", "boolean"},
+             {"description",
+              "whether a search's set is tracked again when it is handed over (section 4.3)"}}},
+           {"plain_cache",
+            {{"type", "boolean"},
+             {"description", "ablation: the result cache is a std::unordered_map; the same answers"}}},
            {"literal_g3",
-            {{"type", "boolean"}, {"description", "ablation: read the inequality of G3 as printed"}}}},
+            {{"type", "boolean"}, {"description", "ablation: read the inequality of G3 as printed"}}},
+           {"clamped_sigma",
+            {{"type", "boolean"},
+             {"description",
+              "ablation: G3 with a sigma of a right angle where spheres overlap (decision E3)"}}}},
           ImprovedOptions{}),
       .counters = traversal_counters_and<Counter>(
           {{Counter::LEAF_PAIRS, "leaf_pairs", "triangle pairs that reached the leaf tests",
@@ -55,6 +69,15 @@ const MethodDescription& improved_method() {
       .make = [](const Scene& scene, const nlohmann::json& options) -> std::unique_ptr<Method> {
         return std::make_unique<Improved>(scene, options.get<ImprovedOptions>());
       }};
+  return description;
+}
+
+const MethodDescription& improved_method_tracking_once() {
+  static const MethodDescription description = [] {
+    MethodDescription once = improved_method();
+    once.trackings_after_search = 1;
+    return once;
+  }();
   return description;
 }
 

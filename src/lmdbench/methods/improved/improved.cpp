@@ -48,8 +48,11 @@ bool triangles_less(const Lmd& a, const Lmd& b) {
 }  // namespace
 
 Improved::Improved(Scene scene, const ImprovedOptions& options)
-    : scene_(std::move(scene)), options_(options), hierarchy_moving_(scene_.moving->prepared<Hierarchy>()) {
-  for (const auto& body : scene_.fixed) hierarchies_fixed_.push_back(&body->prepared<Hierarchy>());
+    : scene_(std::move(scene)),
+      options_(options),
+      hierarchy_moving_(prepared_hierarchy(*scene_.moving, options.leaf_cones)) {
+  for (const auto& body : scene_.fixed)
+    hierarchies_fixed_.push_back(&prepared_hierarchy(*body, options.leaf_cones));
 }
 
 void Improved::search(const Pose& X_WM, LmdSet& lmds, WorkCounters& counters) {
@@ -81,26 +84,38 @@ void Improved::search_body(const RigidTransform& X_WM, std::int32_t fixed_body, 
     lmds.push_back(lmd);
   };
   const Hierarchy& hierarchy_fixed = *hierarchies_fixed_[static_cast<std::size_t>(fixed_body)];
-  add_traversal<Counter>(
-      counters, options_.literal_g3
-                    ? traversal_.run<DirectionTest::LITERAL>(hierarchy_moving_, hierarchy_fixed, X_WM,
-                                                             scene_.cutoff, visit_leaves)
-                    : traversal_.run<DirectionTest::RAY>(hierarchy_moving_, hierarchy_fixed, X_WM,
-                                                         scene_.cutoff, visit_leaves));
+  const auto run = [&]<DirectionTest TEST>() {
+    return traversal_.run<TEST>(hierarchy_moving_, hierarchy_fixed, X_WM, scene_.cutoff, visit_leaves);
+  };
+  if (options_.literal_g3) {
+    add_traversal<Counter>(counters, run.operator()<DirectionTest::LITERAL>());
+  } else if (options_.clamped_sigma) {
+    add_traversal<Counter>(counters, run.operator()<DirectionTest::CLAMPED>());
+  } else {
+    add_traversal<Counter>(counters, run.operator()<DirectionTest::RAY>());
+  }
 }
 
 void Improved::track(const Pose& X_WM, LmdSet& lmds, WorkCounters& counters) {
+  if (options_.plain_cache)
+    track_with(plain_cache_, X_WM, lmds, counters);
+  else
+    track_with(cache_, X_WM, lmds, counters);
+}
+
+template <class Cache>
+void Improved::track_with(Cache& cache, const Pose& X_WM, LmdSet& lmds, WorkCounters& counters) {
   const RigidTransform transform(X_WM);
   const Surface& moving = scene_.moving->surface();
   std::sort(lmds.begin(), lmds.end(),
             options_.tracking_order == TrackingOrder::NEAREST_FIRST ? lmd_less : triangles_less);
-  cache_.erase();
+  cache.erase();
   kept_.clear();
   std::int32_t number = 0;
   for (const Lmd& lmd : lmds) {
     const Surface& fixed = scene_.fixed[static_cast<std::size_t>(lmd.fixed_body)]->surface();
     const auto evaluate = [&](std::int32_t t_moving, std::int32_t t_fixed) {
-      const auto [entry, known] = cache_.find_or_insert(lmd.fixed_body, t_moving, t_fixed);
+      const auto [entry, known] = cache.find_or_insert(lmd.fixed_body, t_moving, t_fixed);
       if (known) {
         ++counters[Counter::CACHE_HITS];
       } else {

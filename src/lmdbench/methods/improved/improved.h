@@ -5,6 +5,7 @@
 #include <lmdbench/lmd/method.h>
 #include <lmdbench/lmd/scene.h>
 #include <lmdbench/methods/improved/options.h>
+#include <lmdbench/methods/improved/plain_cache.h>
 #include <lmdbench/methods/improved/result_cache.h>
 #include <lmdbench/snch/traversal.h>
 
@@ -14,6 +15,8 @@
 namespace lmdbench {
 
 const MethodDescription& improved_method();
+/// Of instances without `second_tracking`.
+const MethodDescription& improved_method_tracking_once();
 
 /// The improved algorithm (paper, section 4).
 ///   Global search: G1, G2, G3.a/b on the nodes; at the leaves the visibility pre-test, then the exact
@@ -45,12 +48,17 @@ class Improved : public Method {
 
   explicit Improved(Scene scene, const ImprovedOptions& options = {});
 
-  const MethodDescription& description() const override { return improved_method(); }
+  const MethodDescription& description() const override {
+    return options_.second_tracking ? improved_method() : improved_method_tracking_once();
+  }
   void search(const Pose& X_WM, LmdSet& lmds, WorkCounters& counters) override;
   void track(const Pose& X_WM, LmdSet& lmds, WorkCounters& counters) override;
 
  private:
   void search_body(const RigidTransform& X_WM, std::int32_t fixed_body, LmdSet& lmds, WorkCounters& counters);
+
+  template <class Cache>
+  void track_with(Cache& cache, const Pose& X_WM, LmdSet& lmds, WorkCounters& counters);
 
   Scene scene_;
   ImprovedOptions options_;
@@ -58,6 +66,7 @@ class Improved : public Method {
   std::vector<const Hierarchy*> hierarchies_fixed_;  ///< One a fixed body.
   DualTraversal traversal_;
   ResultCache cache_;
+  PlainCache plain_cache_;  ///< In use instead where the option says so.
   LmdSet kept_;
 };
 

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <lmdbench/snch/leaf_cones.h>
+
 #include <cstdint>
 
 namespace lmdbench {
@@ -32,7 +34,11 @@ struct ImprovedOptions {
   Visibility visibility = Visibility::VERTEX_NORMAL;
   Reduction reduction = Reduction::PUBLISHED;
   TrackingOrder tracking_order = TrackingOrder::NEAREST_FIRST;
-  bool literal_g3 = false;  ///< Ablation of decision E2: keep what the printed inequality keeps.
+  LeafCones leaf_cones = LeafCones::ONE_RING;  ///< Decision E1.
+  bool second_tracking = true;  ///< Decision E11; false: a search's set is tracked once before it is used.
+  bool plain_cache = false;     ///< Ablation: the result cache is a std::unordered_map; same answers.
+  bool literal_g3 = false;      ///< Ablation of decision E2: keep what the printed inequality keeps.
+  bool clamped_sigma = false;   ///< Ablation of decision E3: a right angle where spheres overlap.
 };
 
 }  // namespace lmdbench

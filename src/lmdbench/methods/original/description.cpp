@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/lmd/method_description.h>
 #include <lmdbench/lmd/search_counters.h>
+#include <lmdbench/methods/leaf_cones_option.h>
 #include <lmdbench/methods/original/original.h>
 
 namespace lmdbench {
@@ -11,7 +12,7 @@ NLOHMANN_JSON_SERIALIZE_ENUM(LineCone,
 NLOHMANN_JSON_SERIALIZE_ENUM(FaceNeighbourhood, {{FaceNeighbourhood::OWN, "own"},
                                                  {FaceNeighbourhood::EDGE_NEIGHBOURS, "edge-neighbours"}})
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(OriginalOptions, g5_tolerance_deg, line_cone, face_neighbourhood,
-                                   literal_g3)
+                                   feature_points, leaf_cones, merge_duplicates, literal_g3)
 
 const MethodDescription& original_method() {
   using Counter = Original::Counter;
@@ -41,6 +42,16 @@ const MethodDescription& original_method() {
               "where tracking looks from a point inside a triangle (Fig. 5 (a)): the triangle alone, or the "
               "three "
               "across its edges as well"}}},
+           {"feature_points",
+            {{"enum", {3, 7, 13, 25}},
+             {"description",
+              "points that stand for a triangle: its corners; also edge midpoints and centre (the paper's); "
+              "three "
+              "points an edge; five and a smaller triangle inside"}}},
+           {"leaf_cones", leaf_cones_schema()},
+           {"merge_duplicates",
+            {{"type", "boolean"},
+             {"description", "whether LMDs with the same pair of feature points are one (decision E13)"}}},
            {"literal_g3",
             {{"type", "boolean"}, {"description", "ablation: read the inequality of G3 as printed"}}}},
           OriginalOptions{}),

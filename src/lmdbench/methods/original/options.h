@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <lmdbench/snch/leaf_cones.h>
+
 #include <cstdint>
 #include <numbers>
 
@@ -30,7 +32,11 @@ struct OriginalOptions {
   double g5_tolerance_deg = 0.3 * 180.0 / std::numbers::pi;
   LineCone line_cone = LineCone::ONE_SIDED;
   FaceNeighbourhood face_neighbourhood = FaceNeighbourhood::OWN;
-  bool literal_g3 = false;  ///< Ablation of decision E2: keep what the printed inequality keeps.
+  /// Of the points that stand for a triangle: 3, 7 (the paper's), 13 or 25; see `feature_points.h`.
+  int feature_points = 7;
+  LeafCones leaf_cones = LeafCones::ONE_RING;  ///< Decision E1.
+  bool merge_duplicates = true;  ///< Decision E13; false: as many LMDs as triangle pairs lead to them.
+  bool literal_g3 = false;       ///< Ablation of decision E2: keep what the printed inequality keeps.
 };
 
 }  // namespace lmdbench

@@ -14,9 +14,10 @@ namespace lmdbench {
 
 namespace {
 
-/// Decision E13: one LMD a pair of feature points. Leaves the set sorted by `lmd_less`.
-void drop_duplicates(LmdSet& lmds, WorkCounters& counters) {
+/// Decision E13: one LMD a pair of features. Leaves the set sorted by `lmd_less`.
+void drop_duplicates(LmdSet& lmds, bool merge, WorkCounters& counters) {
   std::sort(lmds.begin(), lmds.end(), lmd_less);
+  if (!merge) return;
   const auto end = std::unique(lmds.begin(), lmds.end(), same_feature_pair);
   counters[Original::Counter::DROPPED_DUPLICATES] += static_cast<std::uint64_t>(lmds.end() - end);
   lmds.erase(end, lmds.end());
@@ -31,10 +32,10 @@ double radians(double degrees) {
 Original::Original(Scene scene, const OriginalOptions& options)
     : scene_(std::move(scene)),
       options_(options),
-      hierarchy_moving_(scene_.moving->prepared<Hierarchy>()),
+      hierarchy_moving_(prepared_hierarchy(*scene_.moving, options.leaf_cones)),
       verify_moving_(scene_.moving->surface(), radians(options.g5_tolerance_deg)) {
   for (const auto& body : scene_.fixed) {
-    hierarchies_fixed_.push_back(&body->prepared<Hierarchy>());
+    hierarchies_fixed_.push_back(&prepared_hierarchy(*body, options.leaf_cones));
     verify_fixed_.emplace_back(body->surface(), radians(options.g5_tolerance_deg));
   }
   if (options.face_neighbourhood == FaceNeighbourhood::OWN) return;
@@ -44,18 +45,33 @@ Original::Original(Scene scene, const OriginalOptions& options)
 
 Lmd Original::feature_point_pair(const RigidTransform& X_WM, std::int32_t fixed_body, std::int32_t t_moving,
                                  std::int32_t t_fixed, WorkCounters& counters) const {
+  switch (options_.feature_points) {
+    case 3:
+      return nearest_of<3>(X_WM, fixed_body, t_moving, t_fixed, counters);
+    case 13:
+      return nearest_of<13>(X_WM, fixed_body, t_moving, t_fixed, counters);
+    case 25:
+      return nearest_of<25>(X_WM, fixed_body, t_moving, t_fixed, counters);
+    default:
+      return nearest_of<7>(X_WM, fixed_body, t_moving, t_fixed, counters);
+  }
+}
+
+template <std::size_t N>
+Lmd Original::nearest_of(const RigidTransform& X_WM, std::int32_t fixed_body, std::int32_t t_moving,
+                         std::int32_t t_fixed, WorkCounters& counters) const {
   const Surface& moving = scene_.moving->surface();
   const Surface& fixed = scene_.fixed[static_cast<std::size_t>(fixed_body)]->surface();
-  const FeaturePoints a = feature_points(X_WM.triangle(moving.mesh.triangle(t_moving)));
-  const FeaturePoints b = feature_points(fixed.mesh.triangle(t_fixed));
-  const FeaturePointPair nearest = nearest_feature_points(a, b);
-  counters[Counter::FEATURE_POINT_DISTANCES] += a.size() * b.size();
+  const FeaturePoints<N> a = feature_points<N>(X_WM.triangle(moving.mesh.triangle(t_moving)));
+  const FeaturePoints<N> b = feature_points<N>(fixed.mesh.triangle(t_fixed));
+  const FeaturePointPair nearest = nearest_feature_points<N>(a, b);
+  counters[Counter::FEATURE_POINT_DISTANCES] += N * N;
   Lmd lmd;
   lmd.distance = std::sqrt(nearest.squared_distance);
   lmd.point_moving = a[nearest.index_a];
   lmd.point_fixed = b[nearest.index_b];
-  lmd.feature_moving = moving.feature_of(t_moving, part_of_feature_point(nearest.index_a));
-  lmd.feature_fixed = fixed.feature_of(t_fixed, part_of_feature_point(nearest.index_b));
+  lmd.feature_moving = moving.feature_of(t_moving, part_of_feature_point<N>(nearest.index_a));
+  lmd.feature_fixed = fixed.feature_of(t_fixed, part_of_feature_point<N>(nearest.index_b));
   lmd.triangle_moving = t_moving;
   lmd.triangle_fixed = t_fixed;
   lmd.fixed_body = fixed_body;
@@ -67,7 +83,7 @@ void Original::search(const Pose& X_WM, LmdSet& lmds, WorkCounters& counters) {
   const RigidTransform transform(X_WM);
   for (std::size_t body = 0; body < scene_.fixed.size(); ++body)
     search_body(transform, static_cast<std::int32_t>(body), lmds, counters);
-  drop_duplicates(lmds, counters);
+  drop_duplicates(lmds, options_.merge_duplicates, counters);
 }
 
 void Original::search_body(const RigidTransform& X_WM, std::int32_t fixed_body, LmdSet& lmds,
@@ -118,7 +134,7 @@ void Original::track(const Pose& X_WM, LmdSet& lmds, WorkCounters& counters) {
                           neighbours)
               .lmd;
   }
-  drop_duplicates(lmds, counters);
+  drop_duplicates(lmds, options_.merge_duplicates, counters);
 }
 
 }  // namespace lmdbench

@@ -9,6 +9,7 @@
 #include <lmdbench/methods/original/options.h>
 #include <lmdbench/snch/traversal.h>
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -50,6 +51,9 @@ class Original : public Method {
 
  private:
   void search_body(const RigidTransform& X_WM, std::int32_t fixed_body, LmdSet& lmds, WorkCounters& counters);
+  template <std::size_t N>
+  Lmd nearest_of(const RigidTransform& X_WM, std::int32_t fixed_body, std::int32_t t_moving,
+                 std::int32_t t_fixed, WorkCounters& counters) const;
   Lmd feature_point_pair(const RigidTransform& X_WM, std::int32_t fixed_body, std::int32_t t_moving,
                          std::int32_t t_fixed, WorkCounters& counters) const;
 
