@@ -1,35 +1,71 @@
 #!/usr/bin/env bash
 # SPDX-FileCopyrightText: The lmdbench authors
 # SPDX-License-Identifier: BSD-3-Clause
-# The region of our free choices in which each claim of the paper holds: makes paths of other seeds, runs the sweeps
-# experiments/sweeps/claim-*.json and judges. Stopped and started again it goes on where it was. Leaves results/claims/.
-#   scripts/claims.sh [SWEEP...]   only these, such as claim-k3
+# The region of our free choices in which each claim of the paper holds, and what the other readings of decisions E1 to E13
+# change: makes paths of other seeds, runs the sweeps experiments/sweeps/claim-*.json and readings.json, the roles of a closed
+# loop and the runs with polylines and contacts, and judges. Stopped and started again it goes on where it was. Leaves
+# results/claims/claim-regions.md. All of it takes about a quarter of an hour of processor time.
+#   scripts/claims.sh [PART...]   only these, such as claim-k3, roles or verdicts
+#   LMDBENCH_BUILD=DIR            where the programs are (build/release)
 set -euo pipefail
 # shellcheck source=scripts/lib.sh
 source "$(dirname "${BASH_SOURCE[0]}")/lib.sh"
 cd "$ROOT"
-LMDBENCH=build/release/lmdbench
+BUILD="${LMDBENCH_BUILD:-build/release}"
 OUT=results/claims
-PATHS=3
+PATHS=20
+APPROACHES=1 # of 6 s each
 PYTHON="$(find_python h5py numpy)"
 mkdir -p "$OUT"
 
-# The hard contact's specification from another seed.
-make_path() {
-  local spec="$OUT/hard-$1.json" file="$OUT/hard-$1.tum"
-  [[ -s $file ]] && return 0
-  sed "s/\"seed\": 1,/\"seed\": $((100 + 10#$1)),/" paths/bunny-hard.json >"$spec"
-  "$LMDBENCH" path generate "$spec" --out "$file" >/dev/null
+# The hard contact's specification from other seeds, its approaches one after another.
+make_paths() {
+  "$PYTHON" - "$OUT" "$PATHS" "$APPROACHES" <<'PYTHON_END'
+import json
+import sys
+
+out, paths, approaches = sys.argv[1], int(sys.argv[2]), int(sys.argv[3])
+with open("paths/bunny-hard.json", encoding="utf-8") as file:
+    specification = json.load(file)
+gaps = specification["gaps"]
+end = gaps[-1]["time_s"]
+specification["gaps"] = gaps + [{**gap, "time_s": round(gap["time_s"] + k * end, 3)} for k in range(1, approaches) for gap in gaps[1:]]
+for number in range(1, paths + 1):
+    with open(f"{out}/hard-{number:02d}.json", "w", encoding="utf-8") as file:
+        json.dump({**specification, "seed": 100 + number}, file)
+PYTHON_END
+  local spec file
+  for spec in "$OUT"/hard-[0-9][0-9].json; do
+    file="${spec%.json}.tum"
+    [[ -s $file ]] || "$BUILD/lmdbench" path generate "$spec" --out "$file" >/dev/null
+  done
 }
 
-sweeps=("$@")
-if ((${#sweeps[@]} == 0)); then
-  for file in experiments/sweeps/claim-*.json; do sweeps+=("$(basename "$file" .json)"); done
+sweep() { "$BUILD/lmdbench" work-precision "experiments/sweeps/$1.json" --out "$OUT/$1.h5" >"$OUT/$1.txt"; }
+run() { "$BUILD/lmdbench" run "experiments/$1.json" --out "$OUT/$2.h5" "${@:3}" </dev/null >&2; }
+
+part() {
+  case "$1" in
+    claim-k1) step "Paths" make_paths && step "$1" sweep "$1" ;;
+    roles) step "$1" "$BUILD/lmdbench-study" roles --json "$OUT/roles.json" >"$OUT/roles.txt" ;;
+    bunny-cut) step "$1" run bunny-cut bunny-cut ;;
+    direction-memory)
+      step "$1" run recorded-hard direction-memory --set '/name="direction-memory"' --set /record/lmds=true --set /driver/repetitions=2 \
+        --set /probes/truth/stride_frames=0 --set /probes/fcl/stride_frames=0
+      ;;
+    verdicts)
+      local evidence=("$OUT"/claim-*.h5) file
+      for file in "$OUT"/{readings,bunny-cut,direction-memory}.h5 "$OUT/roles.json"; do
+        if [[ -e $file ]]; then evidence+=("$file"); fi
+      done
+      step "Verdicts" "$PYTHON" scripts/figures/claim_regions.py "${evidence[@]}" --out "$OUT" >&2
+      ;;
+    *) step "$1" sweep "$1" ;;
+  esac
+}
+
+parts=("$@")
+if ((${#parts[@]} == 0)); then
+  parts=(claim-k1 claim-k3 claim-k5 claim-k7 claim-k10 claim-k10-unequal readings roles bunny-cut direction-memory verdicts)
 fi
-for sweep in "${sweeps[@]}"; do
-  if [[ $sweep == claim-k1 ]]; then
-    for ((i = 1; i <= PATHS; i++)); do make_path "$(printf '%02d' "$i")"; done
-  fi
-  step "$sweep" "$LMDBENCH" work-precision "experiments/sweeps/$sweep.json" --out "$OUT/$sweep.h5" >"$OUT/$sweep.txt"
-done
-step "Verdicts" "$PYTHON" scripts/figures/claim_regions.py "$OUT"/claim-*.h5 --out "$OUT" >&2
+for name in "${parts[@]}"; do part "$name"; done

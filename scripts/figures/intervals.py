@@ -4,6 +4,7 @@
 or over blocks of frames. Seeded, so that the same data give the same interval."""
 
 import math
+from statistics import NormalDist
 
 import numpy as np
 
@@ -29,9 +30,17 @@ def bisect(function, low, high, wanted):
     return 0.5 * (low + high)
 
 
+MANY = 1000  # counts above it: the exact limits cost a sum of as many terms, and the approximation is right to 1e-6
+
+
 def poisson_interval(count, level=LEVEL):
-    """(low, high) of the mean behind a count (Garwood 1936)."""
+    """(low, high) of the mean behind a count (Garwood 1936; Wilson and Hilferty's approximation for many)."""
+    if not math.isfinite(count):
+        return math.nan, math.nan
     tail = 0.5 * (1.0 - level)
+    if count > MANY:
+        z = NormalDist().inv_cdf(1.0 - tail)
+        return tuple(n * (1.0 - 1.0 / (9.0 * n) + sign * z / (3.0 * math.sqrt(n))) ** 3 for n, sign in ((count, -1.0), (count + 1.0, 1.0)))
     highest = count + 10.0 * math.sqrt(count + 1.0) + 20.0
     low = 0.0 if count <= 0 else bisect(lambda mean: poisson_tail(count, mean), 0.0, highest, tail)
     high = bisect(lambda mean: poisson_tail(count + 1, mean), 0.0, highest, 1.0 - tail)

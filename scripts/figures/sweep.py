@@ -21,6 +21,7 @@ from matplotlib.ticker import FixedLocator, FuncFormatter, NullFormatter
 
 MARKERS = ("o", "s", "D", "^", "v", "P", "X", "<")
 BUDGETS_MS = (3.0, 5.0, 10.0, 20.0, 50.0, 100.0, 200.0, 500.0)  # processor time of a second of haptics
+MOST_COLUMNS = 3  # scenes beside each other; more stand below
 LANE = 0.35  # height of the lanes for errors of 0 and for failures, in decades
 
 
@@ -32,8 +33,15 @@ def error(point):
     return 100.0 * point.force_error
 
 
+ROUNDING = 1e-6  # errors below it [%] are rounding, and drawn as 0
+
+
+def drawn_error(point):
+    return error(point) if not error(point) < ROUNDING else 0.0
+
+
 QUANTITIES = (
-    ("force", "RMS force error [% of $F_{max}$]", error),
+    ("force", "RMS force error [% of $F_{max}$]", drawn_error),
     ("missed", "missed share of true LMDs [%]", lambda point: 100.0 * (1.0 - point.number("recall"))),
 )
 
@@ -98,10 +106,11 @@ def draw_panel(axes, points, value, colours, markers):
         for point in drawn:
             if point.trouble:
                 axes.plot(cost(point), failed, marker="x", color=colours[series], ms=5, zorder=4)
-        periods = [point for point in drawn if point.axis("search_every_frames") is not None]
-        for point in (periods[0], periods[-1]) if len(periods) > 1 else ():
-            axes.annotate(f"{point.axis('search_every_frames')}", (cost(point), place(point)), xytext=(3, 3),
-                          textcoords="offset points", fontsize=5.5, color=colours[series], zorder=5)
+        for name in ("search_every_frames", "feature_points"):
+            named = [point for point in drawn if point.axis(name) is not None]
+            for point in (named[0], named[-1]) if len(named) > 1 else ():
+                axes.annotate(f"{point.axis(name)}", (cost(point), place(point)), xytext=(3, 3), textcoords="offset points",
+                              fontsize=5.5, color=colours[series], zorder=5)
 
 
 def draw(sweep):
@@ -109,27 +118,35 @@ def draw(sweep):
     colours = colours_of(sweep)
     markers = dict(zip(sweep.series, MARKERS * 4))
     scenes = sweep.scenes
-    figure, grid = plt.subplots(len(QUANTITIES), len(scenes), squeeze=False, sharex="col",
-                                figsize=(style.TWO_COLUMNS_IN, 0.9 + 2.1 * len(QUANTITIES)),
-                                gridspec_kw={"left": 0.085, "right": 0.99, "bottom": 0.085, "top": 0.84, "wspace": 0.2,
-                                             "hspace": 0.08})
-    for column, scene in enumerate(scenes):
-        points = sweep.of(scene=scene)
-        costs = [cost(point) for point in points if np.isfinite(cost(point))]
-        for row, (_, label, value) in enumerate(QUANTITIES):
-            axes = grid[row][column]
-            if costs:
-                axes.set_xlim(min(costs) / 1.5, max(costs) * 1.5)
-            draw_panel(axes, points, value, colours, markers)
-            if column == 0:
-                axes.set_ylabel(label)
-        grid[0][column].set_title(scene, loc="left", fontsize=8)
-        grid[-1][column].set_xlabel("processor time [ms/s]")
+    columns = min(len(scenes), MOST_COLUMNS)
+    bands = -(-len(scenes) // columns)  # rows of scenes, each with all quantities
+    height = 0.9 + 2.1 * len(QUANTITIES) * bands + 0.35 * (bands - 1)
+    figure = plt.figure(figsize=(style.TWO_COLUMNS_IN, height))
+    outer = figure.add_gridspec(bands, 1, left=0.085, right=0.99, bottom=0.43 / height, top=1 - 0.82 / height, hspace=0.2)
+    for band in range(bands):
+        grid = outer[band].subgridspec(len(QUANTITIES), columns, wspace=0.2, hspace=0.08).subplots(squeeze=False, sharex="col")
+        for column in range(columns):
+            scene = scenes[band * columns + column] if band * columns + column < len(scenes) else None
+            for row, (_, label, value) in enumerate(QUANTITIES):
+                axes = grid[row][column]
+                if scene is None:
+                    axes.set_axis_off()
+                    continue
+                points = sweep.of(scene=scene)
+                costs = [cost(point) for point in points if np.isfinite(cost(point))]
+                if costs:
+                    axes.set_xlim(min(costs) / 1.5, max(costs) * 1.5)
+                draw_panel(axes, points, value, colours, markers)
+                if column == 0:
+                    axes.set_ylabel(label)
+            if scene is not None:
+                grid[0][column].set_title(scene, loc="left", fontsize=8)
+                grid[-1][column].set_xlabel("processor time [ms/s]")
     keys = [Line2D([], [], color=colours[series], marker=markers[series], ms=4.2, mec="white", mew=0.4, lw=0.8, label=series)
             for series in sweep.series]
     keys.append(Line2D([], [], color=style.PALE_GREY, lw=3, label="Pareto front"))
-    figure.text(0.085, 0.965, "Error against processor time of a second in contact; numbers: frames from a search to the next", fontsize=7.5, fontweight="bold")
-    figure.legend(handles=keys, loc="upper left", bbox_to_anchor=(0.075, 0.955), ncol=7, handlelength=1.8, columnspacing=1.4,
+    figure.text(0.085, 1 - 0.18 / height, "Error against processor time of a second in contact; numbers: frames between searches, feature points", fontsize=7.5, fontweight="bold")
+    figure.legend(handles=keys, loc="upper left", bbox_to_anchor=(0.075, 1 - 0.23 / height), ncol=6, handlelength=1.8, columnspacing=1.4,
                   borderpad=0.1)
     return figure
 
@@ -172,6 +189,12 @@ def crossings(sweep, cheaper="improved", reference="certified"):
     return lines
 
 
+def a_second(point, *names):
+    """Events a second in contact; NaN for a point without contact."""
+    seconds = point.number("seconds_in_contact")
+    return sum(point.number(name) for name in names) / seconds if seconds > 0 else math.nan
+
+
 COLUMNS = (
     ("processor time [ms/s]", cost),
     ("frame, median [us]", lambda p: 1e6 * p.number("frame_time_median_s")),
@@ -181,17 +204,19 @@ COLUMNS = (
     ("force error, RMS [% of F_max]", error),
     ("99 %", lambda p: 100 * p.number("force_error_p99_n") / p.number("maximum_force_n")),
     ("largest", lambda p: 100 * p.number("force_error_maximum_n") / p.number("maximum_force_n")),
+    ("of its length, RMS", lambda p: 100 * p.number("force_magnitude_error_rms_n") / p.number("maximum_force_n")),
     ("angle, median [deg]", lambda p: math.degrees(p.number("force_angle_error_median_rad"))),
+    ("99 % [deg]", lambda p: math.degrees(p.number("force_angle_error_p99_rad"))),
     ("torque, RMS [mN m]", lambda p: 1e3 * p.number("torque_error_rms_n_m")),
     ("recall [%]", lambda p: 100 * p.number("recall")),
     ("with neighbours [%]", lambda p: 100 * p.number("recall_adjacent")),
     ("precision [%]", lambda p: 100 * p.number("precision")),
     ("nearest distance, largest error [um]", lambda p: 1e6 * p.number("minimum_distance_error_maximum_m")),
-    ("false jumps [1/s]", lambda p: p.number("false_jumps") / p.number("seconds_in_contact")),
-    ("missed jumps [1/s]", lambda p: p.number("missed_jumps") / p.number("seconds_in_contact")),
-    ("true jumps [1/s]", lambda p: p.number("true_jumps") / p.number("seconds_in_contact")),
-    ("births + deaths [1/s]", lambda p: (p.number("births") + p.number("deaths")) / p.number("seconds_in_contact")),
-    ("true ones [1/s]", lambda p: (p.number("true_births") + p.number("true_deaths")) / p.number("seconds_in_contact")),
+    ("false jumps [1/s]", lambda p: a_second(p, "false_jumps")),
+    ("missed jumps [1/s]", lambda p: a_second(p, "missed_jumps")),
+    ("true jumps [1/s]", lambda p: a_second(p, "true_jumps")),
+    ("births + deaths [1/s]", lambda p: a_second(p, "births", "deaths")),
+    ("true ones [1/s]", lambda p: a_second(p, "true_births", "true_deaths")),
 )
 
 
@@ -215,6 +240,18 @@ def load(sweep):
         return ""
     return (f" The machine was under load (average {average:.1f} on {processors:g} processors): errors and counts do not "
             "depend on it, medians little; processor times, 99th percentiles and largest times hold some of it.")
+
+
+MEAN_EDGES = {"bunny-16k": 0.0128, "armadillo": 0.0068}  # of the diagonal: `lmdbench mesh info`
+
+
+def cutoff_text(point):
+    force, moving = point.experiment["force"], point.experiment["moving"]["mesh"]
+    share = force.get("cutoff_diagonal")
+    if share is None:
+        return f"Cutoff {1e3 * force['cutoff_m']:g} mm."
+    edges = f", {shown(share / MEAN_EDGES[moving], 2)} mean edges of `{moving}`" if moving in MEAN_EDGES else ""
+    return f"Cutoff {100 * share:g} % of the diagonal{edges}."
 
 
 def markdown(sweep, picture):
@@ -241,7 +278,7 @@ def markdown(sweep, picture):
                   "The rarer its searches, the cheaper `improved` is and the older its sets. It costs less than `certified` where it "
                   "searches more rarely than every", "", *table, ""]
     for scene in sweep.scenes:
-        lines += [f"## {scene}", "", "Bold: on the Pareto front of force error and processor time.", "", *point_table(sweep, scene), ""]
+        lines += [f"## {scene}", "", f"{cutoff_text(sweep.of(scene=scene)[0])} Bold: on the Pareto front of force error and processor time.", "", *point_table(sweep, scene), ""]
     return "\n".join(lines)
 
 

@@ -290,11 +290,12 @@ class ClaimsTest(ScriptsTest):
     def test_what_the_synthetic_run_shows(self):
         rows = self.verdicts(self.hard, self.soft)
         self.assertEqual(list(rows), [f"K{i}" for i in range(1, 11)])
-        expected = {"K1": "reproduced", "K2": "reproduced", "K3": "differs because", "K4": "reproduced",
-                    "K5": "reproduced", "K6": "reproduced", "K7": "differs because", "K8": "not measured here",
-                    "K9": "reproduced", "K10": "differs because"}
+        expected = {"K1": "holds where", "K2": "reproduced", "K3": "holds where", "K4": "reproduced",
+                    "K5": "reproduced", "K6": "reproduced", "K7": "holds where", "K8": "not measured here",
+                    "K9": "reproduced", "K10": "not reproduced"}
         self.assertEqual({name: claim.verdict for name, claim in rows.items()}, expected)
         self.assertIn("less so when soft", rows["K7"].because)
+        self.assertIn("undecided: the improved force switches", rows["K1"].because)  # a second is too short to tell
 
     def test_k1_turns_when_the_improved_method_jumps(self):
         def jump(h5):
@@ -302,7 +303,7 @@ class ClaimsTest(ScriptsTest):
             h5["/methods/improved/summary/jumps_per_second"][...] = 20.0
 
         claim = self.verdicts(self.edited("jumping.h5", jump), self.soft)["K1"]
-        self.assertEqual(claim.verdict, "differs because")
+        self.assertEqual(claim.verdict, "holds where")
         self.assertIn("improved force is stable", claim.because)
 
     def test_k1_turns_when_nobody_jumps(self):
@@ -331,9 +332,20 @@ class ClaimsTest(ScriptsTest):
         claim = self.verdicts(self.hard, self.soft, others=[less])["K5"]
         self.assertIn("larger for denser meshes", claim.because)
 
+    def test_a_verdict_on_times_alone_is_undecided_where_repetitions_disagree(self):
+        def torn(h5):
+            h5["/methods/improved/local_update_time"][1] += 1e-3
+
+        claim = self.verdicts(self.edited("torn.h5", torn), self.soft)["K9"]
+        self.assertEqual(claim.verdict, "holds where")
+        self.assertIn("undecided: ", claim.because)
+        self.assertIs(claim_rules.inside([1.0, 3.0], 2.0), None)
+        self.assertIs(claim_rules.inside([2.5, 3.0], 2.0), True)
+        self.assertIs(claim_rules.inside([1.0, 1.5], 2.0), False)
+
     def test_k9_needs_large_meshes_and_short_updates(self):
         def slow(h5):
-            h5["/methods/improved/summary/local_update_p99_s"][...] += 1e-3
+            h5["/methods/improved/local_update_time"][...] += 1e-3
 
         self.assertIn("above 1 kHz", self.verdicts(self.edited("slow.h5", slow), self.soft)["K9"].because)
         small = write_result(self.path("small.h5"), triangles=500)
@@ -342,7 +354,7 @@ class ClaimsTest(ScriptsTest):
     def test_ledger_is_written_as_text_and_data(self):
         out = self.path("ledger")
         text = self.printed(claims.main, self.hard, self.soft, "--out", out)
-        self.assertIn("K1: reproduced", text)
+        self.assertIn("K2: reproduced", text)
         with open(os.path.join(out, "claims.json"), encoding="utf-8") as stream:
             rows = json.load(stream)
         self.assertEqual([row["id"] for row in rows], [f"K{i}" for i in range(1, 11)])

@@ -18,6 +18,8 @@ import numpy as np  # noqa: E402
 
 import claim_regions  # noqa: E402
 import intervals  # noqa: E402
+import region_cost  # noqa: E402
+import region_sets  # noqa: E402
 import sweep  # noqa: E402
 import sweep_results  # noqa: E402
 from lmdbench_results import ResultError  # noqa: E402
@@ -25,7 +27,7 @@ from lmdbench_results import ResultError  # noqa: E402
 NUMBERS = ("recall", "recall_adjacent", "precision", "force_error_rms_n", "force_error_p99_n", "force_error_maximum_n",
            "force_angle_error_median_rad", "torque_error_rms_n_m", "minimum_distance_error_maximum_m", "false_jumps", "missed_jumps",
            "true_jumps", "jumps", "switches", "true_switches", "births", "deaths", "true_births", "true_deaths", "seconds_in_contact",
-           "processor_share", "frame_time_median_s", "frame_time_p99_s", "frame_time_maximum_s", "frames_late", "candidates", "kept",
+           "processor_share", "frame_time_median_s", "frame_time_p99_s", "force_magnitude_error_rms_n", "force_angle_error_p99_rad", "frame_time_maximum_s", "frames_late", "candidates", "kept",
            "maximum_force_n", "method_order", "truth_checked_frames", "truth_wrong_frames", "reduction_ratio_maximum")
 
 
@@ -121,7 +123,8 @@ class SweepFile(unittest.TestCase):
 
 class Intervals(unittest.TestCase):
     def test_poisson_limits_are_garwoods(self):
-        for count, low, high in ((0, 0.0, 3.6889), (1, 0.0253, 5.5716), (10, 4.7954, 18.3904), (100, 81.364, 121.627)):
+        for count, low, high in ((0, 0.0, 3.6889), (1, 0.0253, 5.5716), (10, 4.7954, 18.3904), (100, 81.364, 121.627),
+                                 (2000, 1913.2987, 2089.6174)):
             found = intervals.poisson_interval(count)
             self.assertAlmostEqual(found[0], low, places=2)
             self.assertAlmostEqual(found[1], high, places=2)
@@ -181,7 +184,7 @@ class Verdicts(unittest.TestCase):
             text, cells = claim_regions.k1(budget.restricted("bunny-hard"))
             self.assertEqual(list(cells.values()), [claim_regions.HOLDS])
             with unittest.mock.patch.object(claim_regions, "CLAIMS", [claim for claim in claim_regions.CLAIMS if claim[0] in ("K1", "K5")]):
-                page = claim_regions.markdown([budget])
+                page = claim_regions.markdown({"budget": budget})
         self.assertIn("| K5 | The reduction drops up to twenty times, more on denser meshes | not measured", page)
         self.assertIn("**reproduced** | 1 / 0 / 0 |", page)
 
@@ -193,6 +196,50 @@ class Verdicts(unittest.TestCase):
             self.assertEqual(len(cells), 1, "two points of one setting")
             write_sweep(file, [row("improved", reduction_ratio_maximum=20.0)], "claim-k5")
             self.assertEqual(list(claim_regions.k5(sweep_results.Sweep(file))[1].values()), [claim_regions.HOLDS])
+
+    def test_k2_and_k4_judge_means_over_paths(self):
+        def path(series, number, **numbers):
+            entry = row(series, 20, **numbers)
+            entry["axes"] = json.dumps({"/path/file": f"{number}.tum", "/driver/search_every_frames": 20})
+            return entry
+
+        def numbers(count, changes, p99):
+            return {"lmd_count_mean": count, "true_lmd_count_mean": 3.0, "births": changes, "deaths": changes, "lmd_count_p99": p99,
+                    "lmd_count_median": count, "lmd_count_maximum": 2 * p99}
+        with tempfile.TemporaryDirectory() as folder:
+            file = os.path.join(folder, "k1.h5")
+            rows = [path("original", n, **numbers(4.0 + 0.1 * n, 50.0 + n, 12.0 + n)) for n in range(6)]
+            rows += [path("improved", n, **numbers(3.5, 5.0, 7.0 + 0.1 * n)) for n in range(6)]
+            write_sweep(file, rows, "claim-k1")
+            found = sweep_results.Sweep(file)
+            self.assertEqual(list(claim_regions.k4(found)[1].values()), [claim_regions.HOLDS])
+            self.assertEqual(list(claim_regions.k2(found)[1].values()), [claim_regions.FAILS, claim_regions.HOLDS])
+            # More LMDs than 1.5 times as many are not similar, however much the original's fluctuates.
+            write_sweep(file, [{**entry, "lmd_count_mean": 2 * entry["lmd_count_mean"]} if entry["method"] == "original" else entry for entry in rows])
+            self.assertEqual(list(claim_regions.k4(sweep_results.Sweep(file))[1].values()), [claim_regions.FAILS])
+
+    def test_a_ratio_of_times_is_as_wide_as_its_repetitions(self):
+        new, old = np.full((3, 50), 2.0), np.full((3, 50), 1.0)
+        new[2] = 4.0  # one repetition on a slow machine
+        value, (low, high) = region_cost.time_interval((new, old), lambda a, b: np.median(a) / np.median(b))
+        self.assertEqual((value, low, high), (2.0, 2.0, 4.0))
+
+    def test_k8_needs_every_repetition(self):
+        def roles(*shares):
+            stage = {"median_s": 1e-6, "p99_s": 2e-6, "maximum_s": 3e-6}
+            return {"experiment": "closed", "rows": [
+                {"label": "improved-hard", "device_share": share, "local_share": 1.0, "global_share": 2.0, "device": stage, "together": stage,
+                 "together_above_1ms": 0} for share in shares]}
+        self.assertEqual(list(claim_regions.k8(roles(0.1, 0.2))[1].values()), [claim_regions.HOLDS])
+        self.assertEqual(list(claim_regions.k8(roles(0.1, 0.7))[1].values()), [claim_regions.OPEN])
+        self.assertEqual(list(claim_regions.k8(roles(0.6, 0.7))[1].values()), [claim_regions.FAILS])
+
+    def test_distance_to_triangles_and_back_rotation(self):
+        corners = np.array([[[0.0, 0, 0], [1, 0, 0], [0, 1, 0]], [[9.0, 9, 9], [9, 9, 9], [9, 9, 9]]])
+        for point, distance in (((0.2, 0.2, 0.5), 0.5), ((-1, 0, 0), 1.0), ((1, 1, 0), math.sqrt(0.5)), ((0.5, -2, 0), 2.0)):
+            self.assertAlmostEqual(region_sets.distance_to_triangles(np.array(point), corners), distance, places=12)
+        quarter = (0.0, 0.0, math.sqrt(0.5), math.sqrt(0.5))  # x to y
+        np.testing.assert_allclose(region_sets.rotated_back(quarter, np.array([0.0, 1.0, 0.0])), [1, 0, 0], atol=1e-15)
 
 
 if __name__ == "__main__":

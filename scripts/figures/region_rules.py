@@ -1,0 +1,136 @@
+# SPDX-FileCopyrightText: The lmdbench authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""What the rules of claim regions share: a setting holds, does not hold, or is undecided because its interval crosses a
+threshold; a claim's verdict is made of its settings."""
+
+import json
+import math
+import os
+
+import numpy as np
+
+from intervals import Rate
+
+HOLDS, FAILS, OPEN = "holds", "does not hold", "undecided"
+MEAN_EDGE_DIAGONAL = 0.0128  # of bunny-16k: `lmdbench mesh info bunny-16k`, mean edge / diagonal
+BLOCK = 200  # frames that are resampled together: neighbours resemble each other
+
+
+def shown(value, digits=3):
+    return f"{value:.{digits}g}" if math.isfinite(value) else "-"
+
+
+def interval(value, limits):
+    return f"{shown(value)} [{shown(limits[0])}, {shown(limits[1])}]"
+
+
+def table(headings, rows):
+    return ["| " + " | ".join(headings) + " |", "|" + "---|" * len(headings),
+            *("| " + " | ".join(str(cell) for cell in row) + " |" for row in rows), ""]
+
+
+def decide(low, high, at_least=None, at_most=None):
+    """Verdict of an interval against one or two thresholds."""
+    if not (math.isfinite(low) and math.isfinite(high)):
+        return OPEN
+    if (at_least is None or low >= at_least) and (at_most is None or high <= at_most):
+        return HOLDS
+    if (at_least is not None and high < at_least) or (at_most is not None and low > at_most):
+        return FAILS
+    return OPEN
+
+
+def all_of(*parts):
+    """A setting of several parts."""
+    return FAILS if FAILS in parts else OPEN if OPEN in parts else HOLDS
+
+
+def verdict(cells):
+    """Of {setting in words: HOLDS, FAILS or OPEN}."""
+    decided = {name: cell for name, cell in cells.items() if cell != OPEN}
+    good = [name for name, cell in decided.items() if cell == HOLDS]
+    rest = len(cells) - len(decided)
+    if not decided:
+        return "undecided: no setting has events enough"
+    if not good:
+        return "not reproduced" + (f" ({rest} of {len(cells)} settings undecided)" if rest else "")
+    if len(good) == len(cells):
+        return "reproduced"
+    return "holds where " + "; ".join(by_group(good, cells)) + ("; undecided in others" if rest else "")
+
+
+def by_group(good, cells):
+    """Settings in words; of a group ("GROUP | setting") whose settings all hold the name, of others the settings that hold."""
+    words = {}
+    for name in good:
+        group, _, setting = name.partition(" | ")
+        words.setdefault(group, []).append(setting)
+    texts = []
+    for group, settings in words.items():
+        members = [cell for other, cell in cells.items() if other.startswith(group + " | ")]
+        if settings == [""]:
+            texts.append(group)
+        elif all(cell == HOLDS for cell in members):
+            texts.append(f"{group} (all {len(members)} settings)" if len(members) > 1 else f"{group}, {settings[0]}")
+        elif len(settings) > 3:
+            texts.append(f"{group} ({len(settings)} of {len(members)} settings)")
+        else:
+            texts.append(f"{group}, {' or '.join(settings)}")
+    return texts
+
+
+def cutoff_share(point):
+    return point.experiment["force"].get("cutoff_diagonal", math.nan)
+
+
+def in_edges(share):
+    """A cutoff in mean edges of bunny-16k."""
+    return shown(share / MEAN_EDGE_DIAGONAL, 2)
+
+
+def tolerance(point):
+    return point.experiment["methods"][0].get("g5_tolerance_deg")
+
+
+def mesh(point):
+    return point.experiment["moving"]["mesh"]
+
+
+def triangles(name):
+    """Of a mesh of the manifest; NaN for another one."""
+    manifest = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "meshes", "manifest.json")
+    with open(manifest, encoding="utf-8") as stream:
+        meshes = json.load(stream)["meshes"]
+    return meshes.get(name, {}).get("triangles", math.nan)
+
+
+def rate(points, name):
+    return Rate([point.number(name) for point in points], [point.number("seconds_in_contact") for point in points])
+
+
+def usable(points):
+    return [point for point in points if not point.failure]
+
+
+def groups(points, *keys):
+    """{values of the keys: points}, in order of appearance."""
+    found = {}
+    for point in usable(points):
+        found.setdefault(tuple(key(point) for key in keys), []).append(point)
+    return found
+
+
+def blocks(*columns):
+    """Frames in blocks that are resampled together."""
+    length = len(columns[0])
+    return [tuple(column[begin:begin + BLOCK] for column in columns) for begin in range(0, length, BLOCK)]
+
+
+def joined(rows, index):
+    return np.concatenate([row[index] for row in rows])
+
+
+def partner(point, sweep):
+    """The point of `improved` under the same axes as one of `original`."""
+    series = point.series.replace("original", "improved")
+    return next((other for other in usable(sweep.of(scene=point.scene, series=series)) if other.axes == point.axes), None)
