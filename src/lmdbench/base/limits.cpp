@@ -27,8 +27,11 @@ constexpr std::array<LimitInfo, LIMIT_COUNT> TABLE{{
     {Limit::POLYGON_CORNERS, "polygon-corners", 5000, 1'000'000, "corners of a polygon of a mesh"},
     {Limit::EDGE_TRIANGLES, "edge-triangles", 100, 10'000, "triangles that share an edge"},
     {Limit::VERTEX_TRIANGLES, "vertex-triangles", 50'000, 10'000'000, "triangles that share a vertex"},
-    {Limit::IMPORT_SECONDS, "import-seconds", 60, 86'400, "processor time to read a mesh"},
-    {Limit::IMPORT_BYTES, "import-bytes", 16 * GIB, 1024 * GIB, "memory to read a mesh"},
+    {Limit::VERTEX_PAIRS, "vertex-pairs", 1'000'000, 100'000'000'000'000,
+     "triangle pairs round a vertex of the moving and one of a fixed mesh"},
+    {Limit::IMPORT_SECONDS, "import-seconds", 60, 86'400,
+     "seconds of processor time to read a mesh or result"},
+    {Limit::IMPORT_BYTES, "import-bytes", 16 * GIB, 1024 * GIB, "bytes of memory to read a mesh or result"},
     {Limit::FRAMES, "frames", 10'000'000, 1'000'000'000, "haptic frames of a run or path"},
     {Limit::BODIES, "bodies", 64, 10'000, "fixed meshes of an experiment"},
 }};

@@ -4,6 +4,7 @@
 
 #include <lmdbench/lmd/method.h>
 #include <lmdbench/lmd/scene.h>
+#include <lmdbench/methods/improved/crowd_memo.h>
 #include <lmdbench/methods/improved/options.h>
 #include <lmdbench/methods/improved/result_cache.h>
 #include <lmdbench/snch/traversal.h>
@@ -58,6 +59,7 @@ class Improved : public Method {
   std::vector<const Hierarchy*> hierarchies_fixed_;  ///< One a fixed body.
   DualTraversal traversal_;
   ResultCache cache_;
+  CrowdMemo crowds_;
   LmdSet kept_;
 };
 
