@@ -6,6 +6,7 @@
 #include <support/source_directory.h>
 #include <sys/stat.h>
 
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <string>
@@ -27,7 +28,7 @@ class HostileInput : public ::testing::Test {
  protected:
   /// The output of a command that must fail with this code and name a remedy.
   std::string refusal(const std::string& arguments, int code) {
-    const Outcome outcome = lmdbench(arguments);
+    const Outcome outcome = lmdbench(arguments, LMDBENCH_SOURCE_DIR, PROCESSOR_SECONDS);
     EXPECT_EQ(outcome.code, code) << arguments << "\n" << outcome.err;
     EXPECT_THAT(outcome.err, HasSubstr("remedy: ")) << arguments;
     EXPECT_THAT(outcome.err, Not(HasSubstr("\x1b"))) << arguments;
@@ -237,19 +238,49 @@ TEST_F(HostileInput, PathsThatLastForEver) {
               AllOf(HasSubstr("/frame_rate_hz"), HasSubstr("100000"), HasSubstr("remedy")));
 }
 
-TEST_F(HostileInput, LittleMemoryThreadsAndFiles) {
-  const auto limited = [&](const std::string& limit, const std::string& arguments) {
-    const ScratchDirectory scratch;
-    const std::string command = limit + "; '" LMDBENCH_PROGRAM "' " + arguments;
-    return lmdbench("--version >/dev/null; " + command, LMDBENCH_SOURCE_DIR);
+/// What has room for many triangles at one vertex is answered, by every method but the one that tries all pairs.
+TEST_F(HostileInput, HubsAndLargePolygonsAreAnswered) {
+  const auto cone = [](int around) {
+    std::string text = "OFF\n" + std::to_string(around + 1) + " " + std::to_string(around) + " 0\n0 0 0\n";
+    for (int i = 0; i < around; ++i) {
+      const double angle = 2.0 * M_PI * i / around;
+      text += std::to_string(std::cos(angle)) + " " + std::to_string(std::sin(angle)) + " -1\n";
+    }
+    for (int i = 0; i < around; ++i)
+      text += "3 0 " + std::to_string(1 + i) + " " + std::to_string(1 + (i + 1) % around) + "\n";
+    return text;
   };
-  const Outcome memory = limited("ulimit -v 120000", "run " + SHORT + "--out " + path("a.h5"));
-  EXPECT_TRUE(memory.code == 0 || memory.code == ENVIRONMENT) << memory.code << memory.err;
-  const Outcome files = limited("ulimit -n 16", "run " + SHORT + "--out " + path("b.h5"));
-  EXPECT_EQ(files.code, 0) << files.err;
-  const Outcome homeless =
-      limited("unset HOME; export TMPDIR=/no/such/place", "run " + SHORT + "--out " + path("c.h5"));
-  EXPECT_EQ(homeless.code, 0) << homeless.err;
+  std::string polygon = "OFF\n1000 1 0\n", corners = "1000";
+  for (int i = 0; i < 1000; ++i) {
+    const double angle = 2.0 * M_PI * i / 1000;
+    polygon += std::to_string(std::cos(angle)) + " " + std::to_string(std::sin(angle)) + " 0\n";
+    corners += " " + std::to_string(i);
+  }
+  const std::string pose = write("near.tum", "0 0 0 -0.99 0 0 0 1\n");
+  for (const std::string& mesh :
+       {write("hub.off", cone(20'000)), write("polygon.off", polygon + corners + "\n")}) {
+    for (const char* method : {"improved", "certified", "original", "nearest"}) {
+      const Outcome outcome = lmdbench("query --moving sphere --fixed " + mesh + " --cutoff 0.1 --method " +
+                                           method + " --poses " + pose + " --json",
+                                       LMDBENCH_SOURCE_DIR, PROCESSOR_SECONDS);
+      EXPECT_EQ(outcome.code, 0) << method << mesh << outcome.err;
+    }
+  }
+  // Two of them meet in as many pairs as both have triangles, multiplied.
+  EXPECT_THAT(refusal("query --moving " + path("hub.off") + " --fixed " + path("hub.off") + " --cutoff 0.1",
+                      INPUT_DATA),
+              AllOf(HasSubstr("vertex 0"), HasSubstr("--limit vertex-pairs=")));
+}
+
+TEST_F(HostileInput, PathsThatTakeForEverEndAtTheirLimit) {
+  // A gap far beyond the meshes' sizes: all pairs of triangles are about equally near.
+  const std::string spec = write(
+      "far.json",
+      R"({"moving": {"mesh": "sphere", "diagonal_m": 1e-6}, "fixed": {"mesh": "sphere", "diagonal_m": 1e-6},
+          "turn_rate_deg_per_s": 90, "frame_rate_hz": 1000,
+          "gaps": [{"time_s": 0, "gap": 1e6}, {"time_s": 100, "gap": 1e6}]})");
+  EXPECT_THAT(refusal("--limit path-seconds=1 path generate " + spec + " --out " + path("o.tum"), USAGE),
+              AllOf(HasSubstr("frames are through"), HasSubstr("--limit path-seconds=")));
 }
 
 }  // namespace

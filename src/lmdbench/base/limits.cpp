@@ -32,6 +32,7 @@ constexpr std::array<LimitInfo, LIMIT_COUNT> TABLE{{
     {Limit::IMPORT_SECONDS, "import-seconds", 60, 86'400,
      "seconds of processor time to read a mesh or result"},
     {Limit::IMPORT_BYTES, "import-bytes", 16 * GIB, 1024 * GIB, "bytes of memory to read a mesh or result"},
+    {Limit::PATH_SECONDS, "path-seconds", 600, 864'000, "seconds of processor time to make or check a path"},
     {Limit::FRAMES, "frames", 10'000'000, 1'000'000'000, "haptic frames of a run or path"},
     {Limit::BODIES, "bodies", 64, 10'000, "fixed meshes of an experiment"},
 }};

@@ -17,10 +17,6 @@ namespace lmdbench {
 
 namespace {
 
-/// Deflate shrinks nothing by more than this factor, so a dataset that claims more than it stores times this
-/// is damaged; without the check a few wrong bytes would ask for all memory.
-constexpr hsize_t LARGEST_DEFLATE_RATIO = 1032;
-
 constexpr const char* RUN_AGAIN = "make the file again with lmdbench run";
 
 herr_t append_attribute(hid_t /*object*/, const char* name, const H5A_info_t* /*info*/, void* names) {
