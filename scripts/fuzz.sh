@@ -4,7 +4,7 @@
 # fuzz.sh MINUTES [TARGET...]: builds the fuzzers (libFuzzer; address and undefined behaviour sanitizers) and runs each
 # target for so many minutes, one after the other, then prints executions, coverage and finds a target. Without a name all
 # of them. What they learn stays in build/fuzz/corpus, so that the next call goes on from there; finds (crashes, leaks,
-# inputs of more than 10 s) are in build/fuzz/finds. Exit code 1 where anything was found. A find, made small with
+# inputs of more than 30 s) are in build/fuzz/finds. Exit code 1 where anything was found. A find, made small with
 # -minimize_crash=1, belongs into tests/fuzz/corpus/TARGET, which the tests replay.
 set -euo pipefail
 # shellcheck source=scripts/lib.sh
@@ -39,7 +39,7 @@ for target in "${targets[@]}"; do
   log="$build/logs/$target.log"
   mkdir -p "$corpus"
   "$build/lmdbench_${target}_fuzz" "$corpus" "$ROOT/tests/${corpora[$target]}" -max_total_time=$((minutes * 60)) \
-    -timeout=10 -rss_limit_mb=4096 -max_len=8192 -print_final_stats=1 \
+    -timeout=30 -rss_limit_mb=4096 -max_len=8192 -print_final_stats=1 \
     -artifact_prefix="$build/finds/$target-" >"$log" 2>&1 </dev/null && status=0 || status=$?
   # One find ends libFuzzer; it is told by exit code and file.
   ((status == 0)) || found=$((found + 1))
