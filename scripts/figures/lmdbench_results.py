@@ -10,6 +10,7 @@ have names of their own. Times are in seconds here; figures and tables show mill
 import json
 import os
 import sys
+import traceback
 
 import h5py
 import numpy as np
@@ -23,6 +24,11 @@ EXIT_ENVIRONMENT = 4
 
 class ResultError(Exception):
     """A result file is missing, broken or lacks what is asked for; the message names file, place and remedy."""
+
+
+# What reading raises for a file that lacks what every result holds, or holds it in another shape or of another kind.
+DATA_ERRORS = (AttributeError, IndexError, KeyError, TypeError, ValueError)
+OPENED = []  # names of the results of this call, for messages
 
 
 class Method:
@@ -90,6 +96,7 @@ class Result:
 
     def __init__(self, file):
         self.file = str(file)
+        OPENED.append(self.file)
         try:
             self.h5 = h5py.File(self.file, "r")
         except OSError as error:
@@ -268,6 +275,11 @@ def run_script(main):
         return code
     except ResultError as error:
         print(error, file=sys.stderr)
+        return EXIT_INPUT_DATA
+    except DATA_ERRORS as error:
+        place = traceback.extract_tb(error.__traceback__)[-1]
+        print(f"{', '.join(OPENED)}: not what a result holds: {error!r} in {os.path.basename(place.filename)}, line "
+              f"{place.lineno} (remedy: make the file again with lmdbench run)", file=sys.stderr)
         return EXIT_INPUT_DATA
     except OSError as error:  # a full disk, a directory that cannot be written, a reader that has gone
         if isinstance(error, BrokenPipeError):

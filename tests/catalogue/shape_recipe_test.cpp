@@ -77,6 +77,7 @@ INSTANTIATE_TEST_SUITE_P(
     ::testing::Values(
         BadRecipe{"unknown", R"({"kind":"teapot"})", "kind", "choose one of"},
         BadRecipe{"no_kind", R"({"radius":1})", "kind", "choose one of"},
+        BadRecipe{"kind_is_a_number", R"({"kind":3})", "kind", "choose one of"},
         BadRecipe{"missing", R"({"kind":"sphere","radius":1})", "subdivisions", "is missing"},
         BadRecipe{"extra", R"({"kind":"l-block","size":1,"color":"red"})", "color", "not a parameter"},
         BadRecipe{"zero", R"({"kind":"l-block","size":0})", "size", "not positive"},
@@ -92,6 +93,14 @@ INSTANTIATE_TEST_SUITE_P(
                   R"({"kind":"torus","ring_radius":1,"tube_radius":2,"ring_cells":9,"tube_cells":9})",
                   "tube_radius", "is 2"}),
     [](const auto& parameter) { return parameter.param.name; });
+
+TEST(ShapeRecipeTest, CopiesOfCopiesAndHugeLengthsEndAtALimit) {
+  std::string copies = R"({"kind":"sphere","radius":1,"subdivisions":2})";
+  for (int i = 0; i < 30; ++i) copies = R"({"kind":"duplicates","every":1,"of":)" + copies + "}";
+  EXPECT_THAT(message_of<InputError>([&] { make(copies); }), HasSubstr("--limit edge-triangles="));
+  EXPECT_THAT(message_of<InputError>([] { make(R"({"kind":"sphere","radius":1e308,"subdivisions":1})"); }),
+              HasSubstr("overflow"));
+}
 
 }  // namespace
 }  // namespace lmdbench

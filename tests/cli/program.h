@@ -37,12 +37,14 @@ struct Outcome {
 
 /// Runs `lmdbench ARGUMENTS` in a shell; the arguments may redirect and go on with other commands.
 /// @param directory working directory
+/// @param processor_seconds a process that takes longer is ended by a signal; not limited without it
 inline Outcome lmdbench(const std::string& arguments,
-                        const std::filesystem::path& directory = LMDBENCH_SOURCE_DIR) {
+                        const std::filesystem::path& directory = LMDBENCH_SOURCE_DIR,
+                        const std::string& processor_seconds = "unlimited") {
   const ScratchDirectory scratch;
   const std::string out = (scratch / "out").string(), err = (scratch / "err").string();
-  const std::string command = "cd '" + directory.string() + "' && ( '" LMDBENCH_PROGRAM "' " + arguments +
-                              " ) >'" + out + "' 2>'" + err + "'";
+  const std::string command = "cd '" + directory.string() + "' && ( ulimit -t " + processor_seconds +
+                              "; '" LMDBENCH_PROGRAM "' " + arguments + " ) >'" + out + "' 2>'" + err + "'";
   const int status = std::system(command.c_str());
   Outcome outcome;
   outcome.code = WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);

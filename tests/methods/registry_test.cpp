@@ -169,5 +169,21 @@ TEST(WithDefaults, MatchesPropertiesAndDefaults) {
   EXPECT_THROW(with_defaults(properties, nlohmann::json::object()), std::logic_error);
 }
 
+TEST(Registry, RefusesTwoHubsByANamedLimit) {
+  // A fan of so many triangles, whatever its shape.
+  const auto fan = [](int triangles) {
+    TriangleMesh mesh{.vertices = {Vec3::Zero()}, .triangles = {}};
+    for (int i = 0; i <= triangles; ++i) mesh.vertices.emplace_back(1.0, i * 1e-3, 0.0);
+    for (int i = 0; i < triangles; ++i) mesh.triangles.push_back({0, i + 1, i + 2});
+    return mesh;
+  };
+  const Scene scene = testing::make_scene(fan(1001), fan(1000), 0.1);
+  for (const MethodDescription& method : method_descriptions())
+    EXPECT_THAT(testing::message_of<InputError>([&] { make_method(method.name, scene); }),
+                AllOf(HasSubstr("moving: vertex 0: is in 1001 triangles, and vertex 0 of fixed in 1000"),
+                      HasSubstr("--limit vertex-pairs=")));
+  EXPECT_NO_THROW(make_method("improved", testing::make_scene(fan(1000), fan(1000), 0.1)));
+}
+
 }  // namespace
 }  // namespace lmdbench

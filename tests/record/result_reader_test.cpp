@@ -8,6 +8,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <support/scratch_directory.h>
+#include <support/source_directory.h>
 
 #include <cmath>
 #include <fstream>
@@ -129,6 +130,25 @@ TEST(ResultReader, RefusesWhatIsNoResult) {
       AllOf(HasSubstr("format_version"), HasSubstr("remedy: ")));
   EXPECT_THAT(input_error([&] { ResultReader(small_result(scratch / "other.h5", 1, "other-format")); }),
               AllOf(HasSubstr("other-format"), HasSubstr("remedy: ")));
+}
+
+TEST(ResultReader, RefusesLinksAndValuesOfOtherFiles) {
+  const std::string corpus = LMDBENCH_SOURCE_DIR "/tests/fuzz/corpus/result/";
+  const ResultReader links(corpus + "links");
+  EXPECT_THAT(input_error([&] { links.groups("/"); }),
+              AllOf(HasSubstr("/outside: is a link"), HasSubstr("remedy: ")));
+  EXPECT_THAT(input_error([&] { links.reals("/soft/a/force"); }), HasSubstr("/soft: is a link"));
+  EXPECT_THAT(links.groups("/methods"), ElementsAre("a"));
+  const ResultReader elsewhere(corpus + "values_elsewhere");
+  EXPECT_THAT(input_error([&] { elsewhere.reals("/ext"); }),
+              HasSubstr("/ext: has its values in another file"));
+}
+
+TEST(ResultReader, NamesTheDamageOfAFileWhenItIsOpened) {
+  EXPECT_THAT(input_error([] {
+                ResultReader(LMDBENCH_SOURCE_DIR "/tests/fuzz/corpus/result/claims_more_than_it_holds");
+              }),
+              AllOf(HasSubstr("/big: is damaged: its shape asks for more values"), HasSubstr("remedy: ")));
 }
 
 TEST(ResultReader, DamagedFilesAreInputErrors) {

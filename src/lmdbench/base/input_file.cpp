@@ -25,35 +25,49 @@ const char* kind_of(mode_t mode) {
   return "no regular file";
 }
 
-}  // namespace
+/// The errors about one file.
+struct Refusal {
+  const std::filesystem::path& file;
+  const InputKind& kind;
 
-FileContent read_input_file(const std::filesystem::path& file, const InputKind& kind) {
-  const auto fail = [&](const std::string& problem, const std::string& remedy) {
+  [[noreturn]] void operator()(const std::string& problem, const std::string& remedy) const {
     if (kind.code == ExitCode::USAGE) throw UsageError(file.string(), "", problem, remedy);
     throw InputError(file.string(), "", problem, remedy);
-  };
-  const auto fail_for = [&](int error) {
-    fail(fmt::format("cannot read the {}: {}", kind.what, std::generic_category().message(error)),
-         kind.remedy);
-  };
-  // Looked at before it is opened: opening alone can make a device act.
-  struct stat status {};
-  if (::stat(file.c_str(), &status) != 0) fail_for(errno);
-  const auto check_regular = [&] {
+  }
+  [[noreturn]] void unreadable(int error) const {
+    (*this)(fmt::format("cannot read the {}: {}", kind.what, std::generic_category().message(error)),
+            kind.remedy);
+  }
+  void unless_regular(const struct stat& status) const {
     if (!S_ISREG(status.st_mode))
-      fail(fmt::format("is {}, not a {}", kind_of(status.st_mode), kind.what), "name a regular file");
-  };
-  check_regular();
+      (*this)(fmt::format("is {}, not a {}", kind_of(status.st_mode), kind.what), "name a regular file");
+  }
+};
+
+}  // namespace
+
+void refuse_unless_regular(const std::filesystem::path& file, const InputKind& kind) {
+  const Refusal refuse{file, kind};
+  struct stat status {};
+  if (::stat(file.c_str(), &status) != 0) refuse.unreadable(errno);
+  refuse.unless_regular(status);
+}
+
+FileContent read_input_file(const std::filesystem::path& file, const InputKind& kind) {
+  const Refusal refuse{file, kind};
+  // Looked at before it is opened: opening alone can make a device act.
+  refuse_unless_regular(file, kind);
   // Not blocking: between the two calls a FIFO may have taken the name.
   const FileDescriptor descriptor(::open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY));
-  if (!descriptor.valid()) fail_for(errno);
-  if (::fstat(descriptor.get(), &status) != 0) fail_for(errno);
-  check_regular();
+  if (!descriptor.valid()) refuse.unreadable(errno);
+  struct stat status {};
+  if (::fstat(descriptor.get(), &status) != 0) refuse.unreadable(errno);
+  refuse.unless_regular(status);
   const std::int64_t most = limit_of(kind.most_bytes);
   const auto refuse_large = [&](std::int64_t size) {
     if (size > most)
-      fail(fmt::format("has {} bytes or more, above the limit of {} for a {}", size, most, kind.what),
-           "check that it is the right file, or " + raise_remedy(kind.most_bytes));
+      refuse(fmt::format("has {} bytes or more, above the limit of {} for a {}", size, most, kind.what),
+             "check that it is the right file, or " + raise_remedy(kind.most_bytes));
   };
   refuse_large(status.st_size);
 
@@ -66,7 +80,7 @@ FileContent read_input_file(const std::filesystem::path& file, const InputKind& 
     const ssize_t count =
         ::read(descriptor.get(), target, in_place ? input.bytes.size() - length : beyond.size());
     if (count < 0 && errno == EINTR) continue;
-    if (count < 0) fail_for(errno);
+    if (count < 0) refuse.unreadable(errno);
     if (count == 0) break;
     if (!in_place) input.bytes.append(beyond.data(), static_cast<std::size_t>(count));
     length += static_cast<std::size_t>(count);

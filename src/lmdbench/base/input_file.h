@@ -26,6 +26,10 @@ struct FileContent {
   std::string sha256;  ///< Of the bytes, lower-case hexadecimal.
 };
 
+/// For files that a library opens by name: refuses what `read_input_file` would refuse before it reads.
+/// @throws InputError or UsageError: no such file, no regular file
+void refuse_unless_regular(const std::filesystem::path& file, const InputKind& kind);
+
 /// Reads a regular file. Directories, devices, FIFOs and sockets are refused without waiting for them;
 /// symbolic links to regular files are followed.
 /// @throws InputError, or UsageError where the kind's code says so: no such file, no regular file, larger than the limit, unreadable

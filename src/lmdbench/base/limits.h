@@ -20,8 +20,10 @@ enum class Limit : std::uint8_t {
   POLYGON_CORNERS,   ///< Of a face that is cut into triangles.
   EDGE_TRIANGLES,    ///< Triangles that share one edge.
   VERTEX_TRIANGLES,  ///< Triangles that share one vertex.
-  IMPORT_SECONDS,    ///< Processor time of the child process that reads a mesh.
+  VERTEX_PAIRS,      ///< Triangle pairs round a vertex of one mesh and a vertex of another.
+  IMPORT_SECONDS,    ///< Processor time of the child process that reads a mesh or result.
   IMPORT_BYTES,      ///< Memory of that process.
+  PATH_SECONDS,      ///< Processor time to make or check a path.
   FRAMES,            ///< Haptic frames of a run or a path.
   BODIES,            ///< Fixed meshes of an experiment.
   COUNT

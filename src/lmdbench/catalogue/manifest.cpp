@@ -123,12 +123,16 @@ std::filesystem::path Manifest::built_file(const ManifestEntry& entry) const {
 }
 
 Manifest load_manifest(const std::filesystem::path& file) {
-  static const nlohmann::json schema = nlohmann::json::parse(manifest_schema_text());
   const InputKind kind{
       .what = "mesh manifest",
       .most_bytes = Limit::JSON_BYTES,
       .remedy = "run in the folder that holds meshes/, or name a mesh file by its path (with a / or a .)"};
-  const JsonDocument document(read_input_file(file, kind).bytes, file.string(), schema, ExitCode::INPUT_DATA);
+  return parse_manifest(read_input_file(file, kind).bytes, file);
+}
+
+Manifest parse_manifest(const std::string& text, const std::filesystem::path& file) {
+  static const nlohmann::json schema = nlohmann::json::parse(manifest_schema_text());
+  const JsonDocument document(text, file.string(), schema, ExitCode::INPUT_DATA);
   Manifest manifest;
   manifest.file = file;
   // Meshes keep the file's order.

@@ -63,6 +63,9 @@ inline constexpr const char* DEFAULT_MESH_FOLDER = "meshes";
 /// @throws InputError naming the JSON pointer
 Manifest load_manifest(const std::filesystem::path& file);
 
+/// The same from text; `file` serves messages and the place of built meshes.
+Manifest parse_manifest(const std::string& text, const std::filesystem::path& file);
+
 /// A mesh as an experiment or a command names it.
 struct ResolvedMesh {
   std::string name;  ///< As it was named.

@@ -1,9 +1,11 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/base/error.h>
+#include <lmdbench/catalogue/mesh_limits.h>
 #include <lmdbench/catalogue/shape_recipe.h>
 #include <lmdbench/catalogue/shapes.h>
 #include <lmdbench/mesh/flaws.h>
+#include <lmdbench/mesh/placement.h>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -139,7 +141,8 @@ const std::map<std::string, Maker>& makers() {
 }  // namespace
 
 TriangleMesh make_shape(const nlohmann::json& recipe, const std::string& file, const std::string& pointer) {
-  const std::string kind = recipe.is_object() ? recipe.value("kind", std::string{}) : std::string{};
+  const bool names_kind = recipe.is_object() && recipe.contains("kind") && recipe["kind"].is_string();
+  const std::string kind = names_kind ? recipe["kind"].get<std::string>() : std::string{};
   const auto maker = makers().find(kind);
   if (maker == makers().end()) {
     std::vector<std::string> kinds;
@@ -151,6 +154,9 @@ TriangleMesh make_shape(const nlohmann::json& recipe, const std::string& file, c
   // Order of evaluation of a call's arguments is open, so a bad recipe may be told by any of its bad keys.
   TriangleMesh mesh = maker->second(reader);
   reader.finish();
+  // Copies of copies double at every step; lengths may be anything that is positive.
+  check_mesh_limits(mesh, file);
+  refuse_extreme_size(mesh, file);
   return mesh;
 }
 

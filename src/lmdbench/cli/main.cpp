@@ -12,6 +12,7 @@
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
+#include <csignal>
 #include <cstdio>
 #include <exception>
 #include <new>
@@ -83,6 +84,8 @@ int run_program(int argc, char** argv) {
 int main(int argc, char** argv) {
   using lmdbench::ExitCode;
   lmdbench::set_up_talk(0);
+  // A file that may not grow any more (ulimit -f) is an error of the write, not the end.
+  std::signal(SIGXFSZ, SIG_IGN);
   try {
     return run_program(argc, argv);
   } catch (const lmdbench::Error& error) {

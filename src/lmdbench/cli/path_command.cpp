@@ -3,6 +3,7 @@
 #include <lmdbench/base/atomic_file.h>
 #include <lmdbench/base/error.h>
 #include <lmdbench/base/json_text.h>
+#include <lmdbench/base/limits.h>
 #include <lmdbench/base/output_guard.h>
 #include <lmdbench/catalogue/manifest.h>
 #include <lmdbench/cli/path_command.h>
@@ -21,6 +22,7 @@
 #include <nlohmann/json.hpp>
 #include <spdlog/spdlog.h>
 
+#include <ctime>
 #include <filesystem>
 #include <memory>
 #include <numbers>
@@ -61,9 +63,18 @@ PathScene load_scene(const PathSpec& spec, const PathArguments& arguments) {
   return mesh_scene(place(spec.moving, arguments), place(spec.fixed, arguments));
 }
 
-ProgressFunction progress_on(ProgressBar& bar, const std::string& phase) {
-  return [&bar, phase](std::size_t done, std::size_t all) {
+/// Shows the progress, and ends what takes longer than its limit: gaps far beyond the meshes' sizes, where all
+/// triangles are equally near, may take seconds a frame.
+ProgressFunction progress_on(ProgressBar& bar, const std::string& phase, const std::string& spec) {
+  return [&bar, phase, spec](std::size_t done, std::size_t all) {
     bar.update(phase, static_cast<std::int64_t>(done), static_cast<std::int64_t>(all));
+    const auto most = limit_of(Limit::PATH_SECONDS);
+    if (static_cast<std::int64_t>(std::clock() / CLOCKS_PER_SEC) <= most) return;
+    throw UsageError(
+        spec, "",
+        fmt::format("after {} s of processor time {} of {} frames are through ({})", most, done, all, phase),
+        "lower frame_rate_hz, shorten the gaps' times, keep gaps below the meshes' sizes, or " +
+            raise_remedy(Limit::PATH_SECONDS));
   };
 }
 
@@ -80,10 +91,11 @@ struct GapNote {
   bool sound() const { return intersecting_frames == 0 && smallest >= floor; }
 };
 
-GapNote note_gaps(const PathInterpolator& interpolator, const PathSpec& spec, const PathScene& scene) {
+GapNote note_gaps(const PathInterpolator& interpolator, const PathSpec& spec, const PathScene& scene,
+                  const std::string& file) {
   ProgressBar bar(progress_welcome());
   const Path frames = resample(interpolator, spec.frame_rate);
-  const GapMeasure measure = measure_gaps(frames, scene.distance, progress_on(bar, "check"));
+  const GapMeasure measure = measure_gaps(frames, scene.distance, progress_on(bar, "check", file));
   std::size_t at_wanted_gap = 0;
   for (std::size_t k = 0; k < frames.size(); ++k)
     if (measure.gaps[k] <= AT_WANTED_GAP * scene.diagonal * wanted_gap(spec.gaps, frames[k].time))
@@ -164,7 +176,7 @@ void generate(const PathArguments& arguments) {
   Path path;
   {
     ProgressBar bar(progress_welcome());
-    path = generate_path(spec, scene, progress_on(bar, "generate"));
+    path = generate_path(spec, scene, progress_on(bar, "generate", arguments.spec));
   }
   const std::string comment =
       fmt::format("{} past {}, {} {}'", name_of(spec.moving), name_of(spec.fixed), GENERATED_PATH_MARK,
@@ -173,7 +185,7 @@ void generate(const PathArguments& arguments) {
   // What counts is what readers will see: the rounded poses, interpolated.
   std::istringstream stream(text);
   const PathInterpolator interpolator(read_tum(stream, arguments.path));
-  const GapNote gaps = note_gaps(interpolator, spec, scene);
+  const GapNote gaps = note_gaps(interpolator, spec, scene, arguments.spec);
   if (!gaps.sound())
     throw UsageError(
         arguments.spec, "/gap_floor",
@@ -197,7 +209,7 @@ void info(const PathArguments& arguments) {
     const PathSpec spec = read_path_spec(arguments.spec);
     rate = spec.frame_rate;
     refuse_too_many_frames(interpolator, rate, std::nullopt, arguments.path);
-    gaps = note_gaps(interpolator, spec, load_scene(spec, arguments));
+    gaps = note_gaps(interpolator, spec, load_scene(spec, arguments), arguments.spec);
   }
   print_facts(arguments.path, path_facts(interpolator, rate), rate, gaps, arguments.json);
   if (gaps && !gaps->sound())

@@ -54,30 +54,36 @@ struct IncidentTriangles {
   }
 };
 
-/// Walks `start` to its local minimum.
+/// L2: the shortest of all combinations of two neighbourhoods' triangles.
 /// @param evaluate (triangle_moving, triangle_fixed) -> TrackedPair at the current pose
-/// @param steps    rounds of L1..L4, is added to
-/// @param neighbours (surface, feature) -> TriangleList of L1
-template <class Evaluate, class Neighbours = IncidentTriangles>
-WalkEnd walk_to_minimum(const Surface& moving, const Surface& fixed, const Lmd& start, Evaluate&& evaluate,
-                        std::uint64_t& steps, Neighbours&& neighbours = {}) {
+template <class Evaluate>
+TrackedPair shortest_pair(const TriangleList& moving, const TriangleList& fixed, Evaluate&& evaluate) {
+  TrackedPair shortest;
+  bool any = false;
+  for (const std::int32_t t_moving : moving) {
+    for (const std::int32_t t_fixed : fixed) {
+      const TrackedPair pair = evaluate(t_moving, t_fixed);
+      if (!any || is_shorter(pair.lmd.distance, shortest.lmd.distance)) {
+        shortest = pair;
+        any = true;
+      } else if (!is_shorter(shortest.lmd.distance, pair.lmd.distance)) {
+        // The same minimum on another triangle that shares its features.
+        shortest.seen_by_other |= pair.seen_by_other;
+      }
+    }
+  }
+  return shortest;
+}
+
+/// Walks `start` to its local minimum.
+/// @param look  L1 and L2: (feature_moving, feature_fixed) -> the shortest TrackedPair round them
+/// @param steps rounds of L1..L4, is added to
+template <class Look>
+WalkEnd walk_by(const Lmd& start, Look&& look, std::uint64_t& steps) {
   WalkEnd end{start, false};
   for (bool first_round = true;; first_round = false) {
     ++steps;
-    TrackedPair shortest;
-    bool any = false;
-    for (const std::int32_t t_moving : neighbours(moving, end.lmd.feature_moving)) {
-      for (const std::int32_t t_fixed : neighbours(fixed, end.lmd.feature_fixed)) {
-        const TrackedPair pair = evaluate(t_moving, t_fixed);
-        if (!any || is_shorter(pair.lmd.distance, shortest.lmd.distance)) {
-          shortest = pair;
-          any = true;
-        } else if (!is_shorter(shortest.lmd.distance, pair.lmd.distance)) {
-          // The same minimum on another triangle that shares its features.
-          shortest.seen_by_other |= pair.seen_by_other;
-        }
-      }
-    }
+    const TrackedPair shortest = look(end.lmd.feature_moving, end.lmd.feature_fixed);
     const bool settled = same_feature_pair(shortest.lmd, end.lmd) ||
                          (!first_round && !is_shorter(shortest.lmd.distance, end.lmd.distance));
     end.is_duplicate = shortest.seen_by_other;
@@ -86,6 +92,18 @@ WalkEnd walk_to_minimum(const Surface& moving, const Surface& fixed, const Lmd& 
   }
   set_direction(end.lmd, start.direction);
   return end;
+}
+
+/// The same, looking at each pair of triangles.
+/// @param evaluate   as `shortest_pair` takes it
+/// @param neighbours (surface, feature) -> TriangleList of L1
+template <class Evaluate, class Neighbours = IncidentTriangles>
+WalkEnd walk_to_minimum(const Surface& moving, const Surface& fixed, const Lmd& start, Evaluate&& evaluate,
+                        std::uint64_t& steps, Neighbours&& neighbours = {}) {
+  const auto look = [&](const FeatureId& feature_moving, const FeatureId& feature_fixed) {
+    return shortest_pair(neighbours(moving, feature_moving), neighbours(fixed, feature_fixed), evaluate);
+  };
+  return walk_by(start, look, steps);
 }
 
 }  // namespace lmdbench

@@ -2,12 +2,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/base/error.h>
 #include <lmdbench/base/json_schema.h>
+#include <lmdbench/base/limits.h>
 #include <lmdbench/lmd/near_frame.h>
 #include <lmdbench/methods/registry.h>
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstdint>
 #include <utility>
 
 namespace lmdbench {
@@ -19,6 +21,37 @@ auto find(std::string_view name) {
   const auto& all = method_descriptions();
   return std::find_if(all.begin(), all.end(),
                       [&](const MethodDescription& description) { return description.name == name; });
+}
+
+/// The vertex with most triangles.
+struct LargestFan {
+  std::int32_t vertex = -1;
+  std::int64_t triangles = 0;
+
+  static LargestFan of(const Surface& surface) {
+    LargestFan largest;
+    for (std::int32_t v = 0; v < static_cast<std::int32_t>(surface.mesh.vertices.size()); ++v) {
+      const auto triangles = static_cast<std::int64_t>(surface.adjacency.vertex_triangles[v].size());
+      if (triangles > largest.triangles) largest = {v, triangles};
+    }
+    return largest;
+  }
+};
+
+/// Where two hubs meet, every method looks at all pairs of their triangles.
+void refuse_two_hubs(const Scene& scene) {
+  const auto& moving = scene.moving->prepared<LargestFan>();
+  for (const auto& body : scene.fixed) {
+    const auto& fixed = body->prepared<LargestFan>();
+    if (moving.triangles * fixed.triangles <= limit_of(Limit::VERTEX_PAIRS)) continue;
+    throw InputError(
+        scene.moving->name(), fmt::format("vertex {}", moving.vertex),
+        fmt::format(
+            "is in {} triangles, and vertex {} of {} in {}: {} pairs where they meet, above the limit of {}",
+            moving.triangles, fixed.vertex, body->name(), fixed.triangles, moving.triangles * fixed.triangles,
+            limit_of(Limit::VERTEX_PAIRS)),
+        "make grids of the fans, or " + raise_remedy(Limit::VERTEX_PAIRS));
+  }
 }
 
 }  // namespace
@@ -55,6 +88,7 @@ Json complete_options(const MethodDescription& description, Json options, const 
 std::unique_ptr<Method> make_method(std::string_view name, const Scene& scene, const Json& options) {
   const MethodDescription& description = method_description(name);
   const Json complete = complete_options(description, options, "options of " + description.name);
+  refuse_two_hubs(scene);
   return make_in_near_frame(scene, [&](const Scene& near) { return description.make(near, complete); });
 }
 

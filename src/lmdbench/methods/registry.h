@@ -39,7 +39,7 @@ nlohmann::json complete_options(const MethodDescription& description, nlohmann::
 
 /// Makes a method on a scene.
 /// @param options need not name those that keep their defaults
-/// @throws UsageError for an unknown name or an option that does not fit
+/// @throws UsageError for an unknown name or option; InputError for two hubs that may meet (`Limit::VERTEX_PAIRS`)
 std::unique_ptr<Method> make_method(std::string_view name, const Scene& scene,
                                     const nlohmann::json& options = nlohmann::json::object());
 

@@ -1,17 +1,21 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/base/child_process.h>
+#include <lmdbench/base/limits.h>
 #include <lmdbench/base/output_guard.h>
 #include <lmdbench/record/hdf5_handle.h>
 #include <lmdbench/record/own_result.h>
 #include <lmdbench/record/provenance.h>
 
+#include <cstddef>
+#include <span>
 #include <string_view>
 
 namespace lmdbench {
 
-bool is_own_result(const std::filesystem::path& file) {
-  // Where our files have it; HDF5 would search the whole of any other file for it.
-  if (!file_begins_with(file, "\x89HDF\r\n\x1a\n")) return false;
+namespace {
+
+bool has_our_format(const std::filesystem::path& file) {
   silence_hdf5();
   const Hdf5Handle opened(H5Fopen(file.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), &H5Fclose);
   if (!opened.valid()) return false;
@@ -28,6 +32,23 @@ bool is_own_result(const std::filesystem::path& file) {
   const bool ours = std::string_view(text) == RESULT_FORMAT;
   H5free_memory(text);
   return ours;
+}
+
+}  // namespace
+
+bool is_own_result(const std::filesystem::path& file) {
+  // Where our files have it; HDF5 would search the whole of any other file for it.
+  if (!file_begins_with(file, "\x89HDF\r\n\x1a\n")) return false;
+  // HDF5 may crash on what only looks like it (hdf5_check.h).
+  const ChildLimits limits{limit_of(Limit::IMPORT_SECONDS), limit_of(Limit::IMPORT_BYTES)};
+  ChildProcess child(
+      [&](const ChildProcess::Send& send) {
+        const std::byte ours{has_our_format(file)};
+        send(std::span(&ours, 1));
+      },
+      limits);
+  std::byte ours{0};
+  return child.receive(std::span(&ours, 1)) && ours == std::byte{1};
 }
 
 }  // namespace lmdbench

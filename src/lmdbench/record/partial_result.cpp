@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/base/error.h>
+#include <lmdbench/record/hdf5_check.h>
 #include <lmdbench/record/hdf5_handle.h>
 #include <lmdbench/record/partial_result.h>
 
@@ -143,6 +144,7 @@ PartialResult::PartialResult(PartFile& part, const std::string& image) {
 
 std::optional<PartialResult> PartialResult::open(PartFile& part) {
   if (part.is_empty()) return std::nullopt;
+  check_hdf5(part.part_name());
   auto implementation = std::make_unique<Implementation>(part);
   if (!implementation->valid()) return std::nullopt;
   return PartialResult(std::move(implementation));

@@ -52,7 +52,7 @@ class PartialResult {
   /// Starts a part with the image of a file whose datasets are reserved.
   /// @throws EnvironmentError when there is no room on the disk
   PartialResult(PartFile& part, const std::string& image);
-  /// Goes on with what the part holds; unset when that is no complete part of this format.
+  /// Goes on with what the part holds; unset when that is no complete part of this format. @throws as `check_hdf5`
   static std::optional<PartialResult> open(PartFile& part);
 
   PartialResult(PartialResult&&) noexcept;

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/base/error.h>
+#include <lmdbench/record/hdf5_check.h>
 #include <lmdbench/record/hdf5_handle.h>
 #include <lmdbench/record/partial_result.h>
 #include <lmdbench/record/provenance.h>
@@ -15,10 +16,6 @@
 namespace lmdbench {
 
 namespace {
-
-/// Deflate shrinks nothing by more than this factor, so a dataset that claims more than it stores times this
-/// is damaged; without the check a few wrong bytes would ask for all memory.
-constexpr hsize_t LARGEST_DEFLATE_RATIO = 1032;
 
 constexpr const char* RUN_AGAIN = "make the file again with lmdbench run";
 
@@ -45,6 +42,7 @@ class ResultReader::Implementation {
                        "check the name; lmdbench run makes results");
     if (std::filesystem::is_directory(name_, error))
       throw InputError(name_.string(), "", "a directory, not a result file", "name the .h5 file in it");
+    check_hdf5(name_);
     file_ = Hdf5Handle(H5Fopen(name_.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), &H5Fclose);
     if (!file_.valid())
       throw InputError(name_.string(), "", "cannot be opened as HDF5: " + last_hdf5_error(),
@@ -58,7 +56,11 @@ class ResultReader::Implementation {
     silence_hdf5();
     if (path == "/") return true;
     for (std::size_t end = path.find('/', 1);; end = path.find('/', end + 1)) {
-      if (H5Lexists(file_.get(), path.substr(0, end).c_str(), H5P_DEFAULT) <= 0) return false;
+      const std::string here = path.substr(0, end);
+      if (H5Lexists(file_.get(), here.c_str(), H5P_DEFAULT) <= 0) return false;
+      H5L_info_t link{};
+      if (H5Lget_info(file_.get(), here.c_str(), &link, H5P_DEFAULT) < 0 || link.type != H5L_TYPE_HARD)
+        fail(here, "is a link, perhaps to another file");
       if (end == std::string::npos) return true;
     }
   }
@@ -78,6 +80,7 @@ class ResultReader::Implementation {
                          H5P_DEFAULT);
       name.pop_back();
       H5O_info_t object{};
+      static_cast<void>(has(group == "/" ? "/" + name : group + "/" + name));  // before a link is followed
       if (H5Oget_info_by_name2(handle.get(), name.c_str(), &object, H5O_INFO_BASIC, H5P_DEFAULT) < 0)
         fail(group + "/" + name, "cannot be read: " + last_hdf5_error());
       if (object.type == wanted) names.push_back(std::move(name));
@@ -228,6 +231,7 @@ class ResultReader::Implementation {
     if (!has(path)) fail(path, "missing");
     Hdf5Handle dataset(H5Dopen2(file_.get(), path.c_str(), H5P_DEFAULT), &H5Dclose);
     if (!dataset.valid()) fail(path, "is no readable dataset: " + last_hdf5_error());
+    if (const std::string elsewhere = refers_elsewhere(dataset); !elsewhere.empty()) fail(path, elsewhere);
     return dataset;
   }
 

@@ -14,10 +14,10 @@
 
 namespace lmdbench {
 
-/// Reads one result file (HDF5, `results/README.md`) whoever wrote it: the whole file is checked for the
-/// format and its major version when it is opened, every dataset for its type when it is read. Paths are
-/// absolute
-/// ("/methods/improved/force").
+/// Reads one result file (HDF5, `results/README.md`) whoever wrote it: the whole file is checked for damage, format and
+/// major version when it is opened, every dataset for its type when it is read. Paths are absolute
+/// ("/methods/improved/force"). Links and datasets of other files are refused; HDF5's own crashes and loops on damaged
+/// files stay in a child process (`check_hdf5`).
 ///
 /// Every function throws InputError (exit code 3) that names the file, the dataset and a remedy: a file that
 /// is missing, cut off, not HDF5, of another format or version, a dataset that is missing, damaged or of

@@ -38,7 +38,9 @@ Journal::Journal(std::filesystem::path file) : file_(std::move(file)) {
   while (std::getline(stream, line) && !stream.eof()) {
     whole += line.size() + 1;
     Json entry = Json::parse(line, nullptr, false);
-    if (!entry.is_object() || !entry.contains("key") || !entry.contains("repetition")) continue;
+    const bool ours = entry.is_object() && entry.contains("key") && entry["key"].is_string() &&
+                      entry.contains("repetition") && entry["repetition"].is_number_integer();
+    if (!ours) continue;
     const std::pair place{entry["key"].get<std::string>(), entry["repetition"].get<std::int64_t>()};
     entries_[place] = std::move(entry);
   }

@@ -108,8 +108,12 @@ std::string SweepPoint::axes_text() const {
 
 Sweep load_sweep(const std::filesystem::path& file, const std::vector<Override>& overrides) {
   const InputKind kind{.what = "sweep file", .code = ExitCode::USAGE, .most_bytes = Limit::JSON_BYTES};
-  JsonDocument document(read_input_file(file, kind).bytes, file.string(), Json::parse(sweep_schema_text()),
-                        ExitCode::USAGE, overrides);
+  return parse_sweep(read_input_file(file, kind).bytes, file, overrides);
+}
+
+Sweep parse_sweep(const std::string& text, const std::filesystem::path& file,
+                  const std::vector<Override>& overrides) {
+  JsonDocument document(text, file.string(), Json::parse(sweep_schema_text()), ExitCode::USAGE, overrides);
   Json& json = document.json();
   fill_labels(json["series"], document);
   Sweep sweep;

@@ -6,6 +6,7 @@
 #include <lmdbench/sweep/step_numbers.h>
 #include <lmdbench/sweep/time_numbers.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace lmdbench {
@@ -104,6 +105,17 @@ PointErrors PointErrors::from_json(const Json& json) {
   errors.truth_checked_frames = json.at("truth_checked_frames").get<std::int64_t>();
   errors.truth_wrong_frames = json.at("truth_wrong_frames").get<std::int64_t>();
   return errors;
+}
+
+bool PointErrors::fits(const PointRun& run) const {
+  const std::size_t frames = counts.size(), searches = search_frames.size();
+  const RepetitionTimes& times = run.times;
+  return tracked.size() == frames && force.size() == frames && times.local_update.size() == frames &&
+         times.global_search.size() == searches && times.first_reduction.size() == searches &&
+         times.second_tracking.size() == searches &&
+         std::all_of(search_frames.begin(), search_frames.end(), [&](std::int64_t frame) {
+           return frame >= 0 && frame < static_cast<std::int64_t>(frames);
+         });
 }
 
 double PointResult::number(std::string_view name) const {

@@ -48,6 +48,8 @@ struct PointErrors {
 
   nlohmann::json to_json() const;
   static PointErrors from_json(const nlohmann::json& json);
+  /// Whether a traversal has as many frames and searches, each within the path.
+  bool fits(const PointRun& run) const;
 };
 
 /// A point when all its repetitions are done, or when it failed.

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/base/error.h>
 #include <lmdbench/base/file_hash.h>
+#include <lmdbench/base/input_file.h>
 #include <lmdbench/base/output_guard.h>
 #include <lmdbench/experiment/contact.h>
 #include <lmdbench/experiment/errors.h>
@@ -21,6 +22,7 @@
 #include <map>
 #include <memory>
 #include <random>
+#include <stdexcept>
 
 namespace lmdbench {
 namespace {
@@ -37,23 +39,49 @@ std::string scene_key(const Experiment& experiment) {
   return json.dump();
 }
 
-/// Content of inputs, each read once a sweep.
+/// An input is not what it was when the sweep began: its points cannot be told apart any more.
+class InputChanged : public InputError {
+ public:
+  explicit InputChanged(const std::filesystem::path& file)
+      : InputError(file.string(), "", "has changed since the sweep began",
+                   "run the sweep again: points of what it held before are kept and not mixed in") {}
+};
+
+/// Content of inputs when the sweep began, each read once.
 class InputHashes {
  public:
   std::string of(const std::filesystem::path& file) {
-    const auto [entry, is_new] = hashes_.try_emplace(file.string());
+    const auto [entry, is_new] = files_.try_emplace(file.lexically_normal().string());
     std::error_code ignored;
-    if (is_new && std::filesystem::exists(file, ignored)) entry->second = sha256_of_file(file);
-    return entry->second;
+    if (is_new && std::filesystem::exists(file, ignored)) {
+      const FileContent content = read_input_file(file, {.what = "file"});
+      entry->second = {"sweep", file, content.sha256, static_cast<std::int64_t>(content.bytes.size())};
+    }
+    return entry->second.sha256;
   }
+  /// @throws InputChanged where a run was prepared from other bytes
+  void check(const PreparedRun& run) {
+    for (const MeshNote& mesh : run.meshes)
+      if (mesh.file && of(*mesh.file) != mesh.sha256) throw InputChanged(*mesh.file);
+    for (const InputFile& file : run.files)
+      if (!file.file.empty() && of(file.file) != file.sha256) throw InputChanged(file.file);
+  }
+  /// Those that exist, but for the program.
+  std::vector<InputFile> files() const {
+    std::vector<InputFile> result;
+    for (const auto& [name, file] : files_)
+      if (!file.sha256.empty() && name != program().string()) result.push_back(file);
+    return result;
+  }
+  static std::filesystem::path program() { return std::filesystem::canonical("/proc/self/exe"); }
 
  private:
-  std::map<std::string, std::string> hashes_;
+  std::map<std::string, InputFile> files_;
 };
 
 /// Names a point by all that its numbers depend on.
 std::string point_key(const Sweep& sweep, const SweepPoint& point, InputHashes& hashes) {
-  Json json{{"program", hashes.of(std::filesystem::canonical("/proc/self/exe"))},
+  Json json{{"program", hashes.of(InputHashes::program())},
             {"experiment", scene_key(point.experiment)},
             {"method", Json::parse(point.experiment.methods.front().options_json)},
             {"driver", Json::parse(point.experiment.resolved_json)["driver"]},
@@ -61,17 +89,23 @@ std::string point_key(const Sweep& sweep, const SweepPoint& point, InputHashes& 
             {"truth_check_frames", sweep.truth_check_frames},
             {"from_frame", sweep.from_frame},
             {"inputs", Json::array()}};
-  for (const Experiment* experiment : {&point.experiment, &point.truth})
-    for (const std::filesystem::path& file : input_files(*experiment))
-      if (file != experiment->file) json["inputs"].push_back(hashes.of(file));
+  for (const Experiment* experiment : {&point.experiment, &point.truth}) {
+    for (const std::filesystem::path& file : input_files(*experiment)) {
+      const std::string hash = hashes.of(file);
+      if (file != experiment->file) json["inputs"].push_back(hash);
+    }
+  }
   return sha256_of_text(json.dump());
 }
 
 /// The points of one scene, path and force, with what they share. Made when the first of them has to run.
 class SharedScene {
  public:
-  SharedScene(const Sweep& sweep, const SweepPoint& point)
-      : run_(prepare(point.experiment)), in_contact_(frames_in_contact(run_.scene(), run_.input.poses)) {
+  SharedScene(const Sweep& sweep, const SweepPoint& point, InputHashes& hashes)
+      : run_(prepare(point.experiment)),
+        in_contact_(frames_in_contact(run_.scene(), run_.input.poses)),
+        hashes_(hashes) {
+    hashes_.check(run_);
     for (std::int64_t frame = 0; frame < std::min<std::int64_t>(sweep.from_frame, std::ssize(in_contact_));
          ++frame)
       in_contact_[static_cast<std::size_t>(frame)] = false;
@@ -92,6 +126,7 @@ class SharedScene {
     try {
       if (key != scene_key(point.experiment))
         truth.other = std::make_unique<PreparedRun>(prepare(point.truth));
+      if (truth.other) hashes_.check(*truth.other);
       const PreparedRun& run = truth.other ? *truth.other : run_;
       if (run.input.poses.size() != run_.input.poses.size())
         throw UsageError(sweep.file.string(), "/series", "truth has another number of frames than the point",
@@ -112,6 +147,7 @@ class SharedScene {
  private:
   PreparedRun run_;
   std::vector<bool> in_contact_;
+  InputHashes& hashes_;
   std::map<std::string, Truth> truths_;
 };
 
@@ -197,6 +233,23 @@ Json run_unit(const Sweep& sweep, const Unit& unit, SharedScene& scene, const Pr
   return line;
 }
 
+/// @throws InputError for a line that is none of ours although its key is
+PointResult finished_point(const SweepPoint& point, const std::string& key, std::int64_t repetitions,
+                           const Journal& journal) {
+  try {
+    const PointErrors errors = PointErrors::from_json(journal.find(key, 0)->at("errors"));
+    std::vector<PointRun> runs;
+    for (std::int64_t repetition = 0; repetition < repetitions; ++repetition) {
+      runs.push_back(PointRun::from_json(*journal.find(key, repetition)));
+      if (!errors.fits(runs.back())) throw std::out_of_range("unlike numbers of frames or searches");
+    }
+    return finish_point(errors, runs, point.experiment.frame_rate_hz);
+  } catch (const std::exception& error) {  // of the JSON library, or numbers that do not fit
+    throw InputError(journal.file().string(), "key " + key, std::string("a line is damaged: ") + error.what(),
+                     "remove the file and run again");
+  }
+}
+
 }  // namespace
 
 std::filesystem::path journal_of(const std::filesystem::path& file) {
@@ -208,6 +261,7 @@ SweepResult run_sweep(const Sweep& sweep, Journal& journal, const RunProgress& p
   result.points.resize(sweep.points.size());
   result.clock_overhead_s = clock_overhead();
   InputHashes hashes;
+  hashes.of(sweep.file);
   std::vector<std::string> keys;
   std::vector<std::string> scenes;                          // in order of appearance
   std::map<std::string, std::vector<std::size_t>> members;  // points of a scene
@@ -233,7 +287,7 @@ SweepResult run_sweep(const Sweep& sweep, Journal& journal, const RunProgress& p
         }
         if (!result.points[point].failure.empty()) continue;
         try {
-          if (!scene) scene = std::make_unique<SharedScene>(sweep, sweep.points[point]);
+          if (!scene) scene = std::make_unique<SharedScene>(sweep, sweep.points[point], hashes);
           Json line = run_unit(sweep, {point, repetition}, *scene, [&](std::int64_t at, std::int64_t frames) {
             return !progress || progress("truth", at, frames);
           });
@@ -242,20 +296,18 @@ SweepResult run_sweep(const Sweep& sweep, Journal& journal, const RunProgress& p
           journal.append(std::move(line));
         } catch (const EnvironmentError&) {
           throw;  // a full disk is no property of a point
+        } catch (const InputChanged&) {
+          throw;
         } catch (const Error& error) {
           result.points[point].failure = error.what();
         }
       }
     }
   }
-  for (std::size_t i = 0; i < sweep.points.size(); ++i) {
-    if (!result.points[i].failure.empty()) continue;
-    std::vector<PointRun> runs;
-    for (std::int64_t repetition = 0; repetition < sweep.repetitions; ++repetition)
-      runs.push_back(PointRun::from_json(*journal.find(keys[i], repetition)));
-    result.points[i] = finish_point(PointErrors::from_json(journal.find(keys[i], 0)->at("errors")), runs,
-                                    sweep.points[i].experiment.frame_rate_hz);
-  }
+  for (std::size_t i = 0; i < sweep.points.size(); ++i)
+    if (result.points[i].failure.empty())
+      result.points[i] = finished_point(sweep.points[i], keys[i], sweep.repetitions, journal);
+  result.inputs = hashes.files();
   return result;
 }
 
@@ -278,14 +330,7 @@ SweepResult run_sweep_to_file(const Sweep& sweep, const std::filesystem::path& f
   } remove_part{file.string() + ".part"};
   Journal journal(journal_of(file));
   SweepResult result = run_sweep(sweep, journal, progress);
-  std::vector<InputFile> files;
-  for (const std::filesystem::path& input : inputs) {
-    std::error_code ignored;
-    if (std::filesystem::exists(input, ignored))
-      files.push_back({"sweep", input, sha256_of_file(input),
-                       static_cast<std::int64_t>(std::filesystem::file_size(input, ignored))});
-  }
-  write_provenance(writer, argv, sweep.resolved_json, "{}", files);
+  write_provenance(writer, argv, sweep.resolved_json, "{}", result.inputs);
   write_sweep(writer, sweep, result);
   writer.commit();
   return result;

@@ -18,12 +18,14 @@ struct SweepResult {
   std::vector<PointResult> points;  ///< In the order of the sweep's.
   std::int64_t resumed_runs = 0;    ///< Of points and repetitions, those that the journal knew.
   double clock_overhead_s = 0.0;    ///< Part of every time.
+  std::vector<InputFile> inputs;    ///< With the hashes of the bytes that were used.
 };
 
 /// Runs the points that the journal does not know. Points of one scene, path and force take turns: each repetition
 /// goes through them in a new random order, so that neither a drift of the machine's speed nor what another point
 /// leaves in the caches favours one. A point that fails is kept as a failure and the others go on.
-/// @throws Interrupted when `progress` returned false; what is done stays in the journal
+/// @throws Interrupted when `progress` returned false; what is done stays in the journal. InputError when an input
+///         changed meanwhile, or the journal holds a damaged line of one of the points
 SweepResult run_sweep(const Sweep& sweep, Journal& journal, const RunProgress& progress = {});
 
 /// The same with a result file and, beside it, the journal `<file>.points.jsonl`. Started again it goes on where it

@@ -47,4 +47,8 @@ inline constexpr std::size_t MOST_SWEEP_POINTS = 100'000;
 ///         lengths, a closed loop (its poses differ from method to method, so there is no common truth)
 Sweep load_sweep(const std::filesystem::path& file, const std::vector<Override>& overrides = {});
 
+/// The same from text; `file` serves messages and relative names.
+Sweep parse_sweep(const std::string& text, const std::filesystem::path& file,
+                  const std::vector<Override>& overrides = {});
+
 }  // namespace lmdbench

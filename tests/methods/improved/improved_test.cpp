@@ -1,6 +1,9 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/geometry/triangle_distance.h>
+#include <lmdbench/lmd/local_tracking.h>
 #include <lmdbench/lmd/method_description.h>
+#include <lmdbench/lmd/triangle_pair.h>
 #include <lmdbench/methods/exhaustive/exhaustive.h>
 #include <lmdbench/methods/improved/improved.h>
 
@@ -8,6 +11,9 @@
 #include <support/scenes.h>
 
 #include <algorithm>
+#include <array>
+#include <ctime>
+#include <map>
 
 namespace lmdbench {
 namespace {
@@ -285,6 +291,91 @@ TEST_F(ImprovedTest, AContactKeepsItsLastDirection) {
   ASSERT_EQ(lmds.size(), 1u);
   EXPECT_EQ(lmds[0].distance, 0.0);
   EXPECT_EQ(lmds[0].direction, apart);
+}
+
+/// A cone of 4 n triangles round its tip at the origin, below it; points on a square, so that no sine is needed.
+TriangleMesh hub(int n, double sign) {
+  TriangleMesh mesh{.vertices = {Vec3::Zero()}, .triangles = {}};
+  for (int side = 0; side < 4; ++side) {
+    for (int i = 0; i < n; ++i) {
+      const double t = 2.0 * i / n - 1.0;
+      const std::array<Vec3, 4> corners{Vec3(1, t, -1), Vec3(-t, 1, -1), Vec3(-1, -t, -1), Vec3(t, -1, -1)};
+      mesh.vertices.push_back(corners[static_cast<std::size_t>(side)].cwiseProduct(Vec3(1, sign, sign)));
+    }
+  }
+  const int around = 4 * n;
+  for (int i = 0; i < around; ++i) mesh.triangles.push_back({0, 1 + i, 1 + (i + 1) % around});
+  return mesh;
+}
+
+/// L1 to L4 with the paper's cache, looking at every pair of triangles each time.
+LmdSet track_without_memory(const Scene& scene, const Pose& pose, LmdSet lmds, bool published,
+                            std::uint64_t& cache_hits) {
+  const RigidTransform X_WM(pose);
+  const Surface& moving = scene.moving->surface();
+  const Surface& fixed = scene.fixed[0]->surface();
+  std::map<std::pair<std::int32_t, std::int32_t>, std::pair<Lmd, int>> cache;
+  LmdSet kept;
+  std::sort(lmds.begin(), lmds.end(), lmd_less);
+  std::uint64_t steps = 0;
+  int number = 0;
+  for (const Lmd& lmd : lmds) {
+    const auto evaluate = [&](std::int32_t a, std::int32_t b) {
+      const auto [entry, is_new] = cache.try_emplace({a, b});
+      if (is_new)
+        entry->second = {lmd_of_triangle_pair(moving, fixed, 0, a, b,
+                                              triangle_distance(X_WM.triangle(moving.mesh.triangle(a)),
+                                                                fixed.mesh.triangle(b))),
+                         number};
+      cache_hits += !is_new;
+      return TrackedPair{entry->second.first, published && entry->second.second != number};
+    };
+    const WalkEnd end = walk_to_minimum(moving, fixed, lmd, evaluate, steps);
+    ++number;
+    if (!end.is_duplicate && (published || !holds(kept, end.lmd))) kept.push_back(end.lmd);
+  }
+  std::sort(kept.begin(), kept.end(), lmd_less);
+  return kept;
+}
+
+TEST_F(ImprovedTest, WhatIsRememberedOfTwoHubsIsWhatEveryWalkFinds) {
+  for (const Reduction reduction : {Reduction::PUBLISHED, Reduction::LOSS_FREE}) {
+    const Scene scene = make_scene(hub(11, -1.0), hub(11, 1.0), 0.3);
+    Pose pose;
+    pose.translation = {0.03, 0.02, 0.05};
+    Improved improved(scene, with(Visibility::OFF, reduction));
+    LmdSet lmds;
+    improved.search(pose, lmds, counters_);
+    EXPECT_GT(lmds.size(), 100U);
+    WorkCounters counters;
+    std::uint64_t cache_hits = 0;
+    const LmdSet expected =
+        track_without_memory(scene, pose, lmds, reduction == Reduction::PUBLISHED, cache_hits);
+    improved.track(pose, lmds, counters);
+    ASSERT_EQ(lmds.size(), expected.size());
+    for (std::size_t i = 0; i < lmds.size(); ++i) {
+      EXPECT_EQ(lmds[i].distance, expected[i].distance);
+      EXPECT_TRUE(same_feature_pair(lmds[i], expected[i]));
+      EXPECT_EQ(lmds[i].triangle_moving, expected[i].triangle_moving);
+      EXPECT_EQ(lmds[i].triangle_fixed, expected[i].triangle_fixed);
+    }
+    EXPECT_EQ(counters[Improved::Counter::CACHE_HITS], cache_hits);
+  }
+}
+
+/// 500 triangles each: 250,000 pairs, and about as many candidates, whose walks would look at 4e10 pairs.
+TEST_F(ImprovedTest, TwoHubsAreTrackedInTime) {
+  const Scene scene = make_scene(hub(125, -1.0), hub(125, 1.0), 0.3);
+  Pose pose;
+  pose.translation = {0.003, 0.002, 0.05};
+  Improved improved(scene);
+  LmdSet lmds;
+  improved.search(pose, lmds, counters_);
+  EXPECT_GT(lmds.size(), 10'000U);
+  const std::clock_t begin = std::clock();
+  improved.track(pose, lmds, counters_);
+  EXPECT_LT((std::clock() - begin) / CLOCKS_PER_SEC, 30) << "every walk looked at every pair";
+  EXPECT_FALSE(lmds.empty());
 }
 
 }  // namespace

@@ -40,6 +40,25 @@ Lmd exact_pair(const Surface& moving, const Surface& fixed, std::int32_t fixed_b
   return lmd_of_triangle_pair(moving, fixed, fixed_body, t_moving, t_fixed, triangle_distance(a, b));
 }
 
+/// `shortest_pair`, with whom it was first calculated for.
+template <class Cached>
+CrowdMemo::Entry look_at_crowd(const TriangleList& moving, const TriangleList& fixed, Cached&& cached) {
+  CrowdMemo::Entry crowd;
+  bool any = false;
+  for (const std::int32_t t_moving : moving) {
+    for (const std::int32_t t_fixed : fixed) {
+      const ResultCache::Entry& pair = cached(t_moving, t_fixed);
+      if (!any || is_shorter(pair.lmd.distance, crowd.lmd.distance)) {
+        crowd = {pair.lmd, pair.initiator, false};
+        any = true;
+      } else if (!is_shorter(crowd.lmd.distance, pair.lmd.distance)) {
+        crowd.several |= pair.initiator != crowd.initiator;
+      }
+    }
+  }
+  return crowd;
+}
+
 bool triangles_less(const Lmd& a, const Lmd& b) {
   return std::tie(a.fixed_body, a.triangle_moving, a.triangle_fixed) <
          std::tie(b.fixed_body, b.triangle_moving, b.triangle_fixed);
@@ -110,11 +129,12 @@ void Improved::track_with(Cache& cache, const Pose& X_WM, LmdSet& lmds, WorkCoun
   std::sort(lmds.begin(), lmds.end(),
             options_.tracking_order == TrackingOrder::NEAREST_FIRST ? lmd_less : triangles_less);
   cache.erase();
+  crowds_.erase();
   kept_.clear();
   std::int32_t number = 0;
   for (const Lmd& lmd : lmds) {
     const Surface& fixed = scene_.fixed[static_cast<std::size_t>(lmd.fixed_body)]->surface();
-    const auto evaluate = [&](std::int32_t t_moving, std::int32_t t_fixed) {
+    const auto cached = [&](std::int32_t t_moving, std::int32_t t_fixed) -> const ResultCache::Entry& {
       const auto [entry, known] = cache.find_or_insert(lmd.fixed_body, t_moving, t_fixed);
       if (known) {
         ++counters[Counter::CACHE_HITS];
@@ -124,10 +144,25 @@ void Improved::track_with(Cache& cache, const Pose& X_WM, LmdSet& lmds, WorkCoun
         entry->lmd = exact_pair(moving, fixed, lmd.fixed_body, t_moving, t_fixed,
                                 world_triangle(moving, transform, t_moving), fixed.mesh.triangle(t_fixed));
       }
-      return TrackedPair{entry->lmd,
-                         options_.reduction == Reduction::PUBLISHED && entry->initiator != number};
+      return *entry;
     };
-    const WalkEnd end = walk_to_minimum(moving, fixed, lmd, evaluate, counters[Counter::TRACKING_STEPS]);
+    const auto evaluate = [&](std::int32_t t_moving, std::int32_t t_fixed) {
+      const ResultCache::Entry& entry = cached(t_moving, t_fixed);
+      return TrackedPair{entry.lmd, options_.reduction == Reduction::PUBLISHED && entry.initiator != number};
+    };
+    const auto look = [&](const FeatureId& feature_moving, const FeatureId& feature_fixed) {
+      const TriangleList around_moving = moving.incident_triangles(feature_moving);
+      const TriangleList around_fixed = fixed.incident_triangles(feature_fixed);
+      const std::size_t pairs = around_moving.size() * around_fixed.size();
+      if (pairs < CROWD_PAIRS) return shortest_pair(around_moving, around_fixed, evaluate);
+      const auto [entry, known] = crowds_.find_or_look(lmd.fixed_body, feature_moving, feature_fixed, [&] {
+        return look_at_crowd(around_moving, around_fixed, cached);
+      });
+      if (known) counters[Counter::CACHE_HITS] += pairs;
+      return TrackedPair{entry.lmd,
+                         options_.reduction == Reduction::PUBLISHED && entry.seen_by_other(number)};
+    };
+    const WalkEnd end = walk_by(lmd, look, counters[Counter::TRACKING_STEPS]);
     ++number;
     const bool drop = end.is_duplicate || (options_.reduction == Reduction::LOSS_FREE &&
                                            std::any_of(kept_.begin(), kept_.end(), [&](const Lmd& other) {

@@ -4,6 +4,7 @@
 
 #include <lmdbench/lmd/method.h>
 #include <lmdbench/lmd/scene.h>
+#include <lmdbench/methods/improved/crowd_memo.h>
 #include <lmdbench/methods/improved/options.h>
 #include <lmdbench/methods/improved/plain_cache.h>
 #include <lmdbench/methods/improved/result_cache.h>
@@ -67,6 +68,7 @@ class Improved : public Method {
   DualTraversal traversal_;
   ResultCache cache_;
   PlainCache plain_cache_;  ///< In use instead where the option says so.
+  CrowdMemo crowds_;
   LmdSet kept_;
 };
 

@@ -1,0 +1,50 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <lmdbench/lmd/lmd.h>
+#include <lmdbench/lmd/local_tracking.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <tuple>
+
+namespace lmdbench {
+
+/// Triangle pairs of two neighbourhoods from which on they are a crowd. Two vertices of a scanned or remeshed surface
+/// have under 400 together, so that nothing is remembered there and the paper's algorithm costs what it costs.
+inline constexpr std::size_t CROWD_PAIRS = 1024;
+
+/// Remembers, within one local update, what the walks found round a pair of features in a crowd. Two hubs of k
+/// triangles have k^2 pairs, and up to k^2 candidates of a search walk there: looked at by each they cost k^4. What a
+/// walk finds there is the same each time, because distances and their initiators stay as they are in an update.
+class CrowdMemo {
+ public:
+  /// The shortest pair, and whom its distance and those that tie with it were first calculated for.
+  struct Entry {
+    Lmd lmd;
+    std::int32_t initiator = -1;  ///< Of the shortest pair.
+    bool several = false;         ///< Pairs that tie have other initiators.
+
+    bool seen_by_other(std::int32_t number) const { return several || initiator != number; }
+  };
+
+  void erase() { entries_.clear(); }
+
+  /// @param look () -> Entry, called where nothing is known yet
+  /// @return the entry, and whether it was there
+  template <class Look>
+  std::pair<const Entry&, bool> find_or_look(std::int32_t fixed_body, const FeatureId& moving,
+                                             const FeatureId& fixed, Look&& look) {
+    const Key key{fixed_body, moving, fixed};
+    if (const auto found = entries_.find(key); found != entries_.end()) return {found->second, true};
+    return {entries_.emplace(key, look()).first->second, false};
+  }
+
+ private:
+  using Key = std::tuple<std::int32_t, FeatureId, FeatureId>;
+  std::map<Key, Entry> entries_;
+};
+
+}  // namespace lmdbench

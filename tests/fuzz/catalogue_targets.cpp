@@ -1,0 +1,90 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/base/input_file.h>
+#include <lmdbench/base/limits.h>
+#include <lmdbench/catalogue/import.h>
+#include <lmdbench/catalogue/manifest.h>
+#include <lmdbench/catalogue/obj_check.h>
+#include <lmdbench/catalogue/off_file.h>
+#include <lmdbench/catalogue/ply_check.h>
+#include <lmdbench/catalogue/shape_recipe.h>
+#include <lmdbench/mesh/surface.h>
+#include <lmdbench/mesh/validity.h>
+
+#include "promise.h"
+#include "targets.h"
+
+#include <array>
+#include <cstddef>
+#include <string>
+
+namespace lmdbench::testing {
+namespace {
+
+/// More than this is for the slow-unit check only: the surface's tables would hide what the reader costs.
+constexpr std::size_t SMALL_MESH = 2000;
+
+std::string broken_mesh_file(const FileContent& content) {
+  return broken_unless_refused(content.file.string(), [&]() -> std::string {
+    const TriangleMesh mesh = import_mesh(content);
+    if (std::string broken = broken_mesh(mesh); !broken.empty()) return broken;
+    if (mesh.triangles.empty()) return "a mesh without triangles";
+    if (mesh.triangles.size() > SMALL_MESH) return {};
+    const ValidityReport report = check_mesh(build_surface(mesh));
+    return report.triangles == static_cast<std::int64_t>(mesh.triangles.size()) ? "" : "triangles are lost";
+  });
+}
+
+}  // namespace
+
+std::string broken_off(std::string_view bytes) {
+  const std::string broken = broken_unless_refused("fuzz.off", [&]() -> std::string {
+    const TriangleMesh mesh = parse_off(bytes, "fuzz.off");
+    if (std::string wrong = broken_mesh(mesh); !wrong.empty()) return wrong;
+    return same_mesh(parse_off(to_off_text(mesh), "fuzz.off"), mesh) ? "" : "does not read back the same";
+  });
+  return broken.empty() ? broken_mesh_file({"fuzz.off", std::string(bytes), {}}) : broken;
+}
+
+std::string broken_ply(std::string_view bytes) {
+  return broken_unless_refused("fuzz.ply", [&]() -> std::string {
+    check_ply(bytes, "fuzz.ply");
+    return {};
+  });
+}
+
+std::string broken_obj(std::string_view bytes) {
+  return broken_unless_refused("fuzz.obj", [&]() -> std::string {
+    check_obj(bytes, "fuzz.obj");
+    const std::string text = without_materials(bytes);
+    if (text.size() != bytes.size()) return "bytes have moved";
+    for (std::size_t i = 0; i < bytes.size(); ++i)
+      if (text[i] != bytes[i] && (text[i] != '#' || bytes[i] == '\n')) return "lines have changed";
+    return without_materials(text) == text ? "" : "not all lines were found";
+  });
+}
+
+std::string broken_import(std::string_view bytes) {
+  constexpr std::array<const char*, 5> FILES{"fuzz.ply", "fuzz.obj", "fuzz.stl", "fuzz.gltf", "fuzz.glb"};
+  static const bool limited = (set_limit("import-seconds=1"), set_limit("import-bytes=1000000000"), true);
+  if (bytes.empty() || !limited) return {};
+  const char* file = FILES[static_cast<unsigned char>(bytes.front()) % FILES.size()];
+  return broken_mesh_file({file, std::string(bytes.substr(1)), {}});
+}
+
+std::string broken_manifest(std::string_view bytes) {
+  static const bool limited = (set_limit("triangles=20000"), true);
+  return broken_unless_refused("fuzz/manifest.json", [&]() -> std::string {
+    const Manifest read = parse_manifest(std::string(bytes), "fuzz/manifest.json");
+    for (const ManifestEntry& entry : read.entries) {
+      if (read.built_file(entry).parent_path() != "fuzz") return "a mesh outside of the manifest's folder";
+      if (entry.source.has_value() == entry.shape.has_value()) return "neither source nor shape, or both";
+      if (!entry.shape || !limited) continue;
+      const TriangleMesh mesh = make_shape(*entry.shape, "fuzz/manifest.json", "/meshes/shape");
+      if (std::string broken = broken_mesh(mesh); !broken.empty()) return broken;
+    }
+    return {};
+  });
+}
+
+}  // namespace lmdbench::testing

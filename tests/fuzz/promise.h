@@ -1,0 +1,40 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <lmdbench/mesh/triangle_mesh.h>
+
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <string_view>
+
+/// What the checks of several formats share.
+namespace lmdbench::testing {
+
+/// Runs a reader and what checks its value.
+/// @param file  the name that refusals must begin with
+/// @param read  returns what is broken, or nothing; throws where it refuses the bytes
+/// @return empty, or what is broken
+std::string broken_unless_refused(const std::string& file, const std::function<std::string()>& read);
+
+/// Empty, or what is wrong: an index out of range, a coordinate that is not finite.
+std::string broken_mesh(const TriangleMesh& mesh);
+
+/// Whether two meshes have the same bits.
+bool same_mesh(const TriangleMesh& a, const TriangleMesh& b);
+
+/// The bytes as a regular file that has a name as long as this exists, and no place on a disk.
+class MemoryFile {
+ public:
+  explicit MemoryFile(std::string_view bytes);
+  ~MemoryFile();
+  MemoryFile(const MemoryFile&) = delete;
+  MemoryFile& operator=(const MemoryFile&) = delete;
+  std::filesystem::path name() const;
+
+ private:
+  int descriptor_;
+};
+
+}  // namespace lmdbench::testing
