@@ -242,6 +242,11 @@ class Page(unittest.TestCase):
             self.assertIn(f'<section id="{link}"', text)
         self.assertIn("hard alone", claims)
 
+    def test_a_run_without_contact_judges_nothing(self):
+        self.file = os.path.join(self.folder.name, "apart.h5")
+        write_result(self.file, true_counts=np.zeros(2000, dtype=int))
+        self.assertIn("and frames in contact", self.made()[0])
+
     def test_own_scenes_get_what_they_have_and_are_told_what_they_lack(self):
         """Labels of one's own, one method that searches in every frame, no truth probe, two profiles."""
         def relabel(h5):
