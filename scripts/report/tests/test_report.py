@@ -217,12 +217,13 @@ class Page(unittest.TestCase):
         self.assertEqual(text.count("</script>"), text.count("<script"))
 
     def test_studies_carry_their_pictures_and_the_named_ones_come_first(self):
-        for name, text in (("a-table", "# A table\n\nwords\n"), ("scaling", "# Scaling\n\n![lines](lines.png)\n[other](other.md) [web](https://example.org)\n")):
+        for name, text in (("a-table", "# A table\n\nwords\n"), ("ledger", "# Ledger\n\nwords\n"), ("scaling", "# Scaling\n\n![lines](lines.png)\n[other](other.md) [web](https://example.org)\n")):
             with open(os.path.join(self.folder.name, f"{name}.md"), "w", encoding="utf-8") as stream:
                 stream.write(text)
         Image.new("RGB", (3000, 30), "#336699").save(os.path.join(self.folder.name, "lines.png"))
-        text, _ = self.made("--study", *(os.path.join(self.folder.name, f"{name}.md") for name in ("a-table", "scaling")))
-        self.assertLess(text.index('id="study-scaling"'), text.index('id="more"'))
+        text, _ = self.made("--study", *(os.path.join(self.folder.name, f"{name}.md") for name in ("a-table", "ledger", "scaling")))
+        self.assertLess(text.index('id="study-scaling"'), text.index('id="study-ledger"'))
+        self.assertLess(text.index('id="study-ledger"'), text.index('id="more"'))
         self.assertLess(text.index('id="more"'), text.index('id="study-a-table"'))
         data = text.split('alt="lines" src="data:image/png;base64,', 1)[1].split('"', 1)[0]
         with Image.open(io.BytesIO(base64.b64decode(data))) as picture:
