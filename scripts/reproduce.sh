@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-FileCopyrightText: The lmdbench authors
 # SPDX-License-Identifier: BSD-3-Clause
-# From a fresh clone to the paper's Figure 7: packages, build, meshes, the hard and the soft experiment, a small sweep of error
+# From a fresh clone to the paper's figures: packages, build, meshes, the hard and the soft experiment, a small sweep of error
 # against run time, figures, page, summary. Leaves results/bunny-hard.h5, results/bunny-soft.h5, results/quick.h5, results/figures/
 # and results/report/index.html. The summary goes to standard output, all
 # else to standard error.
@@ -44,13 +44,22 @@ PYTHON_END
 # The program alone: tests and benchmarks are the business of scripts/test.sh.
 build_program() { cmake --preset release && cmake --build --preset release --parallel "$JOBS" --target lmdbench; }
 
-run_experiment() { "$LMDBENCH" run "experiments/$1.json" --out "results/$1.h5" </dev/null >&2; }
+# With the methods' own LMD sets, which the page shows beside the exact ones.
+run_experiment() { "$LMDBENCH" run "experiments/$1.json" --out "results/$1.h5" --set /record/lmds=true </dev/null >&2; }
+
+# Figures 1 to 6: meshes, hierarchy, tests, neighbourhoods, visibility, as the program has them on the path of soft contact.
+paper_figures() {
+  local number
+  for number in 1 2 3 4 5 6; do
+    "$PYTHON" "scripts/figures/figure$number.py" experiments/bunny-soft.json --program "$LMDBENCH" --out "$FIGURES" >&2 || return
+  done
+}
 
 # Error against run time over the search period; what a run that was stopped had measured is taken from its journal.
 run_sweep() { "$LMDBENCH" work-precision "experiments/sweeps/$1.json" --out "results/$1.h5" </dev/null >&2; }
 
 figures() {
-  mkdir -p "$FIGURES" &&
+  mkdir -p "$FIGURES" && paper_figures &&
     "$PYTHON" scripts/figures/sweep.py "$SWEEP" --out "$FIGURES" >&2 &&
     "$PYTHON" scripts/figures/figure7.py "$HARD" "$SOFT" --out "$FIGURES" >&2 &&
     "$PYTHON" scripts/figures/work_precision.py "$HARD" "$SOFT" --out "$FIGURES" >&2 &&
@@ -60,7 +69,7 @@ figures() {
 page() { "$LMDBENCH" report "$HARD" "$SOFT" "$SWEEP" --out "$REPORT" --study results/reference/*.md >&2; }
 
 step "Packages" scripts/setup.sh
-PYTHON="$(find_python h5py jinja2 markdown matplotlib numpy)"
+PYTHON="$(find_python h5py jinja2 markdown matplotlib numpy PIL)"
 HARD=results/bunny-hard.h5
 SOFT=results/bunny-soft.h5
 SWEEP=results/quick.h5

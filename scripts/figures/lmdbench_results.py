@@ -102,6 +102,8 @@ class Result:
         except OSError as error:
             raise ResultError(f"{self.file}: cannot be read: {error} (remedy: name a file that `lmdbench run` wrote)")
         found = self.text_attribute("/", "format")
+        if found == "lmdbench-part":
+            raise ResultError(f"{self.file}: is an unfinished run (remedy: finish it with lmdbench run --resume)")
         if found != FORMAT:
             raise ResultError(f"{self.file}: is not a result of lmdbench (remedy: name a file that `lmdbench run` wrote)")
         version = int(self.h5.attrs["format_version"])

@@ -9,7 +9,8 @@ import figure_style  # noqa: F401  (first: it chooses the backend)
 from lmdbench_results import ResultError
 
 from matplotlib.collections import PolyCollection
-from matplotlib.patches import Circle
+from matplotlib.patches import Circle, PathPatch
+from matplotlib.path import Path
 
 LIGHT = np.array([0.35, 0.45, 0.82])
 MOVING, FIXED = np.array([0.68, 0.80, 0.92]), np.array([0.94, 0.86, 0.70])
@@ -88,8 +89,13 @@ def draw_cone(axes, apex, axis, half_angle, length, view, colour, zorder=4):
     """A cone of directions, narrower than all of them."""
     rim = cone_rim(apex, axis, half_angle, length) @ view.T
     tip = view @ apex
-    sides = np.stack([np.broadcast_to(tip, (len(rim) - 1, 3)), rim[:-1], rim[1:]], axis=1)
-    axes.add_collection(PolyCollection(sides[:, :, :2], facecolors=colour, edgecolors="none", alpha=0.22, zorder=zorder, antialiased=False))
+    sides = np.stack([np.broadcast_to(tip, (len(rim) - 1, 3)), rim[:-1], rim[1:]], axis=1)[:, :, :2]
+    # One path of triangles that all turn the same way: filled as their union, without seams.
+    a, b = sides[:, 1] - sides[:, 0], sides[:, 2] - sides[:, 0]
+    turned = a[:, 0] * b[:, 1] < a[:, 1] * b[:, 0]
+    sides[turned] = sides[turned][:, ::-1]
+    path = Path.make_compound_path(*(Path(np.vstack([side, side[:1]]), closed=True) for side in sides))
+    axes.add_patch(PathPatch(path, facecolor=colour, edgecolor="none", alpha=0.22, zorder=zorder))
     axes.plot(rim[:, 0], rim[:, 1], color=colour, lw=0.7, zorder=zorder + 0.1)
     end = view @ (apex + length * axis)
     axes.plot([tip[0], end[0]], [tip[1], end[1]], color=colour, lw=1.1, zorder=zorder + 0.2)

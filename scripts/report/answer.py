@@ -14,8 +14,8 @@ class Row:
         self.label = method.label
         self.force_law = method.force_law
         self.number = method.number
-        self.force_error = method.number("force_error_rms_n") / method.result.maximum_force()
-        self.largest_force_error = method.number("force_error_maximum_n") / method.result.maximum_force()
+        self.force_error = method.number("force_error_rms_n") / method.constant("maximum_force_n")
+        self.largest_force_error = method.number("force_error_maximum_n") / method.constant("maximum_force_n")
 
 
 def sentence(rows):
@@ -35,7 +35,8 @@ def sentence(rows):
 
 
 def number(value, scale=1.0):
-    return f"{value * scale:.3g}" if math.isfinite(value) else "-"
+    shown = value * scale
+    return "-" if not math.isfinite(shown) else f"{shown:.0f}" if abs(shown) >= 1000 else f"{shown:.3g}"
 
 
 def summary(name, scale=1.0):

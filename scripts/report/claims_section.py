@@ -24,9 +24,9 @@ EVIDENCE = {
 
 def claims_of(results):
     """{"hard", "soft", "claims"} of the two results that have the paper's methods, or {"problem": why there is no ledger}."""
-    able = [result for result in results if {"original", "improved"} <= set(result.methods)]
+    able = [result for result in results if {"original", "improved"} <= set(result.methods) and result.number("frames_in_contact") > 0]
     if not able:
-        return {"problem": "No claim can be judged: it takes results with methods called original and improved."}
+        return {"problem": "No claim can be judged: it takes results with methods called original and improved, and frames in contact."}
     # Harder is what reaches less far.
     hard, soft = sorted([able[0], able[min(1, len(able) - 1)]], key=lambda result: result.scene("cutoff_m"))
     try:

@@ -1,8 +1,9 @@
 #!/usr/bin/env python3
 # SPDX-FileCopyrightText: The lmdbench authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""The page of a real run in a real browser: argument 1 is the program. No console error, no request, every section there,
-plots zoom together, the 3D view draws pixels that change when it is turned, nothing is wider than the window."""
+"""The page of two real runs, open and closed loop side by side, in a real browser: argument 1 is the program. No console
+error, no request, every section there, plots zoom together, the 3D view draws pixels that change when it is turned, all of it
+by keyboard, too; CSV files hold what is drawn; nothing is wider than the window."""
 
 import json
 import os
@@ -11,6 +12,8 @@ import sys
 import tempfile
 import unittest
 
+import h5py
+import numpy as np
 from selenium import webdriver
 from selenium.webdriver.chrome.options import Options
 from selenium.webdriver.chrome.service import Service
@@ -23,7 +26,7 @@ ROOT = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..")
 FLAGS = ("--headless=new", "--no-sandbox", "--disable-quic", "--no-first-run", "--disable-background-networking",
          "--disable-component-update", "--disable-sync", "--use-angle=swiftshader", "--enable-unsafe-swiftshader",
          "--ignore-gpu-blocklist", "--force-prefers-reduced-motion")
-SECTIONS = ("answer", "work_precision", "figure7", "frames", "scene", "study-claims", "omissions", "provenance")
+SECTIONS = ("answer", "work_precision", "figure7", "frames", "scene", "claims", "study-claims", "omissions", "provenance")
 PROGRAM = None
 
 
@@ -41,11 +44,13 @@ class Page(unittest.TestCase):
     def setUpClass(cls):
         cls.folder = tempfile.TemporaryDirectory()
         cls.addClassCleanup(cls.folder.cleanup)
-        result = os.path.join(cls.folder.name, "shapes.h5")
+        result, closed = (os.path.join(cls.folder.name, name) for name in ("shapes.h5", "closed.h5"))
         out = os.path.join(cls.folder.name, "page")
         run = {"check": True, "cwd": ROOT, "stdin": subprocess.DEVNULL, "stdout": subprocess.DEVNULL}
-        subprocess.run([PROGRAM, "-q", "run", "experiments/shapes.json", "--out", result, "--set", "/frames=200"], **run)
-        subprocess.run([PROGRAM, "-q", "report", result, "--out", out, "--study", "results/reference/claims.md"], **run)
+        subprocess.run([PROGRAM, "-q", "run", "experiments/shapes.json", "--out", result, "--set", "/frames=600", "--set", "/record/lmds=true",
+                        "--set", "/record/polylines={\"stride_frames\": 10}"], **run)
+        subprocess.run([PROGRAM, "-q", "run", "experiments/shapes.json", "--out", closed, "--set", "/frames=600", "--set", "/loop={\"kind\": \"closed\"}"], **run)
+        subprocess.run([PROGRAM, "-q", "report", result, closed, "--out", out, "--study", "results/reference/claims.md"], **run)
         cls.page = os.path.join(out, "index.html")
         cls.browser = open_browser()
         cls.addClassCleanup(cls.browser.quit)
@@ -100,6 +105,76 @@ class Page(unittest.TestCase):
         self.assertRegex(text, r"frame \d+, .* LMDs?")
         slider.send_keys(Keys.HOME)
         self.assertTrue(self.browser.find_element(By.CSS_SELECTOR, ".view output").text.startswith("frame 0,"))
+
+    def seen(self, selector):
+        element = self.browser.find_element(By.CSS_SELECTOR, selector)
+        self.browser.execute_script("arguments[0].scrollIntoView({block: 'center'})", element)
+        return element
+
+    def test_scene_shows_the_methods_own_sets_and_hides_them(self):
+        self.seen(".view .canvas")
+        words = self.seen(".view .choices").text
+        for choice in ("exact LMDs", "LMDs of original", "LMDs of improved", "force of improved", "intersection"):
+            self.assertIn(choice, words)
+        self.assertRegex(self.browser.find_element(By.CSS_SELECTOR, ".view output").text, r"; original \d+, improved \d+")
+        box = self.seen(".view .choices input")
+        self.browser.execute_script("page.views[0].show(Number(page.views[0].slider.value))")
+        before = self.picture()
+        box.click()
+        self.assertNotEqual(self.picture(), before)
+        box.click()
+        self.assertEqual(self.picture(), before)
+
+    def test_scene_of_a_closed_loop_has_a_device_a_method(self):
+        view = "document.querySelectorAll('.view')[1]"
+        options = self.browser.execute_script(f"return Array.from({view}.querySelectorAll('option'), (option) => option.text)")
+        self.assertEqual(sorted(options), ["device of improved", "device of original"])
+        self.assertIn("recorded no LMDs of its methods", self.browser.execute_script(f"return {view}.querySelector('.choices').textContent"))
+
+    def test_keyboard_turns_the_scene_and_zooms_the_plots(self):
+        canvas = self.seen(".view .canvas")
+        self.browser.execute_script("page.views[0].look()")
+        whole = self.picture()
+        canvas.send_keys(Keys.ARROW_RIGHT)
+        self.assertNotEqual(self.picture(), whole)
+        canvas.send_keys("0")
+        self.assertEqual(self.picture(), whole)
+        width = "const range = page.plots[0][1].xAxisRange(); return range[1] - range[0]"
+        before = self.browser.execute_script(width)
+        nearer = self.seen(".panels button[aria-label='nearer in time']")
+        nearer.send_keys(Keys.ENTER)
+        self.assertAlmostEqual(self.browser.execute_script(width), 0.5 * before, places=6)
+        self.seen(".panels button[aria-label='the whole time']").send_keys(Keys.ENTER)
+        self.assertAlmostEqual(self.browser.execute_script(width), before, places=6)
+
+    def test_slider_and_plots_show_the_same_frame(self):
+        self.browser.execute_script("page.views[0].go_to(0.25)")
+        self.assertIn("frame 250,", self.browser.execute_script("return page.views[0].output.textContent"))
+        self.seen(".view input[type=range]").send_keys(Keys.ARROW_RIGHT)
+        self.assertEqual(self.browser.execute_script("return page.plots[0].map((plot) => plot.getSelection())[0]"), 251)
+
+    def test_csv_holds_what_is_drawn(self):
+        self.browser.execute_script("window.saved = []; const make = URL.createObjectURL; URL.createObjectURL = (blob) => { blob.text().then((text) => saved.push(text)); "
+                                    "return make.call(URL, blob); }; HTMLAnchorElement.prototype.click = () => {};")
+        self.browser.execute_script("document.querySelector('.panel button').click(); document.querySelector('[data-csv-result]').click(); "
+                                    "document.querySelector('.study button').click(); document.querySelector('[data-csv-table]').click()")
+        texts = self.browser.execute_async_script("const done = arguments[0]; const wait = () => saved.length < 4 ? setTimeout(wait, 20) : done(saved); wait()")
+        panel, whole = sorted((text for text in texts if text.startswith("time [s]")), key=len)
+        lines = panel.splitlines()
+        self.assertEqual(len(lines), 601)
+        with h5py.File(os.path.join(self.folder.name, "shapes.h5")) as result:
+            force = np.linalg.norm(result["methods/improved/force"][:], axis=1)
+        column = lines[0].split(",").index("Force: improved [N]")
+        np.testing.assert_allclose([float(line.split(",")[column]) for line in lines[1:]], force, rtol=1e-6, atol=1e-9)
+        self.assertIn("Local update: improved [us]", whole.splitlines()[0])
+        self.show(1280)
+
+    def test_a_link_unfolds_its_table(self):
+        details = "return document.querySelector('#study-claims > details').open"
+        self.assertFalse(self.browser.execute_script(details))
+        self.browser.execute_script("location.hash = '#study-claims'")
+        self.assertTrue(self.browser.execute_async_script("const done = arguments[0]; setTimeout(() => done(document.querySelector('#study-claims > details').open), 100)"))
+        self.show(1280)
 
     def test_fits_a_telephone(self):
         self.show(390)

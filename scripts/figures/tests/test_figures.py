@@ -122,6 +122,11 @@ class ReadingTest(ScriptsTest):
         self.assertIn("occupied", done.stderr)
         self.assertNotIn("Traceback", done.stderr)
 
+    def test_an_unfinished_run_is_told_how_to_finish(self):
+        file = self.edited("cut.h5.part", lambda h5: h5.attrs.__setitem__("format", "lmdbench-part"))
+        with self.assertRaisesRegex(ResultError, "unfinished run.*--resume"):
+            Result(file)
+
     def test_missing_dataset_is_named(self):
         file = self.edited("lacks.h5", lambda h5: h5["/methods/original"].__delitem__("force"))
         with self.assertRaisesRegex(ResultError, "lacks.h5: /methods/original/force: is missing"):

@@ -44,6 +44,9 @@ class Register(unittest.TestCase):
             self.skipTest("not a whole working copy: commits cannot be looked up")
         for files, _, commits in rows():
             for commit in commits:
+                if commit == "the one that added it":  # a file cannot name the commit that it is in
+                    self.assertTrue(git("log", "--format=%h", "--", f"results/reference/{files[0]}").stdout.strip(), files)
+                    continue
                 self.assertEqual(git("cat-file", "-t", f"{commit}^{{commit}}").stdout.strip(), "commit", (files, commit))
 
 

@@ -217,12 +217,13 @@ class Page(unittest.TestCase):
         self.assertEqual(text.count("</script>"), text.count("<script"))
 
     def test_studies_carry_their_pictures_and_the_named_ones_come_first(self):
-        for name, text in (("a-table", "# A table\n\nwords\n"), ("scaling", "# Scaling\n\n![lines](lines.png)\n[other](other.md) [web](https://example.org)\n")):
+        for name, text in (("a-table", "# A table\n\nwords\n"), ("ledger", "# Ledger\n\nwords\n"), ("scaling", "# Scaling\n\n![lines](lines.png)\n[other](other.md) [web](https://example.org)\n")):
             with open(os.path.join(self.folder.name, f"{name}.md"), "w", encoding="utf-8") as stream:
                 stream.write(text)
         Image.new("RGB", (3000, 30), "#336699").save(os.path.join(self.folder.name, "lines.png"))
-        text, _ = self.made("--study", *(os.path.join(self.folder.name, f"{name}.md") for name in ("a-table", "scaling")))
-        self.assertLess(text.index('id="study-scaling"'), text.index('id="more"'))
+        text, _ = self.made("--study", *(os.path.join(self.folder.name, f"{name}.md") for name in ("a-table", "ledger", "scaling")))
+        self.assertLess(text.index('id="study-scaling"'), text.index('id="study-ledger"'))
+        self.assertLess(text.index('id="study-ledger"'), text.index('id="more"'))
         self.assertLess(text.index('id="more"'), text.index('id="study-a-table"'))
         data = text.split('alt="lines" src="data:image/png;base64,', 1)[1].split('"', 1)[0]
         with Image.open(io.BytesIO(base64.b64decode(data))) as picture:
@@ -241,6 +242,11 @@ class Page(unittest.TestCase):
         for link in links:
             self.assertIn(f'<section id="{link}"', text)
         self.assertIn("hard alone", claims)
+
+    def test_a_run_without_contact_judges_nothing(self):
+        self.file = os.path.join(self.folder.name, "apart.h5")
+        write_result(self.file, true_counts=np.zeros(2000, dtype=int))
+        self.assertIn("and frames in contact", self.made()[0])
 
     def test_own_scenes_get_what_they_have_and_are_told_what_they_lack(self):
         """Labels of one's own, one method that searches in every frame, no truth probe, two profiles."""

@@ -2,7 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/base/error.h>
 #include <lmdbench/base/limits.h>
+#include <lmdbench/cli/anatomy_command.h>
 #include <lmdbench/cli/commands.h>
+#include <lmdbench/cli/export_command.h>
 #include <lmdbench/cli/mesh_command.h>
 #include <lmdbench/cli/path_command.h>
 #include <lmdbench/cli/talk.h>
@@ -63,6 +65,8 @@ int run_program(int argc, char** argv) {
   add_compare_command(app, exit_status);
   add_doctor_command(app);
   add_report_command(app);
+  add_export_command(app);
+  add_anatomy_command(app);
   add_work_precision_command(app, {argv, argv + argc});
   add_mesh_command(app);
   add_path_command(app);

@@ -19,9 +19,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* MODULES = "import h5py, jinja2, markdown, matplotlib, numpy";
+constexpr const char* MODULES = "import h5py, jinja2, markdown, matplotlib, numpy, PIL";
 constexpr const char* PACKAGES =
-    "apt-get install python3-h5py python3-jinja2 python3-markdown python3-matplotlib python3-numpy";
+    "apt-get install python3-h5py python3-jinja2 python3-markdown python3-matplotlib python3-numpy "
+    "python3-pil";
 /// Where the scripts are, if not where the program was built.
 constexpr const char* SCRIPTS_VARIABLE = "LMDBENCH_SCRIPTS";
 

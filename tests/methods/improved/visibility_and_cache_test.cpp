@@ -31,6 +31,17 @@ TEST(Visibility, FacingTrianglesSeeEachOtherWhereTheyOverlap) {
   EXPECT_TRUE(see_each_other(facing_down(1.5, 1.0), facing_up(0.2), Visibility::OFF));
 }
 
+TEST(Visibility, SightTellsWhatThePreTestDecides) {
+  for (const double x : {0.0, 0.7, 1.3, 5.0}) {
+    const ShadedTriangle a = facing_down(x, 1.0), b = facing_up(0.2);
+    EXPECT_EQ(sight(a, b).overlaps && sight(b, a).overlaps, see_each_other(a, b, Visibility::VERTEX_NORMAL))
+        << x;
+    ASSERT_TRUE(sight(a, b).shadow.has_value());
+    EXPECT_EQ((*sight(a, b).shadow)[1], Vec3(x, 1, 0)) << "straight down";
+  }
+  EXPECT_FALSE(sight(facing_up(0.0), facing_up(0.0)).shadow.has_value()) << "in the plane itself";
+}
+
 TEST(Visibility, ANormalThatPointsAwayCannotCull) {
   // Back to back: no corner's normal meets the other plane, so nothing can be said (decision E6).
   ShadedTriangle away = facing_up(0.0);

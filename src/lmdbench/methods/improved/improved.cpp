@@ -19,22 +19,6 @@ Triangle world_triangle(const Surface& surface, const RigidTransform& X_WS, std:
   return X_WS.triangle(surface.mesh.triangle(triangle));
 }
 
-ShadedTriangle shaded_triangle(const Surface& surface, std::int32_t triangle) {
-  const auto t = static_cast<std::size_t>(triangle);
-  const auto& corners = surface.mesh.triangles[t];
-  const auto normal = [&](std::size_t k) {
-    return surface.vertex_pseudo_normals[static_cast<std::size_t>(corners[k])];
-  };
-  return {surface.mesh.triangle(triangle), {normal(0), normal(1), normal(2)}, surface.face_normals[t]};
-}
-
-ShadedTriangle to_world(const ShadedTriangle& t, const RigidTransform& X_WS) {
-  return {X_WS.triangle(t.corners),
-          {X_WS.direction(t.vertex_normals[0]), X_WS.direction(t.vertex_normals[1]),
-           X_WS.direction(t.vertex_normals[2])},
-          X_WS.direction(t.face_normal)};
-}
-
 Lmd exact_pair(const Surface& moving, const Surface& fixed, std::int32_t fixed_body, std::int32_t t_moving,
                std::int32_t t_fixed, const Triangle& a, const Triangle& b) {
   return lmd_of_triangle_pair(moving, fixed, fixed_body, t_moving, t_fixed, triangle_distance(a, b));

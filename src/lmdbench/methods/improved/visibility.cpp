@@ -32,26 +32,29 @@ bool some_side_separates(const Triangle2& of, const Triangle2& other) {
   return false;
 }
 
-/// Whether the projection of `seer` on the plane of `seen` overlaps `seen`, or nothing can be said.
+/// Corners of `seer` on the plane of `seen`; false where nothing can be said.
 template <Visibility VISIBILITY>
-bool may_see(const ShadedTriangle& seer, const ShadedTriangle& seen) {
+bool project(const ShadedTriangle& seer, const ShadedTriangle& seen, Triangle& projected) {
   const Vec3& normal = seen.face_normal;
-  if (normal.isZero(0.0)) return true;
-  Triangle projected;
+  if (normal.isZero(0.0)) return false;
   for (std::size_t k = 0; k < 3; ++k) {
     const double height = (seen.corners[0] - seer.corners[k]).dot(normal);
     if constexpr (VISIBILITY == Visibility::VERTEX_NORMAL) {
       const double approach = seer.vertex_normals[k].dot(normal);
       // Same signs: the ray along the vertex normal meets the plane.
-      if (!(height * approach > 0.0)) return true;
+      if (!(height * approach > 0.0)) return false;
       projected[k] = seer.corners[k] + (height / approach) * seer.vertex_normals[k];
     } else {
       projected[k] = seer.corners[k] + height * normal;
     }
   }
-  // Overlap in the plane is overlap of the shadows along the axis that the plane faces most.
+  return true;
+}
+
+/// Whether two triangles in a plane overlap: in space as in their shadows along the axis that the plane faces most.
+bool overlap(const Triangle& projected, const ShadedTriangle& seen) {
   Eigen::Index dropped = 0;
-  normal.cwiseAbs().maxCoeff(&dropped);
+  seen.face_normal.cwiseAbs().maxCoeff(&dropped);
   const Eigen::Index u = (dropped + 1) % 3, v = (dropped + 2) % 3;
   Triangle2 shadow, target;
   for (std::size_t k = 0; k < 3; ++k) {
@@ -59,6 +62,13 @@ bool may_see(const ShadedTriangle& seer, const ShadedTriangle& seen) {
     target[k] = {seen.corners[k][u], seen.corners[k][v]};
   }
   return !some_side_separates(target, shadow) && !some_side_separates(shadow, target);
+}
+
+/// Whether the projection of `seer` on the plane of `seen` overlaps `seen`, or nothing can be said.
+template <Visibility VISIBILITY>
+bool may_see(const ShadedTriangle& seer, const ShadedTriangle& seen) {
+  Triangle projected;
+  return !project<VISIBILITY>(seer, seen, projected) || overlap(projected, seen);
 }
 
 }  // namespace
@@ -73,6 +83,12 @@ bool see_each_other(const ShadedTriangle& a, const ShadedTriangle& b, Visibility
       break;
   }
   return true;
+}
+
+Sight sight(const ShadedTriangle& seer, const ShadedTriangle& seen) {
+  Triangle projected;
+  if (!project<Visibility::VERTEX_NORMAL>(seer, seen, projected)) return {};
+  return {projected, overlap(projected, seen)};
 }
 
 }  // namespace lmdbench

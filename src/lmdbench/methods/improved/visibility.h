@@ -2,10 +2,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <lmdbench/geometry/pose.h>
 #include <lmdbench/geometry/types.h>
+#include <lmdbench/mesh/surface.h>
 #include <lmdbench/methods/improved/options.h>
 
 #include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
 
 namespace lmdbench {
 
@@ -16,6 +21,23 @@ struct ShadedTriangle {
   Vec3 face_normal;                    ///< Unit, zero for a triangle without area.
 };
 
+/// A triangle of a surface, in the surface's frame.
+inline ShadedTriangle shaded_triangle(const Surface& surface, std::int32_t triangle) {
+  const auto t = static_cast<std::size_t>(triangle);
+  const auto& corners = surface.mesh.triangles[t];
+  const auto normal = [&](std::size_t k) {
+    return surface.vertex_pseudo_normals[static_cast<std::size_t>(corners[k])];
+  };
+  return {surface.mesh.triangle(triangle), {normal(0), normal(1), normal(2)}, surface.face_normals[t]};
+}
+
+inline ShadedTriangle to_world(const ShadedTriangle& t, const RigidTransform& X_WS) {
+  return {X_WS.triangle(t.corners),
+          {X_WS.direction(t.vertex_normals[0]), X_WS.direction(t.vertex_normals[1]),
+           X_WS.direction(t.vertex_normals[2])},
+          X_WS.direction(t.face_normal)};
+}
+
 /// The visibility pre-test (paper, section 4.1, Fig. 6): `a` is projected on the plane of `b`, and `b` on the
 /// plane of `a`; a pair is culled when in either plane the projection and the other triangle do not overlap.
 ///
@@ -24,5 +46,15 @@ struct ShadedTriangle {
 /// projects nowhere, and then this side culls nothing. `ORTHOGONAL` projects along the plane's normal
 /// instead; `OFF` sees everything. No policy is conservative on every mesh: reports state the recall of each.
 bool see_each_other(const ShadedTriangle& a, const ShadedTriangle& b, Visibility visibility);
+
+/// One side of the pre-test with what it looks at, for figures.
+struct Sight {
+  std::optional<Triangle>
+      shadow;            ///< Projection of the seer on the plane of the seen; unset where there is none.
+  bool overlaps = true;  ///< Whether this side lets the pair pass.
+};
+
+/// Default policy: each corner moves along its vertex normal.
+Sight sight(const ShadedTriangle& seer, const ShadedTriangle& seen);
 
 }  // namespace lmdbench

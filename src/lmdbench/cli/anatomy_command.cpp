@@ -1,0 +1,69 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/cli/anatomy_command.h>
+#include <lmdbench/experiment/anatomy.h>
+#include <lmdbench/experiment/contact.h>
+#include <lmdbench/experiment/experiment.h>
+#include <lmdbench/experiment/prepare.h>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace lmdbench {
+namespace {
+
+/// The first frame at or after a time; without one the middle of the frames in contact, or of all.
+std::size_t frame_at(const PreparedRun& prepared, std::optional<double> time) {
+  const std::vector<double>& times = prepared.times;
+  if (time) {
+    const auto later = std::lower_bound(times.begin(), times.end(), *time);
+    return std::min(static_cast<std::size_t>(later - times.begin()), times.size() - 1);
+  }
+  const std::vector<bool> in_contact = frames_in_contact(prepared.scene(), prepared.input.poses);
+  std::vector<std::size_t> touched;
+  for (std::size_t frame = 0; frame < in_contact.size(); ++frame)
+    if (in_contact[frame]) touched.push_back(frame);
+  return touched.empty() ? times.size() / 2 : touched[touched.size() / 2];
+}
+
+}  // namespace
+
+void add_anatomy_command(CLI::App& app) {
+  struct Options {
+    std::string experiment;
+    std::vector<std::string> overrides;
+    std::optional<double> time;
+    std::vector<int> levels{2, 5, 8};
+  };
+  auto* command = app.add_subcommand(
+      "anatomy",
+      "Print, as JSON, what the parts of the paper's algorithms see at one pose: levels of the hierarchy, a "
+      "node "
+      "pair for each verdict of G1 to G3, neighbourhoods of local tracking, the visibility pre-test");
+  const auto options = std::make_shared<Options>();
+  command->add_option("experiment", options->experiment, "experiment file (JSON)")->required();
+  command->add_option("--set", options->overrides, "override a value: /json/pointer=value; repeatable")
+      ->allow_extra_args(false);
+  command->add_option("--time", options->time,
+                      "time of the path [s]; without it the middle one of the frames in contact");
+  command
+      ->add_option("--level", options->levels,
+                   "levels of the moving mesh's hierarchy; nodes of the last one are tested")
+      ->check(CLI::Range(0, 64))
+      ->capture_default_str();
+  command->callback([options] {
+    const PreparedRun prepared = prepare(load_experiment(options->experiment, options->overrides));
+    const std::size_t frame = frame_at(prepared, options->time);
+    fmt::print("{}\n", anatomy_json(prepared.scene(), prepared.input.poses[frame], prepared.times[frame],
+                                    options->levels));
+  });
+}
+
+}  // namespace lmdbench

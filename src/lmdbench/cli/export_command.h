@@ -1,0 +1,14 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+namespace CLI {
+class App;
+}
+
+namespace lmdbench {
+
+/// `lmdbench export`: see commands.h.
+void add_export_command(CLI::App& app);
+
+}  // namespace lmdbench

@@ -1,0 +1,91 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/base/error.h>
+#include <lmdbench/base/file_hash.h>
+#include <lmdbench/experiment/experiment.h>
+#include <lmdbench/experiment/prepare.h>
+#include <lmdbench/experiment/result_scene.h>
+#include <lmdbench/methods/registry.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <string_view>
+
+namespace lmdbench {
+namespace {
+
+/// How the inputs of a result name the file of a mesh: "mesh:bunny-16k".
+constexpr std::string_view MESH_ROLE = "mesh:";
+
+/// Lets the experiment read its meshes where the run read them, and makes sure that they are still the same.
+void use_recorded_files(Experiment& experiment, const ResultReader& result) {
+  const std::vector<std::string> roles = result.texts("/provenance/inputs/role");
+  const std::vector<std::string> files = result.texts("/provenance/inputs/file");
+  const std::vector<std::string> hashes = result.texts("/provenance/inputs/sha256");
+  std::vector<MeshChoice*> choices{&experiment.moving};
+  for (MeshChoice& fixed : experiment.fixed) choices.push_back(&fixed);
+  for (std::size_t i = 0; i < roles.size(); ++i) {
+    if (!roles[i].starts_with(MESH_ROLE)) continue;
+    if (sha256_of_file(files[i]) != hashes[i])
+      throw InputError(files[i], "", "has changed since the run: the result was made from other bytes",
+                       "give the mesh back its content, or run the experiment again");
+    const std::string name = roles[i].substr(MESH_ROLE.size());
+    for (MeshChoice* choice : choices)
+      if (choice->mesh == name) choice->mesh = std::filesystem::absolute(files[i]).string();
+  }
+}
+
+ResultTrack track_of(const ResultReader& result, const std::string& method, std::size_t most_frames) {
+  const std::string group = method.empty() ? "/path" : "/methods/" + method + "/path";
+  const std::vector<double> times = result.reals("/path/time");
+  const std::vector<double> p = result.reals(group + "/position");
+  const std::vector<double> q = result.reals(group + "/orientation");
+  if (p.size() != 3 * times.size() || q.size() != 4 * times.size())
+    throw InputError(result.file().string(), group, "has not one pose a time", "run the experiment again");
+  const std::size_t stride = std::max<std::size_t>(1, (times.size() + most_frames - 1) / most_frames);
+  ResultTrack track{method, {}, {}};
+  for (std::size_t f = 0; f < times.size(); f += stride) {
+    const Pose pose{Vec3(p[3 * f], p[3 * f + 1], p[3 * f + 2]),
+                    Eigen::Quaterniond(q[4 * f + 3], q[4 * f], q[4 * f + 1], q[4 * f + 2])};
+    track.frames.push_back(f);
+    track.poses.push_back({times[f], pose});
+  }
+  return track;
+}
+
+}  // namespace
+
+Scene scene_of_result(const ResultReader& result) {
+  Experiment experiment =
+      parse_experiment(result.texts("/provenance/experiment").at(0),
+                       result.text_attribute("/provenance", "experiment_file").value_or(""));
+  use_recorded_files(experiment, result);
+  std::vector<MeshNote> notes;
+  Scene scene = load_scene(experiment, notes);
+  scene.cutoff = result.real_attribute("/scene", "cutoff_m").value();
+  for (const std::string& label : result.groups("/methods"))
+    scene.cutoff =
+        std::max(scene.cutoff, result.real_attribute("/methods/" + label, "cutoff_m").value_or(0.0));
+  return scene;
+}
+
+std::vector<ResultTrack> tracks_of_result(const ResultReader& result, std::size_t most_frames) {
+  std::vector<std::string> devices;
+  for (const std::string& label : result.groups("/methods"))
+    if (result.has("/methods/" + label + "/path/position")) devices.push_back(label);
+  if (devices.empty()) return {track_of(result, "", most_frames)};
+  std::vector<ResultTrack> tracks;
+  for (const std::string& label : devices)
+    tracks.push_back(track_of(result, label, std::max<std::size_t>(1, most_frames / devices.size())));
+  return tracks;
+}
+
+std::unique_ptr<Method> exact_method(const Scene& scene) {
+  for (const MethodDescription& description : method_descriptions())
+    if (description.promise == Promise::COMPLETE_SET && !description.brute_force)
+      return make_method(description.name, scene);
+  throw EnvironmentError("", "", "this build has no method that is complete in every frame",
+                         "build all methods");
+}
+
+}  // namespace lmdbench

@@ -1,0 +1,136 @@
+#!/usr/bin/env python3
+# SPDX-FileCopyrightText: The lmdbench authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""What `lmdbench export` writes (argument 1 is the program), read as VTK's readers do: every array has the length that its
+grid gives it, every index a point, every cell its end; and the numbers are those of the result."""
+
+import os
+import subprocess
+import sys
+import tempfile
+import unittest
+import xml.etree.ElementTree as ET
+
+import h5py
+import numpy as np
+
+ROOT = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..")
+TYPES = {"Float32": np.float32, "Float64": np.float64, "Int32": np.int32, "UInt8": np.uint8}
+POINTS_OF_A_CELL = {1: 1, 5: 3}  # of a polyline (4) any number
+PROGRAM = None
+
+
+def array(element):
+    components = int(element.get("NumberOfComponents"))
+    assert element.get("format") == "ascii"
+    values = np.array((element.text or "").split(), dtype=TYPES[element.get("type")])
+    return values.reshape(-1, components) if components > 1 else values
+
+
+class Grid:
+    def __init__(self, file):
+        root = ET.parse(file).getroot()
+        assert root.tag == "VTKFile" and root.get("type") == "UnstructuredGrid" and root.get("byte_order") == "LittleEndian"
+        (piece,) = root.findall("UnstructuredGrid/Piece")
+        points, cells = int(piece.get("NumberOfPoints")), int(piece.get("NumberOfCells"))
+        self.points = array(piece.find("Points/DataArray")).reshape(-1, 3)
+        named = {element.get("Name"): array(element) for element in piece.findall("Cells/DataArray")}
+        self.corners, self.ends, self.types = named["connectivity"], named["offsets"], named["types"]
+        assert len(self.points) == points and np.isfinite(self.points).all()
+        assert len(self.ends) == cells and len(self.types) == cells and len(self.corners) == (self.ends[-1] if cells else 0)
+        assert not cells or (0 <= self.corners.min() and self.corners.max() < points)
+        sizes = np.diff(np.concatenate([[0], self.ends]))
+        assert all(size == POINTS_OF_A_CELL.get(kind, size) and size > 0 for size, kind in zip(sizes, self.types))
+        self.point_data, self.cell_data = ({element.get("Name"): array(element) for element in piece.findall(f"{place}/DataArray")}
+                                           for place in ("PointData", "CellData"))
+        assert all(len(values) == points for values in self.point_data.values())
+        assert all(len(values) == cells for values in self.cell_data.values())
+
+
+def collection(file):
+    """[(time, grid)]"""
+    root = ET.parse(file).getroot()
+    assert root.tag == "VTKFile" and root.get("type") == "Collection"
+    return [(float(entry.get("timestep")), Grid(os.path.join(os.path.dirname(file), entry.get("file")))) for entry in root.findall("Collection/DataSet")]
+
+
+class ExportTest(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.folder = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(cls.folder.cleanup)
+
+    @classmethod
+    def run_and_export(cls, name, *settings):
+        result, out = (os.path.join(cls.folder.name, name + end) for end in (".h5", ""))
+        run = {"check": True, "cwd": ROOT, "stdin": subprocess.DEVNULL, "capture_output": True, "text": True}
+        subprocess.run([PROGRAM, "-q", "run", "experiments/shapes.json", "--out", result, "--set", "/frames=400",
+                        *[word for setting in settings for word in ("--set", setting)]], **run)
+        outcome = subprocess.run([PROGRAM, "-q", "export", result, "--out", out, "--frames", "8"], **run)
+        return result, out, outcome.stdout.split()
+
+    def test_open_loop(self):
+        result, out, told = self.run_and_export("open", "/record/lmds=true", "/record/polylines={\"stride_frames\": 100}")
+        self.assertEqual(sorted(os.path.basename(file) for file in told),
+                         ["fixed_0.vtu", "forces.pvd", "lmds-exact.pvd", "lmds-improved.pvd", "lmds-original.pvd", "moving.pvd", "polylines.pvd"])
+        for file in told:
+            self.assertTrue(os.path.exists(file))
+        moving = collection(os.path.join(out, "moving.pvd"))
+        with h5py.File(result) as h5:
+            stride = 400 // 8
+            np.testing.assert_allclose([time for time, _ in moving], h5["path/time"][::stride])
+            forces = collection(os.path.join(out, "forces.pvd"))
+            np.testing.assert_array_equal([grid.point_data["force of improved [N]"][0] for _, grid in forces], h5["methods/improved/force"][::stride])
+            offset = h5["methods/improved/lmds/frame_offset"][:]
+            own = collection(os.path.join(out, "lmds-improved.pvd"))
+            self.assertGreater(sum(len(grid.ends) for _, grid in own), 0)
+            for (_, grid), frame in zip(own, range(0, 400, stride)):
+                rows = slice(offset[frame], offset[frame + 1])
+                np.testing.assert_array_equal(grid.points[0::2], h5["methods/improved/lmds/point_moving"][rows])
+                np.testing.assert_array_equal(grid.points[1::2], h5["methods/improved/lmds/point_fixed"][rows])
+                np.testing.assert_array_equal(grid.cell_data["distance [m]"], h5["methods/improved/lmds/distance"][rows])
+                np.testing.assert_array_equal(grid.cell_data["feature of moving (0 vertex, 1 edge, 2 face)"],
+                                              h5["methods/improved/lmds/feature_moving_kind"][rows])
+            # The mesh stands where the path puts it: its pose from frame to frame is the path's.
+            x, y, z, w = h5["path/orientation"][stride]
+            turn = np.array([[1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)], [2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)],
+                             [2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)]])
+            x, y, z, w = h5["path/orientation"][0]
+            first = np.array([[1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)], [2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)],
+                              [2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)]])
+            own_frame = (moving[0][1].points - h5["path/position"][0]) @ first
+            np.testing.assert_allclose(moving[1][1].points, own_frame @ turn.T + h5["path/position"][stride], atol=1e-7)
+            fixed = Grid(os.path.join(out, "fixed_0.vtu"))
+            self.assertEqual(len(fixed.ends), h5["scene/fixed_0"].attrs["triangles"])
+            lines = collection(os.path.join(out, "polylines.pvd"))
+            np.testing.assert_allclose([time for time, _ in lines], h5["path/time"][::100])
+        exact = collection(os.path.join(out, "lmds-exact.pvd"))
+        self.assertGreater(sum(len(grid.ends) for _, grid in exact), 0)
+        for _, grid in exact:
+            np.testing.assert_allclose(np.linalg.norm(grid.points[1::2] - grid.points[0::2], axis=1), grid.cell_data["distance [m]"], atol=1e-12)
+
+    def test_closed_loop_has_a_mesh_a_device(self):
+        result, out, told = self.run_and_export("closed", "/loop={\"kind\": \"closed\"}")
+        names = {os.path.basename(file) for file in told}
+        self.assertLessEqual({"moving-improved.pvd", "moving-original.pvd", "forces-original.pvd", "lmds-exact-improved.pvd"}, names)
+        with h5py.File(result) as h5:
+            moved = {label: collection(os.path.join(out, f"moving-{label}.pvd")) for label in ("original", "improved")}
+            self.assertEqual(len(moved["original"]), 4, "frames are shared by the devices")
+            shift = moved["original"][-1][1].points - moved["improved"][-1][1].points
+            expected = h5["methods/original/path/position"][300] - h5["methods/improved/path/position"][300]
+            np.testing.assert_allclose(shift, np.tile(expected, (len(shift), 1)), atol=1e-7)
+
+    def test_replaces_its_own_files_and_no_others(self):
+        result, out, _ = self.run_and_export("again")
+        self.assertEqual(subprocess.run([PROGRAM, "-q", "export", result, "--out", out, "--frames", "2"], capture_output=True, check=False).returncode, 0)
+        with open(os.path.join(out, "fixed_0.vtu"), "w", encoding="utf-8") as stream:
+            stream.write("mine")
+        outcome = subprocess.run([PROGRAM, "-q", "export", result, "--out", out], capture_output=True, text=True, check=False)
+        self.assertEqual(outcome.returncode, 2, outcome.stderr)
+        with open(os.path.join(out, "fixed_0.vtu"), encoding="utf-8") as stream:
+            self.assertEqual(stream.read(), "mine")
+
+
+if __name__ == "__main__":
+    PROGRAM = os.path.abspath(sys.argv.pop(1))
+    unittest.main()
