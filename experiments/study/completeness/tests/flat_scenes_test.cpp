@@ -8,6 +8,7 @@
 #include <study/completeness/rounded_plates.h>
 
 #include <algorithm>
+#include <string>
 
 namespace lmdbench::completeness {
 namespace {
@@ -29,31 +30,53 @@ TEST(FlatScenesOfTheStudy, DependOnTheirNumbersAlone) {
   EXPECT_NE(one.poses.back().translation, other.poses.back().translation);
 }
 
+/// Rounding leaves the end of a gear in several regions (completeness.md).
+bool keeps_its_regions(const std::string& pair) {
+  return pair.find("gear") == std::string::npos;
+}
+
 TEST(FlatScenesOfTheStudy, HaveTheSameContactsWhateverTheirCoordinates) {
-  // Flat contact in nearly every pose; the design is the same, so is the number of contacts.
-  std::size_t poses = 0, alike = 0, faces = 0;
+  // The design is the same, so is the number of contacts.
+  std::size_t poses = 0, faces = 0;
   for (std::size_t pair = 0; pair < flat_pairs().size(); ++pair) {
-    const FlatScene made = make_flat_scene(pair, FlatCoordinates::AS_MADE, 5, 0);
-    const FlatScene turned = make_flat_scene(pair, FlatCoordinates::TURNED, 5, 0);
-    const FlatScene floats = make_flat_scene(pair, FlatCoordinates::FLOATS, 5, 0);
+    if (!keeps_its_regions(flat_pairs()[pair])) continue;
+    const FlatScene made = make_flat_scene(pair, FlatCoordinates::AS_MADE, 3, 0);
+    const FlatScene turned = make_flat_scene(pair, FlatCoordinates::TURNED, 3, 0);
+    const FlatScene floats = make_flat_scene(pair, FlatCoordinates::FLOATS, 3, 0);
     EXPECT_EQ(made.scene.moving->surface().mesh.planar_tolerance, 0.0);
     EXPECT_EQ(turned.scene.moving->surface().mesh.planar_tolerance, 0.0);
-    EXPECT_GT(floats.scene.moving->surface().mesh.planar_tolerance, 0.0) << floats.label;
-    EXPECT_EQ(floats.scene.moving->prepared<FlatRegions>().region_count(),
-              made.scene.moving->prepared<FlatRegions>().region_count())
+    EXPECT_GT(floats.scene.fixed[0]->surface().mesh.planar_tolerance, 0.0) << floats.label;
+    EXPECT_EQ(floats.scene.fixed[0]->prepared<FlatRegions>().region_count(),
+              made.scene.fixed[0]->prepared<FlatRegions>().region_count())
         << floats.label;
     for (std::size_t i = 0; i < made.poses.size(); i += 5) {
       const LmdSet truth = truth_of(made, made.poses[i]);
       ++poses;
-      alike += truth.size() == truth_of(turned, turned.poses[i]).size() &&
-               truth.size() == truth_of(floats, floats.poses[i]).size();
+      EXPECT_EQ(truth_of(turned, turned.poses[i]).size(), truth.size()) << turned.label << ", pose " << i;
+      EXPECT_EQ(truth_of(floats, floats.poses[i]).size(), truth.size()) << floats.label << ", pose " << i;
       faces += std::any_of(truth.begin(), truth.end(), [](const Lmd& lmd) {
         return lmd.feature_moving.kind == FeatureKind::FACE && lmd.feature_fixed.kind == FeatureKind::FACE;
       });
     }
   }
-  EXPECT_GE(alike, poses - 1);
-  EXPECT_GT(faces, poses / 2);
+  EXPECT_GT(2 * faces, poses);
+}
+
+TEST(FlatScenesOfTheStudy, AreSearchedWithoutLossAsMadeAndRounded) {
+  std::string wrong;
+  std::size_t lmds = 0;
+  for (std::size_t pair = 0; pair < flat_pairs().size(); ++pair) {
+    for (const FlatCoordinates coordinates : {FlatCoordinates::AS_MADE, FlatCoordinates::FLOATS}) {
+      if (coordinates == FlatCoordinates::FLOATS && !keeps_its_regions(flat_pairs()[pair])) continue;
+      const FlatScene flat = make_flat_scene(pair, coordinates, 3, 0);
+      const auto judged =
+          judge_poses(flat.scene, flat.diagonal, {flat.scene.cutoff / flat.diagonal}, flat.poses,
+                      [&](const std::string& what) { wrong += flat.label + ", " + what; });
+      for (const Judgement& judgement : judged.front().judgements) lmds += judgement.same.true_lmds;
+    }
+  }
+  EXPECT_EQ(wrong, "");
+  EXPECT_GT(lmds, 900u);
 }
 
 TEST(RoundedPlatesOfTheStudy, AreOneContactWhereTheDesignHasIt) {
