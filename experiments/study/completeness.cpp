@@ -1,18 +1,22 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/base/error.h>
+#include <lmdbench/base/statistics.h>
 #include <lmdbench/motion/tum_file.h>
 
 #include <CLI/CLI.hpp>
 #include <fmt/core.h>
 #include <nlohmann/json.hpp>
 #include <study/completeness/far_scenes.h>
+#include <study/completeness/flat_scenes.h>
+#include <study/completeness/rounded_plates.h>
 #include <study/completeness/study.h>
 #include <study/studies.h>
 #include <support/context.h>
 #include <support/poses.h>
 #include <support/program.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <limits>
@@ -56,7 +60,7 @@ struct CompletenessChoice : experiments::StudyChoice {
   std::vector<std::string> experiments;
   std::string poses_file;
   std::size_t truth_stride = 50;
-  std::size_t far_poses = 20000;
+  std::size_t far_poses = 20000, flat_poses = 1000, rounded_poses = 1000;
 };
 
 constexpr std::size_t MAXIMUM_COMPLAINTS = 20;
@@ -175,6 +179,46 @@ nlohmann::json run_far_scenes(const CompletenessChoice& choice, Complaints& comp
   return rows;
 }
 
+nlohmann::json run_flat_scenes(const CompletenessChoice& choice, Complaints& complaints) {
+  fmt::print(stderr, "{} poses of each pair of flat shapes\n", choice.flat_poses);
+  nlohmann::json rows = nlohmann::json::array();
+  for (const FlatResult& result :
+       judge_flat_scenes(choice.seed, choice.flat_poses, complaints.about("flat"))) {
+    nlohmann::json row = {{"pair", result.pair}, {"coordinates", name_of(result.coordinates)}};
+    Judgement all;
+    for (std::size_t v = 0; v < variants().size(); ++v) {
+      row["variants"][variants()[v].label] = to_json(result.judgements[v]);
+      all += result.judgements[v];
+    }
+    rows.push_back(row);
+    fmt::print("| {} | {} | {} | {} |\n", result.pair, name_of(result.coordinates), all.poses, numbers(all));
+    std::fflush(stdout);
+  }
+  return rows;
+}
+
+nlohmann::json run_rounded_plates(const CompletenessChoice& choice, Complaints& complaints) {
+  nlohmann::json rows = nlohmann::json::array();
+  for (const int cells : ROUNDED_PLATE_CELLS) {
+    const RoundedPlates plates =
+        judge_rounded_plates(cells, choice.seed, choice.rounded_poses, complaints.about("rounded plates"));
+    const double largest = *std::max_element(plates.seconds.begin(), plates.seconds.end());
+    fmt::print(
+        "| {} | {} | {} | {:.1e} | {:.1e} | {:.1f} | {:.1f} | {:.1f} | {} |\n", plates.triangles,
+        plates.poses, plates.one_lmd, 100.0 * plates.worst_point, plates.worst_direction,
+        1e6 * median(plates.seconds), 1e6 * quantile(plates.seconds, 0.99), 1e6 * largest,
+        std::count_if(plates.seconds.begin(), plates.seconds.end(), [](double s) { return s > 1e-3; }));
+    std::fflush(stdout);
+    rows.push_back({{"triangles", plates.triangles},
+                    {"poses", plates.poses},
+                    {"one_lmd", plates.one_lmd},
+                    {"worst_point_overlaps", plates.worst_point},
+                    {"worst_direction_rad", plates.worst_direction},
+                    {"seconds", plates.seconds}});
+  }
+  return rows;
+}
+
 int judge_completeness(const CompletenessChoice& choice) {
   Complaints complaints;
   nlohmann::json report = {{"format", "lmdbench-completeness"},
@@ -214,6 +258,29 @@ int judge_completeness(const CompletenessChoice& choice) {
     report["far"] = run_far_scenes(choice, complaints);
     save();
   }
+  if (choice.flat_poses > 0) {
+    fmt::print(
+        "\n## Flat faces\n\nA side of one shape lies over the other one, {:g} poses a pair and kind of "
+        "coordinates: as "
+        "made, turned, and turned and rounded to floats, each mesh apart.\n\n",
+        static_cast<double>(choice.flat_poses));
+    fmt::print("| shapes | coordinates | searches | {} |\n|---|---|---|---|---|---|---|---|---|---|\n",
+               NUMBER_HEADS);
+    report["flat"] = run_flat_scenes(choice, complaints);
+    save();
+  }
+  if (choice.rounded_poses > 0) {
+    fmt::print(
+        "\n## Rounded plates\n\nPlates rounded to floats, turned apart at random, against their design; from "
+        "scratch, "
+        "processor time.\n\n");
+    fmt::print(
+        "| triangles of each | poses | with one LMD | point off, % of the overlap | direction off [rad] | "
+        "median [us] | "
+        "p99 | largest | above 1 ms |\n|---|---|---|---|---|---|---|---|---|\n");
+    report["rounded_plates"] = run_rounded_plates(choice, complaints);
+    save();
+  }
   if (!choice.experiments.empty()) {
     fmt::print("\n## Along recorded paths\n\n| path | comparison | frames | {} |\n", NUMBER_HEADS);
     fmt::print("|---|---|---|---|---|---|---|---|---|---|\n");
@@ -244,6 +311,14 @@ void lmdbench::study::add_completeness(CLI::App& app, Run& chosen) {
   command
       ->add_option("--far-poses", choice->far_poses,
                    "Poses of generated scenes far from the origin, 1e-10 to 1e-5 of it large; 0: none")
+      ->capture_default_str();
+  command
+      ->add_option("--flat-poses", choice->flat_poses,
+                   "Poses of each pair of generated flat shapes, for each kind of coordinates; 0: none")
+      ->capture_default_str();
+  command
+      ->add_option("--rounded-poses", choice->rounded_poses,
+                   "Poses of plates rounded to single precision, for each number of triangles; 0: none")
       ->capture_default_str();
   experiments::add_study_options(*command, *choice);
   command->add_option("--poses-file", choice->poses_file, "Poses of this TUM file instead of random ones");

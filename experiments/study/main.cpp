@@ -17,6 +17,7 @@ int main(int argc, char** argv) {
   study::add_builders(app, chosen);
   study::add_compare(app, chosen);
   study::add_depth(app, chosen);
+  study::add_flat(app, chosen);
   study::add_integrators(app, chosen);
   study::add_stability(app, chosen);
   study::add_passivity(app, chosen);

@@ -21,6 +21,7 @@ void add_scaling(CLI::App& app, Run& chosen);
 void add_builders(CLI::App& app, Run& chosen);
 void add_compare(CLI::App& app, Run& chosen);
 void add_depth(CLI::App& app, Run& chosen);
+void add_flat(CLI::App& app, Run& chosen);
 void add_integrators(CLI::App& app, Run& chosen);
 void add_stability(CLI::App& app, Run& chosen);
 void add_passivity(CLI::App& app, Run& chosen);

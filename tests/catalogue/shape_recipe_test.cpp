@@ -3,6 +3,7 @@
 #include <lmdbench/base/error.h>
 #include <lmdbench/catalogue/shape_recipe.h>
 #include <lmdbench/catalogue/shapes.h>
+#include <lmdbench/catalogue/sleeve.h>
 #include <lmdbench/mesh/flaws.h>
 
 #include "support/message_of.h"
@@ -44,6 +45,19 @@ TEST(ShapeRecipeTest, PassesItsParametersOn) {
   expect_same(R"({"kind":"l-block","size":2})", make_l_block(2));
   expect_same(R"({"kind":"two-boxes","size":[1,2,3],"gap":0.5})", make_two_boxes({1, 2, 3}, 0.5));
   expect_same(R"({"kind":"caps","radius":1,"height":2,"count":12})", make_caps(1, 2, 12));
+  expect_same(
+      R"({"kind":"floats","rotation_xyzw":[0.6,0,0,0.8],"of":{"kind":"box","size":[1,2,3],"cells":2}})",
+      turned_to_floats(make_box({1, 2, 3}, 2), Eigen::Quaterniond(0.8, 0.6, 0.0, 0.0)));
+  const SleeveChoice sleeve{.height = 2, .around = 48, .layers = 3, .rings = 2};
+  const std::string rest = R"(,"height":2,"around":48,"layers":3,"rings":2})";
+  expect_same(
+      R"({"kind":"sleeve","outline":{"kind":"polygon","sides":6,"inradius":2},"bore":{"kind":"circle","radius":1})" +
+          rest,
+      make_sleeve(polygon_outline(6, 2), circle_outline(1), sleeve));
+  expect_same(R"({"kind":"sleeve","outline":{"kind":"gear","teeth":12,"module":0.5,"backlash":0.01})" + rest,
+              make_sleeve(gear_outline(12, 0.5, 0.01), nullptr, sleeve));
+  expect_same(R"({"kind":"sleeve","outline":{"kind":"thread","radius":1,"depth":0.2,"pitch":0.5})" + rest,
+              make_sleeve(thread_outline(1, 0.2, 0.5), nullptr, sleeve));
 }
 
 TEST(ShapeRecipeTest, MakesFlawsInOtherShapes) {
@@ -89,6 +103,28 @@ INSTANTIATE_TEST_SUITE_P(
                   "not positive"},
         BadRecipe{"flat", R"({"kind":"box","size":[1,1,0],"cells":1})", "size", "three positive"},
         BadRecipe{"planar", R"({"kind":"box","size":[1,1],"cells":1})", "size", "three positive"},
+        BadRecipe{"outline",
+                  R"({"kind":"sleeve","height":1,"around":8,"layers":1,"rings":1,"outline":{"kind":"egg"}})",
+                  "outline/kind", "circle, gear, polygon, thread"},
+        BadRecipe{
+            "outline_key",
+            R"({"kind":"sleeve","height":1,"around":8,"layers":1,"rings":1,"outline":{"kind":"circle","size":1}})",
+            "outline/radius", "is missing"},
+        BadRecipe{
+            "around",
+            R"({"kind":"sleeve","height":1,"around":9,"layers":1,"rings":1,"outline":{"kind":"polygon","sides":4,"inradius":1}})",
+            "around", "multiple of 4"},
+        BadRecipe{
+            "thin_teeth",
+            R"({"kind":"sleeve","height":1,"around":16,"layers":1,"rings":1,"outline":{"kind":"gear","teeth":8,"module":1,"backlash":0}})",
+            "around", "at least 32"},
+        BadRecipe{
+            "squares",
+            R"({"kind":"sleeve","height":1,"around":1000,"layers":5000,"rings":1,"outline":{"kind":"circle","radius":1}})",
+            "around", "at most"},
+        BadRecipe{"rotation",
+                  R"({"kind":"floats","rotation_xyzw":[0,0,0,0],"of":{"kind":"l-block","size":1}})",
+                  "rotation_xyzw", "unit quaternion"},
         BadRecipe{"fat_torus",
                   R"({"kind":"torus","ring_radius":1,"tube_radius":2,"ring_cells":9,"tube_cells":9})",
                   "tube_radius", "is 2"}),

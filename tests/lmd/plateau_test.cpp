@@ -44,7 +44,9 @@ class PlateauTest : public ::testing::Test {
   LmdSet merged(std::vector<LocalMinimum> minima) const {
     LmdSet lmds;
     std::vector<Intersection> intersections;
-    merge_plateaus(scene_, RigidTransform(), minima, intersections, lmds);
+    RigidTransform X_WM;
+    X_WM.translation.z() = HEIGHT;
+    merge_plateaus(scene_, X_WM, minima, intersections, lmds);
     return lmds;
   }
 
@@ -67,6 +69,30 @@ TEST_F(PlateauTest, PiecesAreJoinedThroughOthers) {
       face_pair(1, 1, {0.7, 0.4, 0}, 1.0), face_pair(2, 2, {1.3, 0.6, 0}, 1.0)};
   EXPECT_EQ(merged(chain).size(), 1u);
   EXPECT_EQ(merged({chain[0], chain[1]}).size(), 2u) << "the ends alone do not touch";
+}
+
+TEST_F(PlateauTest, APointIsJoinedAlongAnEdgeAsFarAsThatFacesTheOtherMesh) {
+  // Of the second sheet only the edge from the first one's corner (1, 1) to the point (1.5, 0.5) is in the plane.
+  scene_.moving = testing::make_body("moving", [] {
+    TriangleMesh tent;
+    tent.vertices = {{0, 1, 0}, {0, 0, 0}, {1, 1, 0}, {1, 0, 0.5}, {2, 1, 0.5}, {1.5, 0.5, 0}};
+    tent.triangles = {{0, 1, 2}, {2, 1, 3}, {2, 3, 5}, {5, 3, 4}};
+    return tent;
+  }());
+  const LocalMinimum face = face_pair(0, 0, {0.3, 0.6, 0}, 1.0);
+  LocalMinimum point = face_pair(2, 2, {1.5, 0.5, 0}, 0.0);
+  point.lmd.feature_moving = {FeatureKind::VERTEX, 5};
+  point.dimension = 0;
+  EXPECT_EQ(merged({face, point}).size(), 1u);
+  // Another mesh below, whose triangles share a corner too, but not the one that the edge comes from.
+  scene_.fixed = {testing::make_body("fixed", [] {
+    TriangleMesh fan;
+    fan.vertices = {{0, 1, 0}, {0, 0, 0}, {1, 1, 0}, {1.6, 0.4, 0}, {1.5, 0.6, 0}};
+    fan.triangles = {{0, 1, 2}, {1, 3, 4}};
+    return fan;
+  }())};
+  point.lmd.feature_fixed.index = point.lmd.triangle_fixed = 1;
+  EXPECT_EQ(merged({face, point}).size(), 2u);
 }
 
 TEST_F(PlateauTest, AnotherDistanceOrDirectionIsAnotherLmd) {

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <lmdbench/catalogue/shapes.h>
 #include <lmdbench/geometry/pose.h>
 #include <lmdbench/mesh/triangle_mesh.h>
 
@@ -34,13 +35,7 @@ inline TriangleMesh turned(TriangleMesh mesh, std::uint64_t seed) {
 }
 
 inline TriangleMesh rounded_to_floats(TriangleMesh mesh) {
-  for (Vec3& p : mesh.vertices)
-    for (double& x : p) {
-      // Through memory: GCC 12 was seen to drop the two conversions of neighbouring coordinates at -O3.
-      volatile float rounded = static_cast<float>(x);
-      x = static_cast<double>(rounded);
-    }
-  return mesh;
+  return turned_to_floats(std::move(mesh), Eigen::Quaterniond::Identity());
 }
 
 }  // namespace lmdbench::testing

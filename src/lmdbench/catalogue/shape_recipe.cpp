@@ -4,6 +4,7 @@
 #include <lmdbench/catalogue/mesh_limits.h>
 #include <lmdbench/catalogue/shape_recipe.h>
 #include <lmdbench/catalogue/shapes.h>
+#include <lmdbench/catalogue/sleeve.h>
 #include <lmdbench/mesh/flaws.h>
 #include <lmdbench/mesh/placement.h>
 
@@ -11,6 +12,7 @@
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
+#include <array>
 #include <cmath>
 #include <functional>
 #include <limits>
@@ -61,6 +63,22 @@ class Recipe {
       fail(key, "is not three positive lengths", "write [x, y, z] in metres");
     return result;
   }
+  Eigen::Quaterniond rotation(const char* key) {
+    const nlohmann::json& value = at(key);
+    std::array<double, 4> xyzw{};
+    bool sound = value.is_array() && value.size() == 4;
+    for (std::size_t i = 0; sound && i < 4; ++i) {
+      sound = value[i].is_number();
+      if (sound) xyzw[i] = value[i].get<double>();
+    }
+    const Eigen::Quaterniond result(xyzw[3], xyzw[0], xyzw[1], xyzw[2]);
+    if (!sound || !(result.norm() > 0.5 && result.norm() < 2.0))
+      fail(key, "is not a rotation", "write a unit quaternion [x, y, z, w]");
+    return result;
+  }
+  /// A recipe of an outline, where it is named.
+  Outline outline(const char* key, int around);
+  bool has(const char* key) const { return json_.contains(key); }
   /// A recipe within this one.
   TriangleMesh shape(const char* key) { return make_shape(at(key), file_, pointer_ + "/" + key); }
   void finish() const {
@@ -69,21 +87,55 @@ class Recipe {
         fail(key, "is not a parameter of this shape", fmt::format("it has {}", fmt::join(used_, ", ")));
   }
 
+  [[noreturn]] void fail(const std::string& key, const std::string& problem,
+                         const std::string& remedy) const {
+    throw InputError(file_, pointer_ + "/" + key, problem, remedy);
+  }
+
  private:
   const nlohmann::json& at(const char* key) {
     used_.insert(key);
     if (!json_.contains(key)) fail(key, "is missing", "the shape needs it");
     return json_.at(key);
   }
-  [[noreturn]] void fail(const std::string& key, const std::string& problem,
-                         const std::string& remedy) const {
-    throw InputError(file_, pointer_ + "/" + key, problem, remedy);
-  }
-
   const nlohmann::json& json_;
   std::string file_, pointer_;
   std::set<std::string> used_;
 };
+
+Outline Recipe::outline(const char* key, int around) {
+  const nlohmann::json& json = at(key);
+  const std::string kind = json.is_object() ? json.value("kind", std::string{}) : std::string{};
+  Recipe own(json, file_, pointer_ + "/" + key);
+  const auto must_divide = [&](int divisor) {
+    if (around % divisor != 0)
+      fail("around", fmt::format("is {}", around),
+           fmt::format("the {} needs a multiple of {}", key, divisor));
+  };
+  Outline result;
+  if (kind == "circle") {
+    result = circle_outline(own.length("radius"));
+  } else if (kind == "polygon") {
+    const int sides = own.integer("sides", 3, 1000);
+    must_divide(sides);
+    result = polygon_outline(sides, own.length("inradius"));
+  } else if (kind == "gear") {
+    const int teeth = own.integer("teeth", 8, 1000);
+    must_divide(2 * teeth);
+    if (around < 4 * teeth)
+      fail("around", fmt::format("is {}", around), fmt::format("the {} needs at least {}", key, 4 * teeth));
+    const double module = own.length("module");
+    result = gear_outline(teeth, module, own.number("backlash", 0.0, 0.2 * module));
+  } else if (kind == "thread") {
+    const double radius = own.length("radius");
+    result = thread_outline(radius, own.number("depth", 0.0, radius), own.length("pitch"));
+  } else {
+    own.fail("kind", fmt::format("there is no outline '{}'", kind),
+             "choose one of circle, gear, polygon, thread");
+  }
+  own.finish();
+  return result;
+}
 
 using Maker = std::function<TriangleMesh(Recipe&)>;
 
@@ -124,6 +176,22 @@ const std::map<std::string, Maker>& makers() {
       {"wedge",
        [](Recipe& r) { return make_wedge(r.length("width"), r.length("length"), r.length("height")); }},
       {"l-block", [](Recipe& r) { return make_l_block(r.length("size")); }},
+      {"sleeve",
+       [](Recipe& r) {
+         SleeveChoice choice;
+         choice.height = r.length("height");
+         choice.around = r.integer("around", 3, 100000);
+         choice.layers = r.integer("layers", 1, 10000);
+         choice.rings = r.integer("rings", 1, 1000);
+         if (static_cast<std::int64_t>(choice.around) * (choice.layers + choice.rings) > 1250000)
+           r.fail("around",
+                  fmt::format("and layers make {} squares",
+                              choice.around * static_cast<std::int64_t>(choice.layers + choice.rings)),
+                  "give at most 1,250,000");
+         const Outline outline = r.outline("outline", choice.around);
+         return make_sleeve(outline, r.has("bore") ? r.outline("bore", choice.around) : Outline(), choice);
+       }},
+      {"floats", [](Recipe& r) { return turned_to_floats(r.shape("of"), r.rotation("rotation_xyzw")); }},
       {"two-boxes", [](Recipe& r) { return make_two_boxes(r.lengths("size"), r.length("gap")); }},
       {"holes", [](Recipe& r) { return with_holes(r.shape("of"), r.integer("every", 2, 1000000)); }},
       {"duplicates",

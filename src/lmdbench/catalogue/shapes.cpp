@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/catalogue/rounded_circle.h>
 #include <lmdbench/catalogue/shapes.h>
 
 #include <Eigen/Geometry>
@@ -7,24 +8,12 @@
 #include <cassert>
 #include <cmath>
 #include <map>
-#include <numbers>
 #include <numeric>
 #include <utility>
 
 namespace lmdbench {
 
 namespace {
-
-// Nearest multiple of 2^-30: see the header.
-double rounded(double value) {
-  return std::ldexp(std::round(std::ldexp(value, 30)), -30);
-}
-
-// Point i of n on the unit circle.
-std::array<double, 2> circle_point(int i, int n) {
-  const double angle = 2.0 * std::numbers::pi * i / n;
-  return {rounded(std::cos(angle)), rounded(std::sin(angle))};
-}
 
 // Ridges round the spindle of needles.
 constexpr std::int32_t NEEDLE_RIDGES = 5;
@@ -129,11 +118,17 @@ TriangleMesh make_sphere(double radius, int subdivisions) {
 }
 
 TriangleMesh make_box(const Vec3& size, int cells) {
-  assert(cells >= 1);
+  return make_box(size, std::array{cells, cells, cells});
+}
+
+TriangleMesh make_box(const Vec3& size, const std::array<int, 3>& cells) {
   std::array<std::vector<double>, 3> coordinates;
-  for (std::size_t axis = 0; axis < 3; ++axis)
-    for (int i = 0; i <= cells; ++i)
-      coordinates[axis].push_back(size[static_cast<int>(axis)] * (static_cast<double>(i) / cells - 0.5));
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    assert(cells[axis] >= 1);
+    for (int i = 0; i <= cells[axis]; ++i)
+      coordinates[axis].push_back(size[static_cast<int>(axis)] *
+                                  (static_cast<double>(i) / cells[axis] - 0.5));
+  }
   return lattice_box(coordinates);
 }
 
@@ -167,7 +162,7 @@ TriangleMesh make_blob(double radius, double bump_height, int subdivisions) {
 TriangleMesh make_unequal(double radius, int cells, double ratio) {
   assert(cells >= 2 && ratio > 1.0);
   // Geometric steps; their factor is rounded like the sines.
-  const double growth = rounded(std::pow(ratio, 1.0 / (cells - 1)));
+  const double growth = rounded_to_grid(std::pow(ratio, 1.0 / (cells - 1)));
   std::vector<double> row{0.0};
   for (double step = 1.0; static_cast<int>(row.size()) <= cells; step *= growth)
     row.push_back(row.back() + step);
@@ -266,6 +261,19 @@ TriangleMesh make_l_block(double size) {
 TriangleMesh make_two_boxes(const Vec3& size, double gap) {
   const Vec3 offset(0.5 * (size.x() + gap), 0.0, 0.0);
   return merged(translated(make_box(size), -offset), translated(make_box(size), offset));
+}
+
+TriangleMesh turned_to_floats(TriangleMesh mesh, const Eigen::Quaterniond& rotation) {
+  const Eigen::Matrix3d turn = rotation.normalized().toRotationMatrix();
+  for (Vec3& vertex : mesh.vertices) {
+    const Vec3 turned = turn * vertex;
+    for (int axis = 0; axis < 3; ++axis) {
+      // Through memory: GCC 12 was seen to drop the two conversions of neighbouring coordinates at -O3.
+      volatile float rounded = static_cast<float>(turned[axis]);
+      vertex[axis] = static_cast<double>(rounded);
+    }
+  }
+  return mesh;
 }
 
 TriangleMesh translated(TriangleMesh mesh, const Vec3& offset) {

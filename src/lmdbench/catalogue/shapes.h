@@ -4,6 +4,10 @@
 
 #include <lmdbench/mesh/triangle_mesh.h>
 
+#include <Eigen/Geometry>
+
+#include <array>
+
 /// Generated shapes: for tests and for work without a network. All lengths are metres, all triangles
 /// counter-clockwise seen from outside, every shape centred at the origin. The same arguments give the same
 /// bits on every processor: sines are rounded to multiples of 2^-30, because their last bits depend on the
@@ -15,6 +19,9 @@ TriangleMesh make_sphere(double radius, int subdivisions);
 
 /// Box with `cells` by `cells` squares a side: 12 * cells^2 triangles, most edges flat.
 TriangleMesh make_box(const Vec3& size, int cells = 1);
+
+/// The same with a number of cells for each axis: a plate of n by n by 1 cells has 4 * n^2 + 8 * n triangles.
+TriangleMesh make_box(const Vec3& size, const std::array<int, 3>& cells);
 
 /// Torus about the z axis: 2 * ring_cells * tube_cells triangles; convex outside, saddles inside, genus 1.
 TriangleMesh make_torus(double ring_radius, double tube_radius, int ring_cells, int tube_cells);
@@ -51,6 +58,9 @@ TriangleMesh make_l_block(double size);
 
 /// Two equal boxes `gap` apart along x, as one mesh of two components.
 TriangleMesh make_two_boxes(const Vec3& size, double gap);
+
+/// Copy turned by a rotation (normalised here) and rounded to single precision, as an STL file holds it.
+TriangleMesh turned_to_floats(TriangleMesh mesh, const Eigen::Quaterniond& rotation);
 
 /// Copy moved by `offset`.
 TriangleMesh translated(TriangleMesh mesh, const Vec3& offset);

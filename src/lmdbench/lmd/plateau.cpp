@@ -1,14 +1,15 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include <lmdbench/geometry/convex_polygon.h>
 #include <lmdbench/lmd/first_order.h>
 #include <lmdbench/lmd/flat_pieces.h>
+#include <lmdbench/lmd/minimiser_set.h>
 #include <lmdbench/lmd/plateau.h>
-#include <lmdbench/mesh/feature_corners.h>
 #include <lmdbench/mesh/flat_regions.h>
 
 #include <algorithm>
 #include <cmath>
+#include <compare>
+#include <cstdint>
 #include <limits>
 #include <numeric>
 #include <optional>
@@ -20,15 +21,16 @@ namespace lmdbench {
 
 namespace {
 
-/// Gap, relative to the coordinates, that rounding may leave between sets of minimisers that touch.
-constexpr double TOUCHING_SETS = 1e-9;
-
-/// A vertex pair that a local minimum touches.
+/// A vertex pair of the triangles that a minimum's set lies on.
 struct Touch {
   std::int32_t fixed_body, vertex_moving, vertex_fixed;
   std::size_t minimum;
 
-  auto place() const { return std::tie(fixed_body, vertex_moving, vertex_fixed); }
+  auto operator<=>(const Touch&) const = default;
+  bool is_where(const Touch& other) const {
+    return fixed_body == other.fixed_body && vertex_moving == other.vertex_moving &&
+           vertex_fixed == other.vertex_fixed;
+  }
 };
 
 bool feature_pair_less(const Lmd& a, const Lmd& b) {
@@ -51,74 +53,70 @@ bool same_plane_of_contact(const Lmd& a, const Lmd& b, double tolerance) {
   return difference.norm() <= PLATEAU_TOLERANCE * std::max(a.distance, b.distance) + rounding;
 }
 
-/// Corners of a piece's set of minimisers, on the moving mesh: a point, a segment's ends, or the polygon in
-/// which two triangles overlap, seen along the contact's direction.
-std::vector<Vec2> corners_of(const Scene& scene, const RigidTransform& X_WM, const LocalMinimum& piece,
-                             const PlanarFrame& frame_W) {
-  const Lmd& lmd = piece.lmd;
-  const Vec2 centre = frame_W.flat(lmd.point_moving);
-  if (piece.dimension == 0) return {centre};
-  const Surface& moving = scene.moving->surface();
-  const Surface& fixed = scene.fixed[static_cast<std::size_t>(lmd.fixed_body)]->surface();
-  if (piece.dimension == 2) {
-    const ConvexPolygon overlap =
-        ConvexPolygon(frame_W, X_WM.triangle(moving.mesh.triangle(lmd.triangle_moving)))
-            .cut_by(ConvexPolygon(frame_W, fixed.mesh.triangle(lmd.triangle_fixed)));
-    return overlap.corners.empty() ? std::vector<Vec2>{centre} : overlap.corners;
-  }
-  // A segment lies along the edge of one of the two.
-  const bool on_moving = lmd.feature_moving.kind == FeatureKind::EDGE;
-  const FeatureId& edge = on_moving ? lmd.feature_moving : lmd.feature_fixed;
-  if (edge.kind != FeatureKind::EDGE) return {centre};
-  const auto& mesh = (on_moving ? moving : fixed).mesh;
-  const auto& ends = (on_moving ? moving : fixed).adjacency.edges[static_cast<std::size_t>(edge.index)];
-  const Vec3 own =
-      mesh.vertices[static_cast<std::size_t>(ends[1])] - mesh.vertices[static_cast<std::size_t>(ends[0])];
-  const Vec3 half = 0.5 * piece.measure * (on_moving ? X_WM.direction(own) : own).normalized();
-  return {frame_W.flat(lmd.point_moving - half), frame_W.flat(lmd.point_moving + half)};
-}
-
-/// Whether the sets are farther apart than the gap along the axis.
-bool is_apart(const std::vector<Vec2>& a, const std::vector<Vec2>& b, const Vec2& axis, double gap) {
-  const double length = axis.norm();
-  if (!(length > 0.0)) return false;
-  double low_a = std::numeric_limits<double>::infinity(), high_a = -low_a, low_b = low_a, high_b = -low_a;
-  for (const Vec2& x : a) {
-    low_a = std::min(low_a, axis.dot(x));
-    high_a = std::max(high_a, axis.dot(x));
-  }
-  for (const Vec2& x : b) {
-    low_b = std::min(low_b, axis.dot(x));
-    high_b = std::max(high_b, axis.dot(x));
-  }
-  return std::max(low_b - high_a, low_a - high_b) > gap * length;
-}
-
-/// Whether the sets of minimisers of two pieces of one height touch: large cells that share a corner may
-/// carry sets that are apart. Separating axes of convex polygons, segments and points: square to the sides,
-/// and along segments.
-bool sets_touch(const Scene& scene, const RigidTransform& X_WM, const LocalMinimum& a, const LocalMinimum& b,
-                double tolerance) {
-  // Points and segments may be all that a tilt of rounding leaves of one set.
-  if (std::min(a.dimension, b.dimension) < 2) return true;
-  const PlanarFrame frame(a.lmd.point_moving, a.lmd.direction);
-  const std::vector<Vec2> of_a = corners_of(scene, X_WM, a, frame), of_b = corners_of(scene, X_WM, b, frame);
-  const double coordinates =
-      std::max(a.lmd.point_moving.cwiseAbs().maxCoeff(), b.lmd.point_moving.cwiseAbs().maxCoeff());
-  const double gap = tolerance + TOUCHING_SETS * coordinates;
-  for (const auto* set : {&of_a, &of_b}) {
-    for (std::size_t k = 0; k < set->size() && set->size() > 1; ++k) {
-      const Vec2 side = (*set)[(k + 1) % set->size()] - (*set)[k];
-      if (is_apart(of_a, of_b, Vec2(-side[1], side[0]), gap)) return false;
-      if (set->size() == 2 && is_apart(of_a, of_b, side, gap)) return false;
-    }
-  }
-  return true;
-}
-
 std::size_t root_of(std::vector<std::size_t>& parents, std::size_t i) {
   while (parents[i] != i) i = parents[i] = parents[parents[i]];
   return i;
+}
+
+/// Which minima may have others in their plane of contact, by their distances alone: next to none, but in flat contact.
+/// @param tolerances of each fixed body [m]
+std::vector<bool> have_company(std::span<const LocalMinimum> minima, std::span<const double> tolerances) {
+  double coordinates = 0.0;
+  for (const LocalMinimum& minimum : minima)
+    coordinates = std::max({coordinates, minimum.lmd.point_moving.cwiseAbs().maxCoeff(),
+                            minimum.lmd.point_fixed.cwiseAbs().maxCoeff()});
+  std::vector<std::size_t> order(minima.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  const auto key = [&](std::size_t i) { return std::pair(minima[i].lmd.fixed_body, minima[i].lmd.distance); };
+  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return key(a) < key(b); });
+  std::vector<bool> result(minima.size(), false);
+  for (std::size_t k = 1; k < order.size(); ++k) {
+    const Lmd &a = minima[order[k - 1]].lmd, &b = minima[order[k]].lmd;
+    // At least what same_plane_of_contact grants: two points are less than four coordinates apart.
+    const double granted = tolerances[static_cast<std::size_t>(b.fixed_body)] +
+                           PLATEAU_TOLERANCE * b.distance + 9.0 * PLATEAU_PIECE_TOLERANCE * coordinates;
+    if (a.fixed_body == b.fixed_body && b.distance - a.distance <= granted)
+      result[order[k - 1]] = result[order[k]] = true;
+  }
+  return result;
+}
+
+/// Joins minima of one connected set of minimisers: of equal distance and direction, with sets that touch.
+/// @param parents #minima; of a union-find forest
+void join_connected(const Scene& scene, const RigidTransform& X_WM, std::span<const LocalMinimum> minima,
+                    std::vector<std::size_t>& parents) {
+  std::vector<double> tolerances;
+  for (const auto& body : scene.fixed)
+    tolerances.push_back(parallel_tolerance(scene.moving->surface(), body->surface()));
+  const std::vector<bool> has_company = have_company(minima, tolerances);
+  std::vector<std::optional<MinimiserSet>> sets(minima.size());
+  std::vector<Touch> touches;
+  for (std::size_t i = 0; i < minima.size(); ++i) {
+    if (!has_company[i]) continue;
+    const Lmd& lmd = minima[i].lmd;
+    sets[i].emplace(scene, X_WM, lmd, tolerances[static_cast<std::size_t>(lmd.fixed_body)]);
+    sets[i]->for_each_corner_pair([&](std::int32_t m, std::int32_t f) {
+      touches.push_back({lmd.fixed_body, m, f, i});
+    });
+  }
+  std::sort(touches.begin(), touches.end());
+  touches.erase(std::unique(touches.begin(), touches.end()), touches.end());
+  for (std::size_t begin = 0; begin < touches.size();) {
+    std::size_t end = begin + 1;
+    while (end < touches.size() && touches[begin].is_where(touches[end])) ++end;
+    const double tolerance = tolerances[static_cast<std::size_t>(touches[begin].fixed_body)];
+    for (std::size_t i = begin; i < end; ++i) {
+      for (std::size_t j = i + 1; j < end; ++j) {
+        const std::size_t a = touches[i].minimum, b = touches[j].minimum;
+        const std::size_t root_a = root_of(parents, a), root_b = root_of(parents, b);
+        if (root_a == root_b || !same_plane_of_contact(minima[a].lmd, minima[b].lmd, tolerance) ||
+            !sets[a]->touches(*sets[b]))
+          continue;
+        parents[std::max(root_a, root_b)] = std::min(root_a, root_b);
+      }
+    }
+    begin = end;
+  }
 }
 
 /// The flat feature that a piece's feature is part of: a region, or a straight edge; `index` counts those.
@@ -243,39 +241,9 @@ void merge_plateaus(const Scene& scene, const RigidTransform& X_WM, std::vector<
                               [](const LocalMinimum& minimum) { return minimum.lmd.intersecting; }),
                minima.end());
 
-  std::vector<Touch> touches;
-  for (std::size_t i = 0; i < minima.size(); ++i) {
-    const Lmd& lmd = minima[i].lmd;
-    const FeatureCorners on_moving(scene.moving->surface(), lmd.feature_moving);
-    const FeatureCorners on_fixed(scene.fixed[static_cast<std::size_t>(lmd.fixed_body)]->surface(),
-                                  lmd.feature_fixed);
-    // Two cells of a mesh touch when they share a corner.
-    for (const std::int32_t m : on_moving.view())
-      for (const std::int32_t f : on_fixed.view()) touches.push_back({lmd.fixed_body, m, f, i});
-  }
-  std::sort(touches.begin(), touches.end(), [](const Touch& a, const Touch& b) {
-    return std::tuple_cat(a.place(), std::tie(a.minimum)) < std::tuple_cat(b.place(), std::tie(b.minimum));
-  });
-
   std::vector<std::size_t> parents(minima.size());
   std::iota(parents.begin(), parents.end(), std::size_t{0});
-  for (std::size_t begin = 0; begin < touches.size();) {
-    const double tolerance = parallel_tolerance(
-        scene.moving->surface(), scene.fixed[static_cast<std::size_t>(touches[begin].fixed_body)]->surface());
-    std::size_t end = begin + 1;
-    while (end < touches.size() && touches[begin].place() == touches[end].place()) ++end;
-    for (std::size_t i = begin; i < end; ++i) {
-      for (std::size_t j = i + 1; j < end; ++j) {
-        const std::size_t a = touches[i].minimum, b = touches[j].minimum;
-        if (!same_plane_of_contact(minima[a].lmd, minima[b].lmd, tolerance) ||
-            !sets_touch(scene, X_WM, minima[a], minima[b], tolerance))
-          continue;
-        const std::size_t root_a = root_of(parents, a), root_b = root_of(parents, b);
-        parents[std::max(root_a, root_b)] = std::min(root_a, root_b);
-      }
-    }
-    begin = end;
-  }
+  join_connected(scene, X_WM, minima, parents);
 
   std::vector<std::size_t> order(minima.size());
   std::iota(order.begin(), order.end(), std::size_t{0});

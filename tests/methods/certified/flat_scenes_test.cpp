@@ -8,10 +8,12 @@
 #include <support/rounded.h>
 #include <support/scenes.h>
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <numbers>
 #include <string>
+#include <vector>
 
 /// Flat contact: regions and straight edges must give the sets that the triangles give.
 namespace lmdbench {
@@ -117,17 +119,88 @@ TEST(FlatScenes, NonConvexFacesAndSeveralOverlaps) {
   EXPECT_GT(blocks.found(), 40u);
 }
 
+/// Both methods, at exactly these places on the fixed mesh [m].
+void expect_contacts_at(const Scene& scene, const Pose& pose, const std::vector<Vec3>& places) {
+  for (const char* method : {"exhaustive", "certified"}) {
+    LmdSet set;
+    WorkCounters counters;
+    make_method(method, scene)->search(pose, set, counters);
+    SCOPED_TRACE(method + ("\n" + text(set)));
+    ASSERT_EQ(set.size(), places.size());
+    for (const Vec3& place : places)
+      EXPECT_TRUE(std::any_of(set.begin(), set.end(), [&](const Lmd& lmd) {
+        return (lmd.point_fixed - place).norm() < 1e-12;
+      })) << place.transpose();
+  }
+}
+
+/// A strip of two slopes under a horizontal ridge between two points: upside down, for a mesh above.
+TriangleMesh ridge_from_above(const Vec3& from, const Vec3& to) {
+  const Vec3 across = 0.5 * (to - from).cross(Vec3::UnitZ()).normalized(), up(0.0, 0.0, 0.2);
+  TriangleMesh mesh;
+  mesh.vertices = {from, to, from + across + up, to + across + up, from - across + up, to - across + up};
+  mesh.triangles = {{0, 1, 2}, {1, 3, 2}, {0, 4, 1}, {1, 4, 5}};
+  return mesh;
+}
+
+// Sets of minimisers that are apart are LMDs of their own, although their triangles share corners on both meshes: the
+// contacts are known by construction.
+
 TEST(FlatScenes, OverlapsThatAreApartAreTwoContactsHoweverLargeTheTriangles) {
-  // The two overlaps lie in triangles that share corners, by which `exhaustive` joins them (lmd/DEFINITION.md, known
-  // flaws): what is right is known by construction here.
   const Scene scene = make_scene(make_l_block(0.1), make_l_block(0.13), 0.02);
   const Pose pose{Vec3(0.068008165683898031, -0.116, 0.00074457514592900925),
                   Eigen::Quaterniond(0.93280356198851988, 0.0, -0.36038523102581421, 0.0)};
-  LmdSet set;
-  WorkCounters counters;
-  make_method("certified", scene)->search(pose, set, counters);
-  ASSERT_EQ(set.size(), 2u);
-  EXPECT_GT((set[0].point_fixed - set[1].point_fixed).norm(), 0.01);
+  for (const char* method : {"exhaustive", "certified"}) {
+    LmdSet set;
+    WorkCounters counters;
+    make_method(method, scene)->search(pose, set, counters);
+    ASSERT_EQ(set.size(), 2u) << method;
+    EXPECT_GT((set[0].point_fixed - set[1].point_fixed).norm(), 0.01) << method;
+  }
+}
+
+TEST(FlatScenes, ARidgeOverTheNotchOfAnLHasAContactOnEitherArm) {
+  // The face of the L at y = -1: arms of width 1, the notch where x > 0 and z > 0, made of triangles that all meet in
+  // the corner of the notch. The ridge runs 0.01 before it, along x + z = 0.5.
+  TriangleMesh ridge = ridge_from_above({1.5, -1.0, 0.0}, {-1.0, 1.5, 0.0});
+  for (Vec3& p : ridge.vertices) p = Vec3(p.x(), -1.01 - p.z(), p.y());
+  const Scene scene = make_scene(ridge, make_l_block(2.0), 0.02);
+  const auto middle = [](double from, double to) {
+    return Vec3(0.5 * (from + to), -1.0, 0.5 - 0.5 * (from + to));
+  };
+  expect_contacts_at(scene, {}, {middle(0.5, 1.0), middle(-0.5, 0.0)});
+}
+
+TEST(FlatScenes, ARidgeAcrossTwoRidgesThatMeetHasTwoContacts) {
+  // Two ridges of one height from the corner 0, with slopes on both sides; another ridge crosses both.
+  TriangleMesh corner;
+  corner.vertices = {{0, 0, 0},     {1, 0, 0},      {0, 1, 0},    {1, 1, -0.5},
+                     {1, -1, -0.5}, {-1, -1, -0.5}, {-1, 1, -0.5}};
+  corner.triangles = {{0, 1, 3}, {0, 3, 2}, {0, 5, 4}, {0, 4, 1}, {0, 2, 6}, {0, 6, 5}};
+  const Scene scene = make_scene(ridge_from_above({1.5, -1.0, 0.01}, {-1.0, 1.5, 0.01}), corner, 0.02);
+  expect_contacts_at(scene, {}, {{0.5, 0.0, 0.0}, {0.0, 0.5, 0.0}});
+}
+
+TEST(FlatScenes, AFaceTiltedByLessThanATolerancesIsStillOneContactAPlace) {
+  // Each triangle pair has a corner of its own for a minimum; what they have in common is one set.
+  std::mt19937_64 random(6);
+  const Scene boxes = make_scene(make_box({0.1, 0.1, 0.1}, 3), make_box({0.3, 0.3, 0.1}, 4), 0.02);
+  const Scene feet = make_scene(make_two_boxes({0.03, 0.1, 0.1}, 0.04), make_box({0.3, 0.3, 0.1}, 1), 0.02);
+  for (int i = 0; i < 30; ++i) {
+    Pose pose = on_top(random, 0.105);
+    pose.translation *= 0.5;
+    pose.translation.z() = 0.105;
+    const double tilt = std::pow(10.0, -14.0 + 3.5 * uniform(random));
+    pose.rotation = Eigen::AngleAxisd(tilt, random_direction(random)) * pose.rotation;
+    for (const char* method : {"exhaustive", "certified"}) {
+      LmdSet set;
+      WorkCounters counters;
+      make_method(method, boxes)->search(pose, set, counters);
+      EXPECT_EQ(set.size(), 1u) << method << " " << text(pose) << "\n" << text(set);
+      make_method(method, feet)->search(pose, set, counters);
+      EXPECT_EQ(set.size(), 2u) << method << " " << text(pose) << "\n" << text(set);
+    }
+  }
 }
 
 TEST(FlatScenes, EdgesOnFacesAndAlongEdges) {
