@@ -165,7 +165,9 @@ void map_stability(const Experiment& experiment, const StabilityMapGrid& grid,
           input.poses = meant_path(prepared.input.poses, grid.frames, rate, press_W,
                                    TREMOR_CUTOFF * profile.force.cutoff, seed);
           input.frames = grid.frames;
-          input.make_poses = [&] { return std::make_unique<DevicePoses>(loop, input.poses, 1.0 / rate); };
+          input.make_poses = [&] {
+            return std::make_unique<DevicePoses>(loop, input.poses, 1.0 / rate, input.reference_M);
+          };
           const MethodRecord record = run_lockstep({scaled}, input, driver, {}).front();
           measure(run, record, profile.scene, rate);
           if (!sink(run)) return;

@@ -33,7 +33,9 @@ struct StabilityRow {
   double damping_n_s_per_m = UNSET;
   /// Largest stiffness that was tried and clean; NaN where none was.
   double critical_stiffness_n_per_m = UNSET;
-  double exact_n_per_m = UNSET;  ///< Boundary of the linear loop (`phantom/stability_boundary.h`).
+  /// Boundary of the linear loop (`phantom/stability_boundary.h`); of a device that turns as well, with the lever that the contact
+  /// has at rest.
+  double exact_n_per_m = UNSET;
   double bound_n_per_m = UNSET;  ///< The sufficient bound b / (T/2 + t_d).
   /// What ends the clean range: "amplitude", "energy" or "force_above_30_hz", whichever grows fastest just above it;
   /// "device_force" where the device clips the resting force first; "nothing" where the search found no end,
