@@ -65,7 +65,7 @@ TEST(DevicePoses, OrientationIsThePathsAndThePositionInWholeCounts) {
 Experiment lever(std::vector<Override> overrides = {}) {
   overrides.insert(overrides.begin(), {"/frames=600", "/loop/push_n=[0, 0, -2]",
                                        R"(/loop/rotation/hand={"damping_n_m_s": 0.01, "stiffness_n_m": 1})"});
-  return load_experiment(LMDBENCH_SOURCE_DIR "/experiments/wall-6dof.json", overrides);
+  return load_experiment(testing::LEVER_FILE, overrides);
 }
 
 TEST(DevicePoses, SixDegreesTurnTheMeshAboutTheHeldPoint) {

@@ -46,10 +46,13 @@ class Search {
       row.clean_until = "never";
       return;
     }
-    double low = row.bound_n_per_m > 0.0 ? scale * row.bound_n_per_m / given.stiffness_n_per_m : scale;
+    const bool known = std::isfinite(row.exact_n_per_m) && row.exact_n_per_m > 0.0;
+    const double guess = known ? scale * row.exact_n_per_m / given.stiffness_n_per_m : scale;
+    double low = guess * (1.0 - FIRST_BRACKET);
     double growth_low = growth(low);
     double high = low;
     double growth_high = growth_low;
+    if (growth_low <= 0.0) growth_high = growth(high = guess * (1.0 + FIRST_BRACKET));
     // Scales of F_max bracket the growth's change of sign.
     for (int i = 0; i < MOST_BRACKETINGS && growth_low > 0.0; ++i) {
       high = std::exchange(low, low / BRACKET_FACTOR);

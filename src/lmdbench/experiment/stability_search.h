@@ -13,10 +13,11 @@
 
 /// The largest clean stiffness of a closed loop, method by method: `lmdbench stability`. The stiffness of the contact at
 /// rest is varied through F_max of the force law; each is tried as `stability_trial.h` says and judged
-/// as `cleanliness.h` says. Growth changes its sign at the critical stiffness, which is bracketed by factors of
-/// BRACKET_FACTOR and found to STIFFNESS_TOLERANCE by TOMS 748.
+/// as `cleanliness.h` says. Growth changes its sign at the critical stiffness. It is looked for FIRST_BRACKET on either side of the linear
+/// loop's boundary, from there on bracketed by factors of BRACKET_FACTOR, and found to STIFFNESS_TOLERANCE by TOMS 748.
 namespace lmdbench {
 
+inline constexpr double FIRST_BRACKET = 0.01;
 inline constexpr double BRACKET_FACTOR = 1.5;
 inline constexpr double STIFFNESS_TOLERANCE = 1e-5;  ///< Relative width of the last bracket.
 inline constexpr int MOST_BRACKETINGS = 60;
