@@ -46,7 +46,7 @@ TEST(LoopChoice, DeviceFillsWhatTheFileLeavesOut) {
   EXPECT_EQ(experiment.loop.resolution_m, 0.055e-3);
   EXPECT_EQ(experiment.loop.delay_frames, 3);
   EXPECT_FALSE(experiment.loop.dynamics.hand.has_value());
-  const auto resolved = nlohmann::json::parse_loop(experiment.resolved_json);
+  const auto resolved = nlohmann::json::parse(experiment.resolved_json);
   EXPECT_EQ(resolved["loop"]["friction_n"], 0.26) << "the record holds what was used";
   EXPECT_EQ(resolved["loop"]["push_n"], nlohmann::json({0, 0, 0}));
 }
@@ -64,7 +64,7 @@ TEST(LoopChoice, SixDegreesTakeWhatIsLeftOutFromTheTranslationAtALever) {
   EXPECT_NEAR(rotation.dynamics.hand.value().mass_kg, 0.554 * 0.01, 1e-17);
   EXPECT_NEAR(rotation.dynamics.hand.value().damping_n_s_per_m, 6.45 * 0.01, 1e-16);
   EXPECT_NEAR(rotation.dynamics.hand.value().stiffness_n_per_m, 135.0 * 0.01, 1e-14);
-  const auto resolved = nlohmann::json::parse_loop(experiment.resolved_json);
+  const auto resolved = nlohmann::json::parse(experiment.resolved_json);
   EXPECT_NEAR(resolved["loop"]["rotation"]["inertia_kg_m2"].get<double>(), 0.1 * 0.01, 1e-18);
 }
 
