@@ -102,14 +102,6 @@ TEST(StabilitySearch, TurningDeviceIsExact) {
   }
 }
 
-TEST(StabilitySearch, DeviceThatClipsItsTorqueFirstSaysSo) {
-  // 0.188 N m at 50 mm: 3.76 N, 11 mm deep 341 N/m.
-  const StabilityRow row = search_lever({"/device=phantom-premium-1.5-6dof", "/loop/push_n=[0, 0, 0]",
-                                         "/force/cutoff_m=0.031", "/loop/rotation/hand=null"});
-  EXPECT_EQ(row.clean_until, "device_force");
-  EXPECT_NEAR(row.critical_stiffness_n_per_m, 3.76 / 0.01102, 0.01 * 3.76 / 0.01102);
-}
-
 TEST(StabilitySearch, DeviceThatClipsFirstSaysSo) {
   // The Desktop renders 7.9 N at most; 11 mm deep that is 717 N/m, below the boundary.
   const StabilityRow row =
