@@ -23,7 +23,7 @@ DETAIL_AGE_FRAMES = 20  # of methods that track
 MEASURES = (
     ("amplitude_m", "amplitude, mm", 1e3), ("frequency_hz", "frequency, Hz", 1), ("force_above_30_hz_n", "above 30 Hz, N", 1),
     ("energy_created_j", "energy created, mJ", 1e3), ("power_created_w", "power created, mW", 1e3),
-    ("clearance_m", "smallest clearance, mm", 1e3), ("penetration_share", "touching, % of looks", 100),
+    ("clearance_m", "smallest clearance, mm", 1e3), ("penetration_share", "touching, % of frames", 100),
     ("effective_stiffness_p99_n_per_m", "K_eff 99 %, N/m", 1), ("jumps", "jumps", 1), ("dropouts", "dropouts", 1))
 
 
@@ -73,10 +73,13 @@ def verdict(runs):
     return text + (f", shakes {shaking}" if shaking else "") + (f", through {through}" if through else "")
 
 
-def clean_range(by_stiffness):
-    """Stiffnesses at which every run is clean: (least, most), or None."""
+def largest_clean(by_stiffness):
+    """'5000 to 11000': the largest stiffness at which every run is clean, and the next one tried, at which not all are."""
     clean = [stiffness for stiffness, runs in by_stiffness.items() if all(run["clean"] for run in runs)]
-    return (min(clean), max(clean)) if clean else None
+    if not clean:
+        return "none"
+    beyond = [stiffness for stiffness in by_stiffness if stiffness > max(clean)]
+    return f"{max(clean):g} to {min(beyond):g}" if beyond else f"{max(clean):g} and more"
 
 
 def ordered(points):
@@ -93,8 +96,7 @@ def headline(points):
         cells = []
         for method, age in columns:
             by_stiffness = points.get((scene, profile, method, age))
-            found = clean_range(by_stiffness) if by_stiffness else None
-            cells.append("not run" if not by_stiffness else f"{found[1]:g}" if found else "none")
+            cells.append(largest_clean(by_stiffness) if by_stiffness else "not run")
         lines.append(f"| {scene} | {profile} | " + " | ".join(cells) + " |")
     return "\n".join(lines)
 
@@ -133,7 +135,7 @@ def draw(points, directory):
     rows = list(dict.fromkeys((key[0], key[1]) for key in ordered(points)))
     methods = [m for m in METHODS if any(key[2] == m for key in points)]
     stiffnesses = sorted({s for by in points.values() for s in by})
-    figure, axes = plt.subplots(len(rows), len(methods), figsize=(style.TWO_COLUMNS_IN, 0.9 * len(rows) + 0.6),
+    figure, axes = plt.subplots(len(rows), len(methods), figsize=(style.TWO_COLUMNS_IN, 0.95 * len(rows) + 0.6),
                                 layout="constrained", squeeze=False)
     for row, (scene, profile) in enumerate(rows):
         for column, method in enumerate(methods):
@@ -148,19 +150,20 @@ def draw(points, directory):
             axis.set_xticks(range(len(stiffnesses)), [f"{s / 1000:g}" for s in stiffnesses] if row == len(rows) - 1 else [])
             axis.set_yticks(range(len(ages)), ages)
             axis.grid(False)
+            axis.set_facecolor(style.PALE_GREY)  # of points that were not run
             if row == 0:
                 axis.set_title(method)
             if column == 0:
-                axis.set_ylabel(f"{scene}\n{profile}")
+                axis.set_ylabel(f"{scene}, {profile}\nage, ms")
     for axis in axes[-1]:
         axis.set_xlabel("stiffness, N/mm")
-    figure.colorbar(image, ax=axes, label="share of clean runs; upward: age, ms", shrink=0.6)
+    figure.colorbar(image, ax=axes, label="share of clean runs (grey: not run)", shrink=0.6)
     return style.save(figure, directory, "stability-map")
 
 
 TEXT = """# Stability maps
 
-Made by `scripts/figures/stability_map.py` from {runs} closed loops of `lmdbench-study stability` (what a run is and what is measured
+Made by `scripts/figures/stability_map.py` from {runs} closed loops of `lmdbench-study stability`{commit} (what a run is and what is measured
 stands in `src/lmdbench/experiment/stability_map.h`). A device of 0.075 kg in the hand `postural-arm` at 1 kHz is pressed into the
 contact by {load} N while the hand trembles, {seeds} tremors a point. Stiffness is K_eff of the exact set at the first pose; all methods get
 the same F_max. Age: a search starts every so many frames and its set arrives as many later; `certified` and `nearest` search in
@@ -172,7 +175,8 @@ this hand is 12,932 N/m.
 
 ## Largest clean stiffness, N/m
 
-The largest of the stiffnesses tried at which all runs are clean. Points that were not run are named; a soft contact rests farther
+From the largest of the stiffnesses tried at which all {seeds} runs are clean (share of clean runs {certain}) to the next one, at which not all
+are. Points that were not run are named; a soft contact rests farther
 out on its exponential, so that its slope under the load (K_eff below) is less than at the first pose.
 
 {headline}
@@ -199,6 +203,7 @@ Means over the tremors, methods that track at an age of {age} ms.
 def main(argv):
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("runs", nargs="+", metavar="RUNS.jsonl", help="what 'lmdbench-study stability' printed")
+    parser.add_argument("--commit", help="of the program that made the runs, for the table")
     parser.add_argument("--out", default="results/figures", help="folder of the tables and the figure")
     options = parser.parse_args(argv)
     points = read_runs(options.runs)
@@ -208,7 +213,10 @@ def main(argv):
     every = [runs for by in points.values() for runs in by.values()]
     with open(os.path.join(options.out, "stability-map.md"), "w", encoding="ascii") as file:
         file.write(TEXT.format(runs=sum(len(runs) for runs in every), seeds=max(len(runs) for runs in every), load=1,
-                               age=DETAIL_AGE_FRAMES, headline=headline(points), counts=counts(points),
+                               age=DETAIL_AGE_FRAMES, commit=f" at commit {options.commit}" if options.commit else "",
+                               certain="[{:.2f}, {:.2f}]".format(*wilson(max(len(runs) for runs in every),
+                                                                         max(len(runs) for runs in every))),
+                               headline=headline(points), counts=counts(points),
                                details=details(points)))
     draw(points, options.out)
     return 0

@@ -39,11 +39,11 @@ LoopChoice loop_of(double mass, std::int64_t delay) {
 TEST(DevicePoses, ForceActsAfterItsDelay) {
   for (const std::int64_t delay : {0, 1, 4}) {
     DevicePoses poses(loop_of(0.1, delay), std::vector<Pose>(10), 1e-3);
-    poses.render(Vec3(1.0, 0.0, 0.0));
+    poses.render({Vec3(1.0, 0.0, 0.0)});
     for (std::int64_t frame = 0; frame < delay; ++frame) {
       EXPECT_EQ(poses.pose().translation.x(), 0.0) << "delay " << delay << ", frame " << frame;
-      const LoopFrame waiting = poses.render(Vec3::Zero()).value();
-      EXPECT_EQ(waiting.held_force.x(), frame + 1 == delay ? 1.0 : 0.0);
+      const LoopFrame waiting = poses.render({}).value();
+      EXPECT_EQ(waiting.held.force.x(), frame + 1 == delay ? 1.0 : 0.0);
     }
     EXPECT_NEAR(poses.pose().translation.x(), 0.5 * 10.0 * 1e-6, 1e-18) << "delay " << delay;
   }
@@ -55,10 +55,84 @@ TEST(DevicePoses, OrientationIsThePathsAndThePositionInWholeCounts) {
   LoopChoice loop = loop_of(0.1, 0);
   loop.resolution_m = 1e-6;
   DevicePoses poses(loop, path, 1e-3);
-  const LoopFrame start = poses.render(Vec3(0.48, 0.0, 0.0)).value();
+  const LoopFrame start = poses.render({Vec3(0.48, 0.0, 0.0)}).value();
   EXPECT_EQ(start.position.x(), 0.0);
   EXPECT_EQ(poses.pose().rotation.x(), 1.0);
   EXPECT_NEAR(poses.pose().translation.x(), 2e-6, 1e-18) << "2.4 micrometres";
+}
+
+/// Six actuated degrees of freedom: the tip, 50 mm beside the point held, meets the slab and turns the lever.
+Experiment lever(std::vector<Override> overrides = {}) {
+  overrides.insert(overrides.begin(), {"/frames=600", "/loop/push_n=[0, 0, -2]",
+                                       R"(/loop/rotation/hand={"damping_n_m_s": 0.01, "stiffness_n_m": 1})"});
+  return load_experiment(testing::LEVER_FILE, overrides);
+}
+
+TEST(DevicePoses, SixDegreesTurnTheMeshAboutTheHeldPoint) {
+  LoopChoice loop = loop_of(0.1, 0);
+  loop.rotation = RotationChoice{{2e-4, 0.0, 0.0, std::nullopt}, 0.0};
+  const Vec3 held_M(0.03, -0.01, 0.02);
+  std::vector<Pose> path(3);
+  path[0].translation = Vec3(1.0, 2.0, 3.0);
+  path[0].rotation = Eigen::Quaterniond(0.6, 0.0, 0.8, 0.0);
+  DevicePoses poses(loop, path, 1e-3, held_M);
+  EXPECT_LT((poses.pose().translation - path[0].translation).norm(), 1e-15);
+  const Vec3 held_W = RigidTransform(path[0]).point(held_M);
+  RenderedForce twist;
+  twist.torque = Vec3(0.0, 0.0, 0.5);
+  const LoopFrame start = poses.render(twist).value();
+  EXPECT_EQ(start.held.torque, twist.torque);
+  for (int n = 0; n < 20; ++n) poses.render(twist);
+  const LoopFrame later = poses.render(twist).value();
+  EXPECT_LT((RigidTransform(poses.pose()).point(held_M) - held_W).norm(), 1e-14) << "no force, only torque";
+  // J w' = t: 0.5 / 2e-4 rad/s^2.
+  EXPECT_NEAR(later.angular_velocity.z(), 2500.0 * 21e-3, 1e-10);
+  const double angle = 0.5 * 2500.0 * 21e-3 * 21e-3;
+  EXPECT_NEAR(later.orientation.angularDistance(path[0].rotation), angle, 1e-10);
+  EXPECT_NEAR(later.energy.rendered, 0.5 * angle, 1e-12);
+  const Vec3 origin_W = later.position - held_W;
+  EXPECT_LT((later.velocity - later.angular_velocity.cross(origin_W)).norm(), 1e-12)
+      << "of the mesh's origin";
+}
+
+TEST(ClosedLoop, EnergyBalanceClosesWithTheTurn) {
+  for (const char* const change :
+       {"/loop/delay_frames=0", "/loop/delay_frames=3", "/loop/rotation/friction_n_m=0.002",
+        "/loop/hand=hogan-1989", "/loop/rotation/resolution_rad=1e-4", "/loop/rotation/hand=null"}) {
+    const RunResult result = run_experiment(lever({change}));
+    const std::vector<LoopFrame>& loop = result.records[0].loop;
+    ASSERT_EQ(loop.size(), 600u);
+    double turned = 0.0;
+    double torque = 0.0;
+    for (const LoopFrame& frame : loop) {
+      ASSERT_LE(frame.energy.balance_error(), 1e-12) << change;
+      turned = std::max(turned, frame.orientation.angularDistance(Eigen::Quaterniond::Identity()));
+      torque = std::max(torque, frame.held.torque.norm());
+    }
+    EXPECT_GT(turned, 0.01) << change;
+    EXPECT_GT(torque, 0.01) << change;
+  }
+}
+
+TEST(ClosedLoop, LeverRestsWhereHandPushAndContactBalance) {
+  const RunResult result = run_experiment(lever({"/frames=2000"}));
+  const FrameRecord& rest = result.records[0].frames.back();
+  const LoopFrame& loop = result.records[0].loop.back();
+  EXPECT_NEAR(rest.force.z(), 2.0, 0.01);
+  const Vec3 turned = 2.0 * loop.orientation.vec();  // small, about the axis y
+  EXPECT_NEAR(turned.y(), rest.torque.y(), 0.02 * std::abs(rest.torque.y())) << "1 N m a radian";
+  EXPECT_NEAR(rest.torque.y(), -0.05 * 2.0, 0.01);
+}
+
+TEST(ClosedLoop, RecordedTurnReplaysTheForces) {
+  const ScratchDirectory scratch;
+  const std::filesystem::path file = scratch / "turned.tum";
+  write_tum(file, record_path(lever()));
+  const RunResult original = run_experiment(lever());
+  const RunResult replayed = run_experiment(lever({"/loop/kind=open", "/path/file=" + file.string()}));
+  ASSERT_EQ(replayed.records[0].frames.size(), original.records[0].frames.size());
+  for (std::size_t i = 0; i < replayed.records[0].frames.size(); ++i)
+    EXPECT_LT((replayed.records[0].frames[i].force - original.records[0].frames[i].force).norm(), 1e-9) << i;
 }
 
 TEST(ClosedLoop, EnergyBalanceOfARunCloses) {
@@ -124,6 +198,12 @@ TEST(ClosedLoop, ResultHoldsTheDevicesMotion) {
         "energy_push", "energy_hand", "energy_damped", "energy_friction", "energy_moved"})
     EXPECT_TRUE(result.has(std::string("/methods/certified/loop/") + name)) << name;
   EXPECT_TRUE(result.has("/methods/certified/path/position"));
+  EXPECT_FALSE(result.has("/methods/certified/loop/held_torque"));
+  const std::filesystem::path turned = scratch / "turned.h5";
+  run_experiment_to_file(lever(), turned, {"lmdbench", "run"});
+  const OpenResult six(turned);
+  for (const char* const name : {"held_torque", "angular_velocity", "torque_clipped", "energy_rendered"})
+    EXPECT_TRUE(six.has(std::string("/methods/certified/loop/") + name)) << name;
 }
 
 }  // namespace

@@ -11,5 +11,6 @@ namespace lmdbench::testing {
 
 inline const std::string SHAPES_FILE = LMDBENCH_SOURCE_DIR "/experiments/shapes.json";
 inline const std::string WALL_FILE = LMDBENCH_SOURCE_DIR "/experiments/wall.json";
+inline const std::string LEVER_FILE = LMDBENCH_SOURCE_DIR "/experiments/wall-6dof.json";
 
 }  // namespace lmdbench::testing

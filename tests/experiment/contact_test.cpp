@@ -44,12 +44,16 @@ TEST(FramesInContact, NoPoseNoFrame) {
 }
 
 /// A mesh that wanders in and out of the cutoff of two others, turning, with steps of very unlike lengths.
-TEST(FramesInContact, AForecastLeavesOutSearchesButNoContact) {
+Scene two_others() {
   Scene scene =
       testing::make_scene(scaled_to_diagonal(make_box({1, 2, 2}), 3.0), make_torus(1.0, 0.4, 24, 12), 0.05);
   TriangleMesh away = make_sphere(0.5, 2);
   for (Vec3& vertex : away.vertices) vertex.x() += 5.0;
   scene.fixed.push_back(testing::make_body("away", std::move(away)));
+  return scene;
+}
+
+std::vector<Pose> wandering() {
   std::mt19937_64 random(3);
   std::vector<Pose> poses;
   Pose pose = at(2.5);
@@ -64,11 +68,48 @@ TEST(FramesInContact, AForecastLeavesOutSearchesButNoContact) {
             .normalized();
     poses.push_back(pose);
   }
+  return poses;
+}
+
+TEST(FramesInContact, AForecastLeavesOutSearchesButNoContact) {
+  const Scene scene = two_others();
+  const std::vector<Pose> poses = wandering();
   const std::vector<bool> searched = frames_in_contact(scene, poses, false);
   EXPECT_EQ(frames_in_contact(scene, poses, true), searched);
   const auto contacts = std::count(searched.begin(), searched.end(), true);
   EXPECT_GT(contacts, 300);
   EXPECT_LT(contacts, 2700);
+}
+
+TEST(Clearance, IsTheExactDistanceHoweverFar) {
+  const Scene scene = testing::make_scene(make_sphere(0.5, 3), make_sphere(0.5, 3), 0.01);
+  EXPECT_NEAR(clearance(scene, {{at(1.75)}}).least_m, 0.75, 1e-12);
+  EXPECT_EQ(clearance(scene, {{at(1.75)}}).touching, 0);
+  EXPECT_EQ(clearance(scene, {{at(0.9)}}).least_m, 0.0);
+  EXPECT_EQ(clearance(scene, {}).touching, 0);
+}
+
+/// What is left out of the looks changes nothing: the least distance is the same bits as pose by pose, the count the same number.
+TEST(Clearance, LeavesOutLooksButNoTouch) {
+  const Scene scene = two_others();
+  const std::vector<Pose> poses = wandering();
+  Clearance each;
+  std::vector<Pose> apart;
+  for (const Pose& pose : poses) {
+    const Clearance alone = clearance(scene, {{pose}});
+    each.least_m = std::min(each.least_m, alone.least_m);
+    each.touching += alone.touching;
+    if (alone.touching == 0) apart.push_back(pose);
+  }
+  EXPECT_EQ(clearance(scene, poses).touching, each.touching);
+  EXPECT_EQ(each.least_m, 0.0);
+  EXPECT_GT(each.touching, 100);
+  EXPECT_GT(apart.size(), 100u);
+
+  double least = 1e9;
+  for (const Pose& pose : apart) least = std::min(least, clearance(scene, {{pose}}).least_m);
+  EXPECT_EQ(clearance(scene, apart).least_m, least);
+  EXPECT_EQ(clearance(scene, apart).touching, 0);
 }
 
 }  // namespace

@@ -51,6 +51,49 @@ TEST(LoopChoice, DeviceFillsWhatTheFileLeavesOut) {
   EXPECT_EQ(resolved["loop"]["push_n"], nlohmann::json({0, 0, 0}));
 }
 
+TEST(LoopChoice, SixDegreesTakeWhatIsLeftOutFromTheTranslationAtALever) {
+  EXPECT_FALSE(parse_loop({"/loop/kind=closed", "/device=ideal"}).loop.rotation.has_value());
+  const Experiment experiment = parse_loop(
+      {"/device=phantom-premium-1.5-6dof", "/loop/kind=closed", "/loop/actuated=6", "/loop/mass_kg=0.1",
+       "/loop/hand=postural-arm", "/loop/rotation/lever_m=0.1", "/loop/rotation/damping_n_m_s=0.002"});
+  const RotationChoice& rotation = experiment.loop.rotation.value();
+  EXPECT_NEAR(rotation.dynamics.mass_kg, 0.1 * 0.01, 1e-18);
+  EXPECT_EQ(rotation.dynamics.damping_n_s_per_m, 0.002);
+  EXPECT_NEAR(rotation.dynamics.friction_n, 0.04 * 0.1, 1e-18);
+  EXPECT_NEAR(rotation.resolution_rad, 0.03e-3 / 0.1, 1e-18);
+  EXPECT_NEAR(rotation.dynamics.hand.value().mass_kg, 0.554 * 0.01, 1e-17);
+  EXPECT_NEAR(rotation.dynamics.hand.value().damping_n_s_per_m, 6.45 * 0.01, 1e-16);
+  EXPECT_NEAR(rotation.dynamics.hand.value().stiffness_n_per_m, 135.0 * 0.01, 1e-14);
+  const auto resolved = nlohmann::json::parse(experiment.resolved_json);
+  EXPECT_NEAR(resolved["loop"]["rotation"]["inertia_kg_m2"].get<double>(), 0.1 * 0.01, 1e-18);
+}
+
+TEST(LoopChoice, TurningHandIsNoneOrGivenByItsFigures) {
+  const std::vector<Override> six{"/device=ideal", "/loop/kind=closed", "/loop/actuated=6",
+                                  "/loop/hand=postural-arm"};
+  const auto rotation = [&](const std::string& hand) {
+    std::vector<Override> overrides = six;
+    overrides.push_back("/loop/rotation/hand=" + hand);
+    return parse_loop(overrides).loop.rotation.value().dynamics;
+  };
+  EXPECT_FALSE(rotation("null").hand.has_value());
+  const Hand hand =
+      rotation(R"({"inertia_kg_m2": 1e-3, "damping_n_m_s": 0.02, "stiffness_n_m": 2})").hand.value();
+  EXPECT_EQ(hand.mass_kg, 1e-3);
+  EXPECT_EQ(hand.damping_n_s_per_m, 0.02);
+  EXPECT_EQ(hand.stiffness_n_per_m, 2.0);
+  EXPECT_FALSE(hand.has_grip());
+}
+
+TEST(LoopChoice, SixDegreesNeedADeviceThatRendersTorque) {
+  EXPECT_THAT(loop_message({"/device=phantom-desktop", "/loop/actuated=6"}),
+              AllOf(HasSubstr("/loop/actuated"), HasSubstr("'phantom-desktop' renders no torque"),
+                    HasSubstr("phantom-premium-1.5-6dof")));
+  EXPECT_THAT(loop_message({"/device=ideal", "/loop/actuated=4"}), HasSubstr("/loop/actuated"));
+  EXPECT_THAT(loop_message({"/device=ideal", "/loop/rotation/lever_m=0"}),
+              HasSubstr("/loop/rotation/lever_m"));
+}
+
 TEST(LoopChoice, HandIsNamedOrGivenByItsFigures) {
   const Experiment named = parse_loop({"/loop/hand=speich-2005"});
   EXPECT_EQ(named.loop.dynamics.hand.value().grip_stiffness_n_per_m, 375.0);

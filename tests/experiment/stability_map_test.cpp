@@ -1,12 +1,10 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/base/error.h>
-#include <lmdbench/experiment/contact.h>
 #include <lmdbench/experiment/stability_map.h>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
-#include <support/scenes.h>
 #include <support/source_directory.h>
 
 #include <string>
@@ -90,13 +88,18 @@ TEST(StabilityMap, StopsWhenAskedAndRefusesWhatCannotShake) {
   refused({R"(/force={"cutoff_m": 0.0001, "maximum_force_n": 1})"}, grid);
 }
 
-TEST(Clearance, IsTheExactDistanceHoweverFar) {
-  const Scene scene = testing::make_scene(make_sphere(0.5, 3), make_sphere(0.5, 3), 0.01);
-  Pose pose;
-  pose.translation = Vec3(1.75, 0.0, 0.0);
-  EXPECT_NEAR(clearance(scene, pose), 0.75, 1e-12);
-  pose.translation = Vec3(0.9, 0.0, 0.0);
-  EXPECT_EQ(clearance(scene, pose), 0.0);
+TEST(StabilityMap, LeavesOutWhatIsNotWanted) {
+  std::vector<StabilityMapRun> found;
+  map_stability(
+      load_experiment(WEDGE, {CERTIFIED, HARD_ONLY}), {{1500.0, 5000.0}, {0}, 2, 700},
+      [&](const StabilityMapRun& run) {
+        found.push_back(run);
+        return true;
+      },
+      [](const StabilityMapRun& run) { return run.seed == 2 && run.stiffness_n_per_m == 5000.0; });
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_EQ(found[0].seed, 2);
+  EXPECT_EQ(found[0].stiffness_n_per_m, 5000.0);
 }
 
 }  // namespace

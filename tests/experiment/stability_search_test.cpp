@@ -14,6 +14,7 @@
 #include <cstdlib>
 #include <random>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -39,6 +40,14 @@ TEST(StabilitySearch, WallReproducesTheExactTable) {
 int device_count() {
   const char* const wanted = std::getenv("LMDBENCH_STABILITY_DEVICES");
   return wanted != nullptr ? std::atoi(wanted) : 5;
+}
+
+/// The softest boundary of the range that scripts ask for still carries the file's push.
+TEST(StabilitySearch, WallFindsVerySoftBoundaries) {
+  const StabilityRow row = search(
+      {"/loop/mass_kg=0.1", "/loop/damping_n_s_per_m=0.1", "/frame_rate_hz=250", "/loop/delay_frames=100"});
+  EXPECT_NEAR(row.critical_stiffness_n_per_m, row.exact_n_per_m, 1e-3 * row.exact_n_per_m);
+  EXPECT_LT(row.exact_n_per_m, 0.5);
 }
 
 /// Any device, rate and delay: the searched stiffness is the exact one to 0.1 %.
@@ -67,6 +76,32 @@ TEST(StabilitySearch, HandMovesTheBoundaryAsItsExactOne) {
   EXPECT_NEAR(row.critical_stiffness_n_per_m, row.exact_n_per_m, 1e-3 * row.exact_n_per_m);
 }
 
+StabilityRow search_lever(const std::vector<Override>& overrides) {
+  return find_critical_stiffness(load_experiment(testing::LEVER_FILE, overrides)).at(0);
+}
+
+/// A device too heavy to move, touched 50 mm beside the point where it turns: K l^2 is the critical stiffness of a rotational wall.
+TEST(StabilitySearch, RotationalWallIsExact) {
+  for (const int delay : {0, 3}) {
+    const StabilityRow row = search_lever(
+        {"/loop/mass_kg=1000", "/loop/damping_n_s_per_m=10000", "/loop/rotation/inertia_kg_m2=1e-4",
+         "/loop/rotation/damping_n_m_s=2e-3", fmt::format("/loop/delay_frames={}", delay)});
+    const double rotational = critical_stiffness({{1e-4, 2e-3, 0.0, std::nullopt}, 1e-3, delay});
+    EXPECT_NEAR(0.0025 * row.critical_stiffness_n_per_m, rotational, 1e-3 * rotational) << delay;
+    EXPECT_NEAR(row.critical_stiffness_n_per_m, row.exact_n_per_m, 1e-3 * row.exact_n_per_m) << delay;
+  }
+}
+
+TEST(StabilitySearch, TurningDeviceIsExact) {
+  for (const std::vector<Override>& device :
+       {std::vector<Override>{}, std::vector<Override>{"/loop/delay_frames=4", "/frame_rate_hz=2500"},
+        std::vector<Override>{"/loop/rotation/lever_m=0.02", "/loop/hand=hogan-1989"}}) {
+    const StabilityRow row = search_lever(device);
+    EXPECT_NEAR(row.critical_stiffness_n_per_m, row.exact_n_per_m, 1e-3 * row.exact_n_per_m);
+    EXPECT_LT(row.bound_n_per_m, row.exact_n_per_m);
+  }
+}
+
 TEST(StabilitySearch, DeviceThatClipsFirstSaysSo) {
   // The Desktop renders 7.9 N at most; 11 mm deep that is 717 N/m, below the boundary.
   const StabilityRow row =
@@ -84,6 +119,12 @@ TEST(StabilitySearch, PushIsCarriedOrThereIsNoCleanStiffness) {
   const StabilityRow sinking = row(2.0);
   EXPECT_EQ(sinking.clean_until, "never");
   EXPECT_TRUE(std::isnan(sinking.critical_stiffness_n_per_m));
+}
+
+TEST(StabilitySearch, ClipAtTheProfilesMaximumIsScaledWithIt) {
+  // 20 N rest beyond the file's F_max of 10 N, not beyond that of the boundary's stiffness, 32 N.
+  const StabilityRow row = search({"/loop/push_n=[0, 0, -20]", "/force/clip=maximum"});
+  EXPECT_NEAR(row.critical_stiffness_n_per_m, 1605.3511, 1.6);
 }
 
 TEST(StabilitySearch, DeviceRestsWhereTheContactCarriesThePush) {
@@ -109,6 +150,24 @@ TEST(StabilitySearch, PathOutOfContactIsNoContact) {
   EXPECT_EQ(search({"/force/cutoff_m=0.001"}).clean_until, "no_contact");
   EXPECT_EQ(search({"/force/cutoff_m=0.001", "/loop/push_n=[0, 0, 0]"}).clean_until, "no_contact");
   EXPECT_EQ(search({"/loop/push_n=[0, 0, 1]"}).clean_until, "no_contact") << "pushed away from the wall";
+}
+
+TEST(StabilitySearch, NothingIsCleanWithoutDamping) {
+  const StabilityRow row = search({"/loop/damping_n_s_per_m=0"});
+  EXPECT_EQ(row.exact_n_per_m, 0.0);
+  EXPECT_TRUE(std::isnan(row.critical_stiffness_n_per_m));
+  EXPECT_EQ(row.clean_until, "never");
+}
+
+/// Devices that lose all their speed within a period shake at half the servo rate; their boundary is near 2 b / T.
+TEST(StabilitySearch, OverdampedDevicesAreExact) {
+  for (const auto& [mass, damping, delay] : {std::tuple{1e-6, 10.0, 0}, {1e-4, 5.0, 3}, {0.01, 10.0, 100}}) {
+    const StabilityRow row =
+        search({fmt::format("/loop/mass_kg={}", mass), fmt::format("/loop/damping_n_s_per_m={}", damping),
+                fmt::format("/loop/delay_frames={}", delay)});
+    EXPECT_NEAR(row.critical_stiffness_n_per_m, row.exact_n_per_m, 1e-3 * row.exact_n_per_m)
+        << mass << " kg, " << damping << " N s/m, " << delay << " frames";
+  }
 }
 
 TEST(StabilitySearch, OpenLoopIsRefused) {

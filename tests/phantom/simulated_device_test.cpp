@@ -73,6 +73,8 @@ TEST(SimulatedDevice, FrictionStopsASlidingDeviceWhereItShould) {
   EXPECT_EQ(sliding.velocity().x(), 0.0);
   EXPECT_NEAR(sliding.position().x(), speed * speed * 0.04 / (2.0 * 0.05), 1e-13);
   EXPECT_NEAR(sliding.energy().friction, 0.5 * 0.04 * speed * speed, 1e-15);
+  EXPECT_NEAR(sliding.energy().push, 0.5 * 0.04 * speed * speed, 1e-15) << "the blow's work";
+  EXPECT_LE(sliding.energy().balance_error(), 1e-12);
 }
 
 TEST(SimulatedDevice, StuckDeviceLetsGoWhenTheHandHasPulledEnough) {

@@ -93,8 +93,43 @@ TEST(StabilityBoundary, SufficientBoundIsThePublishedOne) {
   EXPECT_NEAR(sufficient_stiffness(loop(0.04, 0.8, 1e-3, 50)), 15.84, 0.005);
 }
 
+/// A contact on a lever: with a mass that does not move it is the wall of a turn, K l^2.
+TEST(StabilityBoundary, LeverOfAHeavyDeviceIsARotationalWall) {
+  SampledLoop sampled = loop(1e9, 1e5, 1e-3, 2);
+  sampled.turn = SampledTurn{{1e-4, 2e-3, 0.0, std::nullopt}, 0.05};
+  const double rotational = critical_stiffness(loop(1e-4, 2e-3, 1e-3, 2));
+  EXPECT_NEAR(critical_stiffness(sampled), rotational / (0.05 * 0.05), 1e-6 * rotational / (0.05 * 0.05));
+}
+
+TEST(StabilityBoundary, TurnLikeTheTranslationHalvesTheBoundary) {
+  SampledLoop sampled = loop(0.04, 0.8, 1e-3, 1);
+  const double alone = critical_stiffness(sampled);
+  sampled.turn = SampledTurn{sampled.dynamics, 1.0};
+  EXPECT_NEAR(critical_stiffness(sampled), 0.5 * alone, 1e-9 * alone);
+  EXPECT_NEAR(sufficient_stiffness(sampled), 0.5 * sufficient_stiffness(loop(0.04, 0.8, 1e-3, 1)), 1e-9);
+  sampled.turn->lever_m = 0.0;
+  EXPECT_EQ(critical_stiffness(sampled), alone);
+  EXPECT_EQ(sufficient_stiffness(sampled), sufficient_stiffness(loop(0.04, 0.8, 1e-3, 1)));
+}
+
+/// With hands, so that no eigenvalue stays at 1 for want of a spring.
+RC_GTEST_PROP(StabilityBoundary, EigenvaluesOfATurningDeviceLeaveTheCircleThere, ()) {
+  const AnyLoop any = any_loop();
+  const Hand hand{"custom", 0.1, 1.0, 100.0, 0.0, 0.0};
+  SampledLoop sampled{{any.mass, any.damping, 0.0, hand}, any.period, *rc::gen::inRange(0, 21)};
+  const Hand wrist{"custom", logarithmic(1e-5, 1e-3), logarithmic(1e-3, 1e-1), 1.0, 0.0, 0.0};
+  sampled.turn = SampledTurn{{logarithmic(1e-5, 1e-2), 0.0, 0.0, wrist}, logarithmic(0.005, 0.2)};
+  const double critical = critical_stiffness(sampled);
+  RC_ASSERT(spectral_radius(sampled, critical * 0.999) < 1.0);
+  RC_ASSERT(spectral_radius(sampled, critical * 1.001) > 1.0);
+  RC_ASSERT(sufficient_stiffness(sampled) <= critical * (1.0 + 1e-9));
+}
+
 TEST(StabilityBoundary, NothingIsStableWithoutDamping) {
   EXPECT_EQ(critical_stiffness(loop(0.04, 0.0, 1e-3, 0)), 0.0);
+  SampledLoop turning = loop(0.04, 0.8, 1e-3, 0);
+  turning.turn = SampledTurn{{1e-4, 0.0, 0.0, std::nullopt}, 0.05};
+  EXPECT_EQ(critical_stiffness(turning), 0.0);
 }
 
 TEST(StabilityBoundary, RefusesWhatIsNoDevice) {

@@ -50,6 +50,21 @@ TEST(VirtualPhantom, LimitsThemselvesAreNotExceeded) {
   EXPECT_FALSE(DESKTOP.render(command(Vec3(0, -1.75, 0))).exceeds_continuous_force);
 }
 
+TEST(VirtualPhantom, TorqueIsRenderedByThoseThatActuateItAndClippedByItself) {
+  EXPECT_EQ(DESKTOP.render(command(Vec3(1.0, 0.0, 0.0))).torque, Vec3::Zero());
+  EXPECT_FALSE(DESKTOP.render(command(Vec3(1.0, 0.0, 0.0))).torque_clipped);
+  const VirtualPhantom turning(device_named("phantom-premium-1.5-6dof"));  // 0.188 N m
+  const RenderedForce strong = turning.render(command(Vec3(1.0, 0.0, 0.0)));
+  EXPECT_TRUE(strong.torque_clipped);
+  EXPECT_FALSE(strong.clipped);
+  EXPECT_TRUE(strong.torque.isApprox(0.188 * Vec3(1.0, 2.0, 3.0).normalized(), 1e-14));
+  Wrench gentle;
+  gentle.torque = Vec3(0.0, 0.188, 0.0);
+  EXPECT_EQ(turning.render(gentle).torque, gentle.torque);
+  EXPECT_FALSE(turning.render(gentle).torque_clipped);
+  EXPECT_EQ(VirtualPhantom(device_named("ideal")).render(command(Vec3::Zero())).torque, Vec3(1.0, 2.0, 3.0));
+}
+
 TEST(VirtualPhantom, HugeForcesAreClippedWithoutOverflow) {
   const RenderedForce rendered = DESKTOP.render(command(Vec3(1e300, 1e300, 0.0)));
   EXPECT_TRUE(rendered.clipped);

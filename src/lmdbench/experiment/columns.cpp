@@ -32,7 +32,8 @@ std::vector<Column<FrameRecord>> frame_columns(const MethodDescription& method, 
                 [](const F& f) { return f.force_above_continuous; }),
       column<F>("lmd_count", "1", "LMDs within the cutoff", [](const F& f) { return f.lmd_count; })};
   if (torque)
-    columns.push_back(column<F>("torque", "N m", "torque about the moving mesh's centre, not rendered",
+    columns.push_back(column<F>("torque", "N m",
+                                "torque about the moving mesh's centre, before the device clips it",
                                 [](const F& f) { return f.torque; }));
   if (method.tracks_locally) {
     columns.push_back(column<F>("lmd_count_before_reduction", "1",
@@ -70,19 +71,19 @@ std::vector<Column<SearchRecord>> search_columns(const MethodDescription& method
   return columns;
 }
 
-std::vector<Column<LoopFrame>> loop_columns() {
+std::vector<Column<LoopFrame>> loop_columns(bool turns) {
   using L = LoopFrame;
   const auto energy = [](const std::string& name, const std::string& long_name,
                          double EnergyAccount::*member) {
     return column<L>("energy_" + name, "J", long_name, [member](const L& l) { return l.energy.*member; });
   };
-  return {
+  std::vector<Column<L>> columns{
       column<L>("position", "m", "true position of the device, world frame",
                 [](const L& l) { return l.position; }),
       column<L>("velocity", "m/s", "velocity of the device, world frame",
                 [](const L& l) { return l.velocity; }),
       column<L>("held_force", "N", "force held until the next frame, delay included",
-                [](const L& l) { return l.held_force; }),
+                [](const L& l) { return l.held.force; }),
       energy("kinetic", "energy of the device's motion", &EnergyAccount::kinetic),
       energy("spring", "energy in the springs of hand and grip", &EnergyAccount::spring),
       energy("rendered", "work of the held force on the device since the start", &EnergyAccount::rendered),
@@ -92,6 +93,15 @@ std::vector<Column<LoopFrame>> loop_columns() {
       energy("friction", "energy lost to Coulomb friction since the start", &EnergyAccount::friction),
       energy("moved", "sum of the lengths of all energies that flowed since the start",
              &EnergyAccount::moved)};
+  if (turns) {
+    columns.push_back(column<L>("angular_velocity", "rad/s", "angular velocity of the device, world frame",
+                                [](const L& l) { return l.angular_velocity; }));
+    columns.push_back(column<L>("held_torque", "N m", "torque held until the next frame, delay included",
+                                [](const L& l) { return l.held.torque; }));
+    columns.push_back(column<L>("torque_clipped", "1", "1 where the device clips the torque that it holds",
+                                [](const L& l) { return l.held.torque_clipped; }));
+  }
+  return columns;
 }
 
 std::vector<SearchTime> search_times(const MethodDescription& method) {

@@ -37,12 +37,13 @@ Column<Row> column(std::string name, std::string units, std::string long_name, V
           std::function<Type(const Row&)>(std::move(value))};
 }
 
-/// @param torque  whether the torque, which no device renders, is among them
+/// @param torque  whether the torque before clipping is among them
 std::vector<Column<FrameRecord>> frame_columns(const MethodDescription& method, bool torque);
 /// Empty for a method without searches at a rate of their own.
 std::vector<Column<SearchRecord>> search_columns(const MethodDescription& method);
 /// Of a closed loop.
-std::vector<Column<LoopFrame>> loop_columns();
+/// @param turns  whether the device actuates six degrees of freedom
+std::vector<Column<LoopFrame>> loop_columns(bool turns);
 
 /// A time of searches, by repetition and search.
 struct SearchTime {

@@ -5,6 +5,9 @@
 #include <lmdbench/geometry/pose.h>
 #include <lmdbench/lmd/scene.h>
 
+#include <cstdint>
+#include <limits>
+#include <span>
 #include <vector>
 
 namespace lmdbench {
@@ -17,7 +20,15 @@ namespace lmdbench {
 ///                  search: the answer is the same
 std::vector<bool> frames_in_contact(const Scene& scene, const std::vector<Pose>& poses, bool forecast = true);
 
-/// Exact minimum distance [m] to any of the fixed meshes, however far; 0 where triangles touch or intersect.
-double clearance(const Scene& scene, const Pose& X_WM);
+/// Distances of the meshes along a path.
+struct Clearance {
+  double least_m =
+      std::numeric_limits<double>::infinity();  ///< Exact, however far; 0 where triangles touch or intersect.
+  std::int64_t touching = 0;                    ///< Poses at which they touch or intersect.
+};
+
+/// Of all poses. Looked at are those whose distance, by a bound on the motion since the last look, could be less than the least so
+/// far: the answer is that of a look at each.
+Clearance clearance(const Scene& scene, std::span<const Pose> poses);
 
 }  // namespace lmdbench

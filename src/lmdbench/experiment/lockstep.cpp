@@ -167,7 +167,7 @@ class MethodRun {
     record_.frames.push_back(result);
     if (input_.keep_lmds && input_.keep_lmds(frame)) record_.lmds.emplace(frame, std::move(lmds));
     const Pose X_WM = poses_->pose();
-    if (const std::optional<LoopFrame> moved = poses_->render(result.force)) {
+    if (const std::optional<LoopFrame> moved = poses_->render(rendered)) {
       record_.poses.push_back(X_WM);
       record_.loop.push_back(*moved);
     }

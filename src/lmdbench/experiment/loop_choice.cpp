@@ -3,10 +3,15 @@
 #include <lmdbench/base/error.h>
 #include <lmdbench/experiment/loop_choice.h>
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
+#include <string_view>
+#include <vector>
 
 namespace lmdbench {
 namespace {
@@ -33,6 +38,49 @@ double figure(Json& entry, const char* key, const DeviceFigure& of_device) {
   return entry[key].get<double>();
 }
 
+/// The same hand on a lever, as its figures of rotation.
+std::optional<Hand> at_lever(const std::optional<Hand>& hand, double lever) {
+  if (!hand) return std::nullopt;
+  const double squared = lever * lever;
+  return Hand{hand->name,
+              hand->mass_kg * squared,
+              hand->damping_n_s_per_m * squared,
+              hand->stiffness_n_per_m * squared,
+              hand->grip_damping_n_s_per_m * squared,
+              hand->grip_stiffness_n_per_m * squared};
+}
+
+std::optional<RotationChoice> rotation_choice(Json& loop, const LoopChoice& translation, const Device& device,
+                                              const std::string& file) {
+  if (loop["actuated"] == 3) return std::nullopt;
+  if (std::isnan(device.torque.value)) {
+    std::vector<std::string_view> able;
+    for (const Device& known : known_devices())
+      if (!std::isnan(known.torque.value)) able.push_back(known.name);
+    throw UsageError(file, "/loop/actuated", fmt::format("'{}' renders no torque", device.name),
+                     fmt::format("let /device be one of {}, or actuate 3", fmt::join(able, ", ")));
+  }
+  Json& entry = loop["rotation"];
+  const double lever = entry["lever_m"].get<double>();
+  const auto figure_or = [&](const char* key, double otherwise) {
+    if (!entry.contains(key)) entry[key] = otherwise;
+    return entry[key].get<double>();
+  };
+  RotationChoice rotation;
+  rotation.dynamics.mass_kg = figure_or("inertia_kg_m2", translation.dynamics.mass_kg * lever * lever);
+  rotation.dynamics.damping_n_s_per_m =
+      figure_or("damping_n_m_s", translation.dynamics.damping_n_s_per_m * lever * lever);
+  rotation.dynamics.friction_n = figure_or("friction_n_m", translation.dynamics.friction_n * lever);
+  rotation.resolution_rad = figure_or("resolution_rad", translation.resolution_m / lever);
+  if (!entry.contains("hand")) {
+    rotation.dynamics.hand = at_lever(translation.dynamics.hand, lever);
+  } else if (const Json& hand = entry["hand"]; !hand.is_null()) {
+    rotation.dynamics.hand = Hand{"custom", hand["inertia_kg_m2"].get<double>(),
+                                  hand["damping_n_m_s"].get<double>(), hand["stiffness_n_m"].get<double>()};
+  }
+  return rotation;
+}
+
 }  // namespace
 
 LoopChoice loop_choice(Json& entry, const Device& device, const std::string& file) {
@@ -49,6 +97,7 @@ LoopChoice loop_choice(Json& entry, const Device& device, const std::string& fil
   const auto names = integration_names();
   const auto chosen = std::find(names.begin(), names.end(), entry["integrator"].get<std::string>());
   loop.integration = static_cast<Integration>(chosen - names.begin());
+  loop.rotation = rotation_choice(entry, loop, device, file);
   return loop;
 }
 

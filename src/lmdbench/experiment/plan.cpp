@@ -113,7 +113,14 @@ Plan make_plan(const Experiment& experiment) {
       experiment.truth_stride_frames > 0
           ? "record/lmds is false: lists are kept in memory for probed frames only"
           : "record/lmds is false and nothing is probed");
-  add(Part::TORQUE_RENDERING, "torque on the device", false, "",
+  add(Part::TORQUE_RENDERING, "torque on the device", experiment.loop.rotation.has_value(),
+      experiment.loop.rotation ? fmt::format("six actuated degrees of freedom: {:g} kg m^2, {:g} N m s, "
+                                             "friction {:g} N m, resolution {:g} rad",
+                                             experiment.loop.rotation->dynamics.mass_kg,
+                                             experiment.loop.rotation->dynamics.damping_n_s_per_m,
+                                             experiment.loop.rotation->dynamics.friction_n,
+                                             experiment.loop.rotation->resolution_rad)
+                               : "",
       "the device actuates three degrees of freedom: torque is not rendered, and recorded where "
       "record/torque is true");
   add(Part::INTERSECTIONS, "intersection polylines", experiment.polyline_stride_frames > 0,

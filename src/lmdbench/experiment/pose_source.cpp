@@ -7,30 +7,27 @@
 
 namespace lmdbench {
 
-std::optional<LoopFrame> PathPoses::render(const Vec3&) {
+std::optional<LoopFrame> PathPoses::render(const RenderedForce&) {
   frame_ = std::min(frame_ + 1, path_.size() - 1);
   return std::nullopt;
 }
 
-DevicePoses::DevicePoses(const LoopChoice& loop, std::vector<Pose> path, double period)
+DevicePoses::DevicePoses(const LoopChoice& loop, std::vector<Pose> path, double period,
+                         const Vec3& reference_M)
     : path_(std::move(path)),
-      device_(loop.dynamics, loop.integration, period, path_.front().translation, loop.push_n,
-              loop.resolution_m),
-      under_way_(static_cast<std::size_t>(loop.delay_frames), Vec3::Zero()) {
-  sense();
-}
+      mesh_(loop, period, path_.front(), reference_M, loop.push_n, Vec3::Zero()),
+      under_way_(static_cast<std::size_t>(loop.delay_frames)),
+      pose_(mesh_.sensed_pose()) {}
 
-void DevicePoses::sense() {
-  pose_ = {device_.sensed_position(), path_[frame_].rotation};
-}
-
-std::optional<LoopFrame> DevicePoses::render(const Vec3& force_W) {
-  under_way_.push_back(force_W);
-  const LoopFrame frame{device_.position(), device_.velocity(), under_way_.front(), device_.energy()};
+std::optional<LoopFrame> DevicePoses::render(const RenderedForce& rendered) {
+  under_way_.push_back(rendered);
+  const Pose true_pose = mesh_.pose();
+  const LoopFrame frame{true_pose.translation, mesh_.velocity(),         under_way_.front(),
+                        true_pose.rotation,    mesh_.angular_velocity(), mesh_.energy()};
   frame_ = std::min(frame_ + 1, path_.size() - 1);
-  device_.advance(under_way_.front(), path_[frame_].translation);
+  mesh_.advance(under_way_.front(), path_[frame_]);
   under_way_.pop_front();
-  sense();
+  pose_ = mesh_.sensed_pose();
   return frame;
 }
 

@@ -2,9 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <lmdbench/experiment/held_mesh.h>
 #include <lmdbench/experiment/loop_choice.h>
 #include <lmdbench/geometry/pose.h>
-#include <lmdbench/phantom/simulated_device.h>
+#include <lmdbench/phantom/virtual_phantom.h>
 
 #include <cstddef>
 #include <deque>
@@ -15,11 +16,12 @@ namespace lmdbench {
 
 /// What the simulated device did in one frame, beside the pose that it told.
 struct LoopFrame {
-  Vec3 position = Vec3::Zero();  ///< True position at the frame's tick, world [m].
-  Vec3 velocity = Vec3::Zero();  ///< At the tick [m/s].
-  Vec3 held_force =
-      Vec3::Zero();      ///< Held from this tick to the next: the force of `delay_frames` frames ago [N].
-  EnergyAccount energy;  ///< Since the start, at the tick.
+  Vec3 position = Vec3::Zero();  ///< True place of the mesh's origin at the frame's tick, world [m].
+  Vec3 velocity = Vec3::Zero();  ///< Of that point at the tick [m/s].
+  RenderedForce held;            ///< From this tick to the next: what was rendered `delay_frames` frames ago.
+  Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();  ///< True, at the tick.
+  Vec3 angular_velocity = Vec3::Zero();                             ///< With six degrees of freedom [rad/s].
+  EnergyAccount energy;                                             ///< Since the start, at the tick.
 };
 
 /// Where one method's poses come from, frame by frame. A path does not care what is rendered; a closed loop does.
@@ -30,9 +32,9 @@ class PoseSource {
   /// X_WM of the present frame.
   virtual const Pose& pose() const = 0;
 
-  /// Renders the present frame's force [N] and goes on to the next frame.
+  /// Renders the present frame's force and goes on to the next frame.
   /// @return what the device did, in a closed loop
-  virtual std::optional<LoopFrame> render(const Vec3& force_W) = 0;
+  virtual std::optional<LoopFrame> render(const RenderedForce& rendered) = 0;
 };
 
 /// Poses of a path: the open loop.
@@ -42,30 +44,29 @@ class PathPoses final : public PoseSource {
   explicit PathPoses(const std::vector<Pose>& path) : path_(path) {}
 
   const Pose& pose() const override { return path_[frame_]; }
-  std::optional<LoopFrame> render(const Vec3& force_W) override;
+  std::optional<LoopFrame> render(const RenderedForce& rendered) override;
 
  private:
   const std::vector<Pose>& path_;
   std::size_t frame_ = 0;
 };
 
-/// Poses of a simulated device: the closed loop. It starts at rest where the path starts. Its position is what its encoders
-/// tell, its orientation the path's (three actuated degrees of freedom: nothing resists a turn).
+/// Poses of a simulated device: the closed loop. It starts at rest where the path starts; its poses are what its encoders tell.
 class DevicePoses final : public PoseSource {
  public:
-  /// @param path   the meant path, one pose a frame
-  /// @param period servo period [s]
-  DevicePoses(const LoopChoice& loop, std::vector<Pose> path, double period);
+  /// @param path         the meant path, one pose a frame
+  /// @param period       servo period [s]
+  /// @param reference_M  point about which torque is taken
+  DevicePoses(const LoopChoice& loop, std::vector<Pose> path, double period,
+              const Vec3& reference_M = Vec3::Zero());
 
   const Pose& pose() const override { return pose_; }
-  std::optional<LoopFrame> render(const Vec3& force_W) override;
+  std::optional<LoopFrame> render(const RenderedForce& rendered) override;
 
  private:
-  void sense();
-
   std::vector<Pose> path_;
-  SimulatedDevice device_;
-  std::deque<Vec3> under_way_;  ///< Forces that are not rendered yet, oldest first.
+  HeldMesh mesh_;
+  std::deque<RenderedForce> under_way_;  ///< What is not rendered yet, oldest first.
   std::size_t frame_ = 0;
   Pose pose_;
 };

@@ -216,8 +216,9 @@ PreparedRun prepare(const Experiment& experiment, const Progress& progress) {
   }
   if (experiment.loop.closed)
     prepared.input.make_poses = [loop = experiment.loop, path = prepared.input.poses,
-                                 period = 1.0 / experiment.frame_rate_hz] {
-      return std::make_unique<DevicePoses>(loop, path, period);
+                                 period = 1.0 / experiment.frame_rate_hz,
+                                 reference_M = prepared.input.reference_M] {
+      return std::make_unique<DevicePoses>(loop, path, period, reference_M);
     };
   prepared.starts_touching = touches(prepared.scene(), prepared.input.poses.front());
   if (prepared.starts_touching)

@@ -25,7 +25,7 @@ Path record_path(const Experiment& experiment, std::size_t every, const RunProgr
   Path path;
   path.reserve(record.loop.size() / every + 1);
   for (std::size_t frame = 0; frame < record.loop.size(); frame += every)
-    path.push_back({prepared.times[frame], {record.loop[frame].position, record.poses[frame].rotation}});
+    path.push_back({prepared.times[frame], {record.loop[frame].position, record.loop[frame].orientation}});
   return path;
 }
 

@@ -21,7 +21,7 @@ inline constexpr double UNSET = std::numeric_limits<double>::quiet_NaN();
 /// A haptic frame of one method, without its times.
 struct FrameRecord {
   Vec3 force = Vec3::Zero();   ///< As rendered: after the device's clipping [N].
-  Vec3 torque = Vec3::Zero();  ///< About the moving mesh's centre, not rendered by the device [N m].
+  Vec3 torque = Vec3::Zero();  ///< About the moving mesh's centre, before the device's clipping [N m].
   bool force_clipped = false;
   bool force_above_continuous = false;         ///< More than the device's motors stand for long.
   std::int64_t lmd_count = 0;                  ///< LMDs within the cutoff.

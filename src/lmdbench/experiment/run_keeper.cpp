@@ -119,7 +119,7 @@ RunKeeper::RunKeeper(PartFile& part, const Experiment& experiment, std::int64_t 
     kept.search_times = search_times(method);
     if (experiment.loop.closed) {
       kept.poses.columns = pose_columns();
-      kept.loop.columns = loop_columns();
+      kept.loop.columns = loop_columns(experiment.loop.rotation.has_value());
     }
     labels_.push_back(choice.label);
     methods_.push_back(std::move(kept));

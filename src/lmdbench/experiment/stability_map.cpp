@@ -16,10 +16,10 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <limits>
 #include <memory>
 #include <numbers>
 #include <random>
+#include <span>
 
 namespace lmdbench {
 namespace {
@@ -77,8 +77,6 @@ void measure(StabilityMapRun& run, const MethodRecord& record, const Scene& scen
   Swing swing;
   swing.period_s = 1.0 / rate;
   std::vector<double> stiffness, force;
-  std::int64_t looks = 0, touching = 0;
-  double nearest = std::numeric_limits<double>::infinity();
   for (std::size_t i = settled; i < frames; ++i) {
     const FrameRecord& frame = record.frames[i];
     const Vec3& before = record.frames[i - 1].force;
@@ -89,11 +87,6 @@ void measure(StabilityMapRun& run, const MethodRecord& record, const Scene& scen
     force.push_back(frame.force.norm());
     if ((frame.force - before).norm() > JUMP_LOAD * LOAD_N) ++run.jumps;
     if (frame.force.isZero(0.0) && !before.isZero(0.0)) ++run.dropouts;
-    if (i % CLEARANCE_STRIDE != 0) continue;
-    const double distance = clearance(scene, record.poses[i]);
-    nearest = std::min(nearest, distance);
-    ++looks;
-    if (distance == 0.0) ++touching;
   }
   Vec3 mean_place = Vec3::Zero();
   for (const Vec3& position : swing.position_W) mean_place += position;
@@ -111,8 +104,9 @@ void measure(StabilityMapRun& run, const MethodRecord& record, const Scene& scen
   for (std::size_t i = settled; i < frames; ++i) sum += high[i].squaredNorm();
   run.force_above_30_hz_n = std::sqrt(sum / static_cast<double>(frames - settled));
   run.effective_stiffness_p99_n_per_m = quantile(stiffness, P99);
-  run.clearance_m = nearest;
-  run.penetration_share = static_cast<double>(touching) / static_cast<double>(looks);
+  const Clearance distances = clearance(scene, std::span(record.poses).subspan(settled));
+  run.clearance_m = distances.least_m;
+  run.penetration_share = static_cast<double>(distances.touching) / static_cast<double>(frames - settled);
   const double seconds = static_cast<double>(frames - 1 - settled) / rate;
   run.power_created_w = (record.loop.back().energy.rendered - record.loop[settled].energy.rendered) / seconds;
   run.energy_created_j = 0.0;
@@ -124,7 +118,8 @@ void measure(StabilityMapRun& run, const MethodRecord& record, const Scene& scen
 }  // namespace
 
 void map_stability(const Experiment& experiment, const StabilityMapGrid& grid,
-                   const std::function<bool(const StabilityMapRun&)>& sink) {
+                   const std::function<bool(const StabilityMapRun&)>& sink,
+                   const std::function<bool(const StabilityMapRun&)>& wanted) {
   const LoopChoice& loop = experiment.loop;
   const std::string file = experiment.file.string();
   if (!loop.closed)
@@ -159,18 +154,21 @@ void map_stability(const Experiment& experiment, const StabilityMapGrid& grid,
         scaled.profile.maximum_force *= stiffness / at_start.stiffness;
         scaled.profile.largest_sum *= stiffness / at_start.stiffness;
         for (std::int64_t seed = 1; seed <= grid.seeds; ++seed) {
-          LockstepInput input = prepared.input;
-          input.poses = meant_path(prepared.input.poses, grid.frames, rate, press_W,
-                                   TREMOR_CUTOFF * profile.force.cutoff, seed);
-          input.frames = grid.frames;
-          input.make_poses = [&] { return std::make_unique<DevicePoses>(loop, input.poses, 1.0 / rate); };
-          const MethodRecord record = run_lockstep({scaled}, input, driver, {}).front();
           StabilityMapRun run;
           run.method = choice.entry;
           run.profile = profile.name;
           run.age_frames = age;
           run.stiffness_n_per_m = stiffness;
           run.seed = seed;
+          if (wanted && !wanted(run)) continue;
+          LockstepInput input = prepared.input;
+          input.poses = meant_path(prepared.input.poses, grid.frames, rate, press_W,
+                                   TREMOR_CUTOFF * profile.force.cutoff, seed);
+          input.frames = grid.frames;
+          input.make_poses = [&] {
+            return std::make_unique<DevicePoses>(loop, input.poses, 1.0 / rate, input.reference_M);
+          };
+          const MethodRecord record = run_lockstep({scaled}, input, driver, {}).front();
           measure(run, record, profile.scene, rate);
           if (!sink(run)) return;
         }

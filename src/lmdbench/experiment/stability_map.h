@@ -28,8 +28,6 @@ inline constexpr double JUMP_LOAD =
     0.25;  ///< A change of force in a frame above this share of the load is a jump.
 inline constexpr double SHAKING_LOAD =
     0.1;  ///< A force above 30 Hz of more than this share of the load (RMS) is shaking.
-inline constexpr std::int64_t CLEARANCE_STRIDE =
-    4;  ///< The true distance is looked at in every fourth frame.
 
 struct StabilityMapGrid {
   std::vector<double> stiffness_n_per_m;
@@ -54,7 +52,7 @@ struct StabilityMapRun {
   double force_above_30_hz_n = UNSET;
   double effective_stiffness_p99_n_per_m = UNSET;
   double clearance_m = UNSET;        ///< Smallest true distance; 0 where the meshes touch.
-  double penetration_share = UNSET;  ///< Of the looks at the true distance: those in which the meshes touch.
+  double penetration_share = UNSET;  ///< Of the frames: those in which the meshes touch.
   double power_created_w =
       UNSET;  ///< Net work of the rendered force a second: above 0 the contact feeds the motion.
   std::int64_t jumps = 0;
@@ -69,10 +67,12 @@ struct StabilityMapRun {
   bool clean() const { return !shaking() && !through(); }
 };
 
+/// @param wanted is asked before every run, of which method to seed are set; unset: all of them are
 /// @param sink is given every run as it ends; false stops
 /// @throws UsageError for an experiment whose loop is open or has no hand with a spring, or without contact at its first pose
 void map_stability(const Experiment& experiment, const StabilityMapGrid& grid,
-                   const std::function<bool(const StabilityMapRun&)>& sink);
+                   const std::function<bool(const StabilityMapRun&)>& sink,
+                   const std::function<bool(const StabilityMapRun&)>& wanted = nullptr);
 
 /// A JSON object on one line.
 std::string stability_map_json(const std::string& scene, const StabilityMapRun& run);

@@ -31,18 +31,28 @@ class Search {
         method_(std::move(method)),
         progress_(std::move(progress)) {}
 
-  void run(double first_stiffness, StabilityRow& row) {
+  void run(SampledLoop loop, StabilityRow& row) {
     double scale = 1.0;
     StabilityTrial given = try_scale(scale);
     for (int i = 0; i < MOST_BRACKETINGS && !given.carried; ++i) given = try_scale(scale *= BRACKET_FACTOR);
+    if (loop.turn) loop.turn->lever_m = given.lever_m;
+    row.exact_n_per_m = critical_stiffness(loop);
+    row.bound_n_per_m = sufficient_stiffness(loop);
     if (!given.in_contact) {
       row.clean_until = "no_contact";
       return;
     }
-    double low = first_stiffness > 0.0 ? scale * first_stiffness / given.stiffness_n_per_m : scale;
+    if (row.exact_n_per_m == 0.0 && !anything_holds_it()) {
+      row.clean_until = "never";
+      return;
+    }
+    const bool known = std::isfinite(row.exact_n_per_m) && row.exact_n_per_m > 0.0;
+    const double guess = known ? scale * row.exact_n_per_m / given.stiffness_n_per_m : scale;
+    double low = guess * (1.0 - FIRST_BRACKET);
     double growth_low = growth(low);
     double high = low;
     double growth_high = growth_low;
+    if (growth_low <= 0.0) growth_high = growth(high = guess * (1.0 + FIRST_BRACKET));
     // Scales of F_max bracket the growth's change of sign.
     for (int i = 0; i < MOST_BRACKETINGS && growth_low > 0.0; ++i) {
       high = std::exchange(low, low / BRACKET_FACTOR);
@@ -58,6 +68,14 @@ class Search {
   }
 
  private:
+  /// Without damping, friction and counts every stiffness diverges, the less of it the more slowly: nothing to search for.
+  bool anything_holds_it() const {
+    const LoopChoice& loop = experiment_.loop;
+    return loop.dynamics.friction_n > 0.0 || loop.resolution_m > 0.0 ||
+           (loop.rotation &&
+            (loop.rotation->dynamics.friction_n > 0.0 || loop.rotation->resolution_rad > 0.0));
+  }
+
   StabilityTrial try_scale(double scale) {
     LockstepMethod scaled = method_;
     scaled.profile.maximum_force *= scale;
@@ -102,15 +120,13 @@ std::vector<StabilityRow> find_critical_stiffness(const Experiment& experiment, 
     throw UsageError(experiment.file.string(), "/loop/kind", "the loop is open, so nothing can shake",
                      "set it to closed");
   const PreparedRun prepared = prepare(experiment);
-  const SampledLoop sampled{experiment.loop.dynamics, 1.0 / experiment.frame_rate_hz,
-                            experiment.loop.delay_frames};
+  SampledLoop sampled{experiment.loop.dynamics, 1.0 / experiment.frame_rate_hz, experiment.loop.delay_frames};
+  if (experiment.loop.rotation) sampled.turn = SampledTurn{experiment.loop.rotation->dynamics, 0.0};
   StabilityRow common;
   common.delay_frames = experiment.loop.delay_frames;
   common.servo_rate_hz = experiment.frame_rate_hz;
   common.mass_kg = experiment.loop.dynamics.mass_kg;
   common.damping_n_s_per_m = experiment.loop.dynamics.damping_n_s_per_m;
-  common.exact_n_per_m = critical_stiffness(sampled);
-  common.bound_n_per_m = sufficient_stiffness(sampled);
 
   std::vector<StabilityRow> rows;
   std::vector<LockstepMethod> methods = lockstep_methods(experiment, prepared);
@@ -128,7 +144,7 @@ std::vector<StabilityRow> find_critical_stiffness(const Experiment& experiment, 
         if (done <= 256) ++trials;
         return progress(fmt::format("{} trial {}", method.label, trials), done, total);
       };
-    Search(experiment, prepared, std::move(method), counted).run(row.bound_n_per_m, row);
+    Search(experiment, prepared, std::move(method), counted).run(sampled, row);
     rows.push_back(std::move(row));
   }
   return rows;

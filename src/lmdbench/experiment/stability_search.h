@@ -13,10 +13,11 @@
 
 /// The largest clean stiffness of a closed loop, method by method: `lmdbench stability`. The stiffness of the contact at
 /// rest is varied through F_max of the force law; each is tried as `stability_trial.h` says and judged
-/// as `cleanliness.h` says. Growth changes its sign at the critical stiffness, which is bracketed by factors of
-/// BRACKET_FACTOR and found to STIFFNESS_TOLERANCE by TOMS 748.
+/// as `cleanliness.h` says. Growth changes its sign at the critical stiffness. It is looked for FIRST_BRACKET on either side of the linear
+/// loop's boundary, from there on bracketed by factors of BRACKET_FACTOR, and found to STIFFNESS_TOLERANCE by TOMS 748.
 namespace lmdbench {
 
+inline constexpr double FIRST_BRACKET = 0.01;
 inline constexpr double BRACKET_FACTOR = 1.5;
 inline constexpr double STIFFNESS_TOLERANCE = 1e-5;  ///< Relative width of the last bracket.
 inline constexpr int MOST_BRACKETINGS = 60;
@@ -33,7 +34,9 @@ struct StabilityRow {
   double damping_n_s_per_m = UNSET;
   /// Largest stiffness that was tried and clean; NaN where none was.
   double critical_stiffness_n_per_m = UNSET;
-  double exact_n_per_m = UNSET;  ///< Boundary of the linear loop (`phantom/stability_boundary.h`).
+  /// Boundary of the linear loop (`phantom/stability_boundary.h`); of a device that turns as well, with the lever that the contact
+  /// has at rest.
+  double exact_n_per_m = UNSET;
   double bound_n_per_m = UNSET;  ///< The sufficient bound b / (T/2 + t_d).
   /// What ends the clean range: "amplitude", "energy" or "force_above_30_hz", whichever grows fastest just above it;
   /// "device_force" where the device clips the resting force first; "nothing" where the search found no end,

@@ -30,10 +30,13 @@ constexpr double DECIDED_GROWTH = std::numbers::ln10;
 /// The contact at rest, and the tap that fits it.
 struct Rest {
   Pose pose;
-  Vec3 force_W = Vec3::Zero();
+  RenderedForce rendered;
+  Vec3 lever_W = Vec3::Zero();     ///< From the device's point to the watched one.
   double natural_frequency = 0.0;  ///< [rad/s] of device and rigid hand on the contact's stiffness.
-  double tap_m = 0.0;              ///< How far the tap swings them on that stiffness alone.
-  double range_m = 0.0;            ///< From rest to where the contact ends or saturates.
+  double mass_share = 1.0;     ///< Mass that is felt at the watched point, over that of the translation, ...
+  double inertia_ratio = 0.0;  ///< ... and over the inertia of the turn [1/m^2].
+  double tap_m = 0.0;          ///< How far the tap swings them on that stiffness alone.
+  double range_m = 0.0;        ///< From rest to where the contact ends or saturates.
 };
 
 /// What a trial's pose source and its owner share.
@@ -46,40 +49,41 @@ struct TrialState {
 /// Holds the device, lets it go with a tap and watches it.
 class TrialPoses final : public PoseSource {
  public:
-  TrialPoses(const LoopChoice& loop, const Rest& rest, double period, std::int64_t hold_frames,
-             std::shared_ptr<TrialState> state)
+  TrialPoses(const LoopChoice& loop, const Rest& rest, const Vec3& reference_M, double period,
+             std::int64_t hold_frames, std::shared_ptr<TrialState> state)
       : rest_(rest),
-        direction_W_(rest.force_W.normalized()),
+        direction_W_(rest.rendered.force.normalized()),
         natural_period_frames_(2.0 * std::numbers::pi / (rest.natural_frequency * period)),
         hold_frames_(hold_frames),
         state_(std::move(state)),
         pose_(rest.pose),
-        device_(loop.dynamics, loop.integration, period, rest.pose.translation, -rest.force_W,
-                loop.resolution_m),
-        under_way_(static_cast<std::size_t>(loop.delay_frames), rest.force_W) {
+        mesh_(loop, period, rest.pose, reference_M, -rest.rendered.force, -rest.rendered.torque),
+        held_at_W_(mesh_.held_position()),
+        under_way_(static_cast<std::size_t>(loop.delay_frames), rest.rendered) {
     state_->swing.period_s = period;
     state_->swing.resolution_m = loop.resolution_m;
-    device_.strike(rest.tap_m * rest.natural_frequency * direction_W_);
+    const Vec3 speed_W = rest.tap_m * rest.natural_frequency * direction_W_;
+    mesh_.strike(rest.mass_share * speed_W, rest.inertia_ratio * rest.lever_W.cross(speed_W));
   }
 
   const Pose& pose() const override { return pose_; }
 
-  std::optional<LoopFrame> render(const Vec3& force_W) override {
+  std::optional<LoopFrame> render(const RenderedForce& rendered) override {
     if (hold_frames_-- > 0) return std::nullopt;
-    under_way_.push_back(force_W);
+    under_way_.push_back(rendered);
     watch();
-    device_.advance(under_way_.front(), rest_.pose.translation);
+    mesh_.advance(under_way_.front(), rest_.pose);
     under_way_.pop_front();
-    pose_.translation = device_.sensed_position();
+    pose_ = mesh_.sensed_pose();
     return std::nullopt;
   }
 
  private:
   void watch() {
     Swing& swing = state_->swing;
-    swing.position_W.push_back(device_.position() - rest_.pose.translation);
-    swing.velocity_W.push_back(device_.velocity());
-    swing.force_W.push_back(under_way_.front() - rest_.force_W);
+    swing.position_W.push_back(mesh_.held_position() - held_at_W_ + mesh_.turn().cross(rest_.lever_W));
+    swing.velocity_W.push_back(mesh_.held_velocity() + mesh_.angular_velocity().cross(rest_.lever_W));
+    swing.force_W.push_back(under_way_.front().force - rest_.rendered.force);
     const double way = swing.position_W.back().norm();
     const double speed = swing.velocity_W.back().dot(direction_W_);
     if (speed * last_speed_ < 0.0) ++sign_changes_;
@@ -99,8 +103,9 @@ class TrialPoses final : public PoseSource {
   std::int64_t hold_frames_;
   std::shared_ptr<TrialState> state_;
   Pose pose_;
-  SimulatedDevice device_;
-  std::deque<Vec3> under_way_;
+  HeldMesh mesh_;
+  Vec3 held_at_W_;  ///< Where the device's point rests.
+  std::deque<RenderedForce> under_way_;
   double last_speed_ = 0.0;
   std::int64_t sign_changes_ = 0;
   double last_lively_ = 0.0;
@@ -181,21 +186,36 @@ StabilityTrial try_stiffness(const Experiment& experiment, const LockstepInput& 
   }
   const FrameRecord at_rest = held_at(held.poses.front(), held, method, driver);
   trial.stiffness_n_per_m = at_rest.effective_stiffness;
-  trial.clipped = at_rest.force_clipped;
   trial.force_at_rest_W = at_rest.force;
-  Rest rest{held.poses.front(), at_rest.force, 0.0, 0.0, 0.0};
+  Rest rest;
+  rest.pose = held.poses.front();
+  // Clipped already: a second time changes neither length nor sign.
+  rest.rendered = input.device.render({at_rest.force, at_rest.torque, 0.0});
+  if (!loop.rotation) rest.rendered.torque.setZero();
+  trial.clipped = at_rest.force_clipped || (loop.rotation && rest.rendered.torque_clipped);
   rest.range_m = std::min(method.profile.cutoff - at_rest.minimum_distance,
                           at_rest.minimum_distance - method.profile.saturation_distance);
-  trial.in_contact = at_rest.effective_stiffness > 0.0 && rest.force_W.norm() > 0.0 && rest.range_m > 0.0;
+  trial.in_contact = at_rest.effective_stiffness > 0.0 && at_rest.force.norm() > 0.0 && rest.range_m > 0.0;
   if (!trial.in_contact || trial.clipped) return trial;
-  rest.natural_frequency = std::sqrt(trial.stiffness_n_per_m / moving_mass(loop.dynamics));
+  double felt_mass = moving_mass(loop.dynamics);
+  if (loop.rotation) {
+    rest.lever_W = at_rest.force.cross(rest.rendered.torque) / at_rest.force.squaredNorm();
+    trial.lever_m = rest.lever_W.norm();
+    const double mass = felt_mass;
+    const double inertia = moving_mass(loop.rotation->dynamics);
+    felt_mass = 1.0 / (1.0 / mass + trial.lever_m * trial.lever_m / inertia);
+    rest.mass_share = felt_mass / mass;
+    rest.inertia_ratio = felt_mass / inertia;
+  }
+  rest.natural_frequency = std::sqrt(trial.stiffness_n_per_m / felt_mass);
   rest.tap_m = TAP_SHARE * rest.range_m;
 
   auto state = std::make_shared<TrialState>();
   LockstepInput tapped = held;
   tapped.frames = hold_frames + MOST_SWING_FRAMES;
   tapped.make_poses = [&, state] {
-    return std::make_unique<TrialPoses>(loop, rest, 1.0 / input.frame_rate_hz, hold_frames, state);
+    return std::make_unique<TrialPoses>(loop, rest, input.reference_M, 1.0 / input.frame_rate_hz, hold_frames,
+                                        state);
   };
   bool asked_to_stop = false;
   try {

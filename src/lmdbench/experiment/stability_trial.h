@@ -12,7 +12,8 @@
 ///     push; without one it is that pose itself.
 ///  2. It is let go, pushed by just the force that balances the contact (the push, and across it what the hand would give), and
 ///     tapped along the contact force: its speed changes so that
-///     it would swing by TAP_SHARE of the way that the contact leaves it on either side.
+///     it would swing by TAP_SHARE of the way that the contact leaves it on either side. Watched is the device's point, or, where it
+///     turns as well, the point fixed to it that is nearest to the device's on the line of the contact force, and tapped there.
 ///  3. The trial ends after SKIPPED_CYCLES + 2 WINDOW_CYCLES oscillations, when the swing has died down, when it has left the
 ///     contact's range, or after MOST_SWING_FRAMES.
 /// Method, force law, device clipping and search clock are those of a run.
@@ -30,6 +31,8 @@ struct StabilityTrial {
   bool carried = true;      ///< The contact carries the push before it saturates; else nothing below is set.
   bool clipped = false;     ///< The device clips the force at rest: it cannot render this stiffness here.
   Vec3 force_at_rest_W = Vec3::Zero();  ///< [N]
+  double lever_m =
+      0.0;  ///< From the device's point to the line of that force, where the device turns as well.
   Cleanliness outcome;
   std::int64_t frames = 0;  ///< From the tap on.
 };

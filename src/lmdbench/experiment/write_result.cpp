@@ -242,7 +242,7 @@ void write_method(ResultWriter& writer, const Experiment& experiment, const RunR
   if (!track.truth.empty()) write_truth(writer, group + "/truth", track.truth, result.comparisons[index]);
   if (experiment.loop.closed) {
     write_poses(writer, group + "/path", record.poses);
-    write_columns(writer, group + "/loop", loop_columns(), record.loop);
+    write_columns(writer, group + "/loop", loop_columns(experiment.loop.rotation.has_value()), record.loop);
   }
   if (!result.one_track) {
     write_in_contact(writer, experiment.loop.closed ? group + "/loop" : group, track.in_contact);

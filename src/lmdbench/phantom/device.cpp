@@ -54,7 +54,7 @@ constexpr std::array<Device, 6> DEVICES = {{
         .apparent_mass = defined(0.04, "kg"),
         .damping = defined(0.8, "N s/m"),
         .friction = defined(0.0, "N"),
-        .torque = unknown("N m"),
+        .torque = defined(NO_LIMIT, "N m"),
         .workspace = {defined(NO_LIMIT, "m"), defined(NO_LIMIT, "m"), defined(NO_LIMIT, "m")},
     },
     {

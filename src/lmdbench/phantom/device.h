@@ -30,25 +30,24 @@ struct DeviceFigure {
 };
 
 /// A haptic device. All of them sense position and orientation and render a translational force, as in the
-/// paper's set-up (section 5); the two 6DOF models can also actuate torque, which nothing here commands yet.
+/// paper's set-up (section 5); those with a figure for the torque can render that as well (`/loop/actuated`).
 struct Device {
   std::string_view name;   ///< As written in experiments, e.g. "phantom-desktop".
   std::string_view title;  ///< As written in reports.
 
-  DeviceFigure maximum_force;             ///< Largest force, for moments [N]: what decision E10 clips to.
-  DeviceFigure continuous_force;          ///< Force that the motors stand for long [N].
-  DeviceFigure position_resolution;       ///< Nominal [m].
-  DeviceFigure stable_stiffness;          ///< Largest stiffness that CHAI3D sets for it [N/m].
-  DeviceFigure stable_damping;            ///< Largest damping that CHAI3D sets for it [N s/m].
-  DeviceFigure apparent_mass;             ///< At the stylus [kg].
-  DeviceFigure damping;                   ///< Viscous damping of the mechanism [N s/m].
-  DeviceFigure friction;                  ///< Back-drive friction [N].
-  DeviceFigure torque;                    ///< Continuous torque [N m] of the models that have it.
+  DeviceFigure maximum_force;        ///< Largest force, for moments [N]: what decision E10 clips to.
+  DeviceFigure continuous_force;     ///< Force that the motors stand for long [N].
+  DeviceFigure position_resolution;  ///< Nominal [m].
+  DeviceFigure stable_stiffness;     ///< Largest stiffness that CHAI3D sets for it [N/m].
+  DeviceFigure stable_damping;       ///< Largest damping that CHAI3D sets for it [N s/m].
+  DeviceFigure apparent_mass;        ///< At the stylus [kg].
+  DeviceFigure damping;              ///< Viscous damping of the mechanism [N s/m].
+  DeviceFigure friction;             ///< Back-drive friction [N].
+  DeviceFigure
+      torque;  ///< Largest torque [N m] of the models that actuate it: the only figure published is the continuous one.
   std::array<DeviceFigure, 3> workspace;  ///< Width, height, depth [m].
 };
 
-inline constexpr int SENSED_DEGREES_OF_FREEDOM = 6;    ///< Paper, section 5.
-inline constexpr int ACTUATED_DEGREES_OF_FREEDOM = 3;  ///< Paper, section 5: force, no torque.
 inline constexpr double SERVO_RATE = 1000.0;  ///< [Hz] Paper, section 5; the devices' own servo rate.
 
 /// All known devices, in a fixed order.

@@ -5,6 +5,7 @@
 #include <lmdbench/phantom/axis_model.h>
 
 #include <cstdint>
+#include <optional>
 
 /// The exact stability boundary of the sampled loop: the device of `axis_model.h` against a wall of stiffness
 /// K whose force is held for a servo period T and arrives `delay_frames` periods late. Coulomb friction and
@@ -19,14 +20,22 @@
 /// negative H is bracketed and solved for; the least K of them is the boundary.
 namespace lmdbench {
 
+/// A device that turns as well and is touched off its centre: the contact sees the point's motion, x + lever_m angle, so the device's
+/// response to the held force is the sum H(z) = H_translation(z) + lever_m^2 H_rotation(z), and all else is as above.
+struct SampledTurn {
+  DeviceDynamics dynamics;  ///< Inertia [kg m^2] in the place of mass, damping [N m s], hand likewise.
+  double lever_m = 0.0;     ///< From the device's centre to the line of the contact's force.
+};
+
 struct SampledLoop {
   DeviceDynamics dynamics;
   double period_s = 1e-3;
   std::int64_t delay_frames = 0;
+  std::optional<SampledTurn> turn = std::nullopt;
 };
 
 /// Least stiffness [N/m] at which an eigenvalue reaches the unit circle. Infinity where none does for any
-/// stiffness; 0 where the loop has no damping at all and so diverges at every stiffness.
+/// stiffness; 0 where the translation or a rotation with a lever has no damping at all, which we take to diverge at every stiffness.
 /// @throws UsageError as `make_axis_model`, or for a period that is not positive or a negative delay
 double critical_stiffness(const SampledLoop& loop);
 
@@ -36,7 +45,7 @@ double spectral_radius(const SampledLoop& loop, double stiffness);
 
 /// The known sufficient bound b / (T/2 + t_d) [N/m] with all damping of device and hand (Gil et al. 2007;
 /// Colgate's condition K < 2 b / T for no delay). A hand behind a grip does not count: its damping is not at
-/// the device.
+/// the device. With a turn it is the damping of the point touched, 1 / (1 / b + lever_m^2 / b_rotation).
 double sufficient_stiffness(const SampledLoop& loop);
 
 /// Closed form without hand and delay, where the loop's pair of complex eigenvalues reaches the circle before

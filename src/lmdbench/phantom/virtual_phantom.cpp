@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/phantom/virtual_phantom.h>
 
+#include <cmath>
+
 namespace lmdbench {
 
 RenderedForce VirtualPhantom::render(const Wrench& command, double largest_sum) const {
@@ -12,6 +14,12 @@ RenderedForce VirtualPhantom::render(const Wrench& command, double largest_sum) 
   rendered.force = rendered.clipped ? Vec3((command.force / commanded_length) * largest) : command.force;
   rendered.exceeds_continuous_force =
       (rendered.clipped ? largest : commanded_length) > device_.continuous_force.value;
+  const double largest_torque = device_.torque.value;
+  if (std::isnan(largest_torque)) return rendered;
+  const double torque_length = command.torque.stableNorm();
+  rendered.torque_clipped = torque_length > largest_torque;
+  rendered.torque =
+      rendered.torque_clipped ? Vec3((command.torque / torque_length) * largest_torque) : command.torque;
   return rendered;
 }
 
