@@ -37,6 +37,7 @@ SCENE = (os.path.join(regression.ROOT, "experiments", "shapes.json"), "--set", "
          "/probes/fcl/stride_frames=0", "--set", "/frames=400", "--set", "/driver/repetitions=4", "--set",
          '/methods/-={"name":"certified","force_law":"exponential"}')
 VARIABLE = "LMDBENCH_PLANTED"
+LEAST_DRAWN = 20  # comparisons of the base with itself, below which a share of them is no curve
 
 
 def planted(variant, index):
@@ -134,7 +135,11 @@ def draw(rows, file):
     import figure_style  # noqa: F401  sets matplotlib's backend
     from matplotlib import pyplot
 
-    conditions = sorted({row["condition"] for row in rows})
+    nothing = [row["condition"] for row in rows if row["variant"] == AGAIN]
+    conditions = sorted(name for name in set(nothing) if nothing.count(name) >= LEAST_DRAWN)
+    if not conditions:
+        return
+    sizes = sorted({row["variant"] for row in rows} - {AGAIN}, key=int)
     figure, panels = pyplot.subplots(1, len(conditions), figsize=(4.6 * len(conditions), 4.2), squeeze=False, sharey=True)
     for axes, condition in zip(panels[0], conditions):
         of = {}
@@ -142,10 +147,10 @@ def draw(rows, file):
             if row["condition"] == condition:
                 of.setdefault(row["variant"], []).append(row)
         null = [row["looks"][0]["highest_low"] for row in of.get(AGAIN, []) if row["looks"]]
-        if not null:
-            continue
-        for colour, variant in enumerate(sorted((name for name in of if name != AGAIN), key=int)):
-            found = [row["looks"][0]["highest_low"] for row in of[variant] if row["looks"]]
+        for colour, variant in enumerate(sizes):
+            found = [row["looks"][0]["highest_low"] for row in of.get(variant, []) if row["looks"]]
+            if not found:
+                continue
             cuts = sorted(set(null + found), reverse=True) + [0.0]
             axes.step([sum(v > cut for v in null) / len(null) for cut in cuts],
                       [sum(v > cut for v in found) / len(found) for cut in cuts], where="post", color=f"C{colour}",
@@ -153,7 +158,7 @@ def draw(rows, file):
             axes.plot(sum(row["verdict"] == "slower" for row in of[AGAIN]) / len(of[AGAIN]),
                       sum(row["verdict"] == "slower" for row in of[variant]) / len(of[variant]), "o", color=f"C{colour}")
         axes.set_title(condition)
-        axes.set_xlabel(f"false alarms (share of {len(null)} comparisons of the base with itself)")
+        axes.set_xlabel(f"false alarms (share of {len(null)} equal programs)")
         axes.set_xlim(-0.02, 1.0)
         axes.set_ylim(0.0, 1.02)
         axes.legend(loc="lower right", fontsize=8, title="line: first look alone; dot: whole rule", title_fontsize=8)
