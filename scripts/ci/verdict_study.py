@@ -1,161 +1,168 @@
 # SPDX-FileCopyrightText: The lmdbench authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""How often `lmdbench compare` cries wolf, and which slowdowns it sees.
+"""How often the regression check cries wolf, and which slowdowns it sees: the whole rule of scripts/ci/regression.py, many
+times over, every comparison with processes of its own. The candidate is the base itself ("again") or the base with work
+planted in one stage. Needs a program that was configured with -DLMDBENCH_PLANTED_SLOWDOWN=ON.
 
-Runs one experiment process by process, in rounds: the base, the base again, and the base with work planted in one stage
-(3, 5, 10, 20 %), every round in an order of its own. A comparison takes the base and one of the others from so many
-consecutive rounds; no process is used in two comparisons of a kind. Needs a program that was configured with
--DLMDBENCH_PLANTED_SLOWDOWN=ON.
+    python3 scripts/ci/verdict_study.py run --program build/planted/lmdbench --out results/verdicts --condition idle \\
+        --variants again --comparisons 500 --minutes 8
+    python3 scripts/ci/verdict_study.py table --out results/verdicts
 
-    python3 scripts/ci/verdict_study.py run --program build/planted/lmdbench --out results/verdicts --minutes 30
-    python3 scripts/ci/verdict_study.py judge --program build/release/lmdbench --out results/verdicts --processes 6
-
-`run` adds rounds to what is there; `judge` writes verdicts.csv, verdicts.md and roc.png. Exit codes as lmdbench's."""
+`run` adds comparisons to results/verdicts/comparisons.jsonl, a line each, until there are as many of the condition and
+variants or the time is up; `table` writes verdicts.md and verdicts.png beside it."""
 
 import argparse
-import csv
+import itertools
 import json
 import os
 import random
-import subprocess
+import shutil
 import sys
+import tempfile
 import time
 
-SIZES = (3, 5, 10, 20)
-# Every method has its turn, every stage too; the stage changes every ROUNDS_A_STAGE rounds.
+HERE = os.path.dirname(os.path.abspath(__file__))
+sys.path.insert(0, HERE)
+sys.path.insert(0, os.path.join(HERE, "..", "figures"))
+
+import intervals  # noqa: E402
+import regression  # noqa: E402
+
+AGAIN = "again"
+# Every method has its turn, every stage of the improved one too.
 STAGES = ("improved:search", "certified:local update", "original:search", "improved:reduction", "improved:local update",
           "original:local update")
-ROUNDS_A_STAGE = 6
 # A tenth of a second on an idle machine: probes and free flight left out, certified beside the paper's two methods.
-SCENE = ("experiments/shapes.json", "--set", "/probes/truth/stride_frames=0", "--set", "/probes/fcl/stride_frames=0",
-         "--set", "/frames=400", "--set", "/driver/repetitions=4", "--set",
+SCENE = (os.path.join(regression.ROOT, "experiments", "shapes.json"), "--set", "/probes/truth/stride_frames=0", "--set",
+         "/probes/fcl/stride_frames=0", "--set", "/frames=400", "--set", "/driver/repetitions=4", "--set",
          '/methods/-={"name":"certified","force_law":"exponential"}')
+VARIABLE = "LMDBENCH_PLANTED"
+LEAST_DRAWN = 20  # comparisons of the base with itself, below which a share of them is no curve
 
 
-def stage_of(round_index):
-    return STAGES[round_index // ROUNDS_A_STAGE % len(STAGES)]
+def planted(variant, index):
+    """(stage, value of VARIABLE for the candidate, the same length for the base: its length moves the stack)."""
+    if variant == AGAIN:
+        return "", "", ""
+    stage = STAGES[index % len(STAGES)]
+    value = f"{stage}:{variant}"
+    return stage, value, "-" * len(stage.split(":")[0]) + value[value.index(":"):]
 
 
-def result_name(out, round_index, variant):
-    return os.path.join(out, f"{round_index:05d}-{variant}.h5")
+def one_comparison(arguments, variant, index):
+    results = tempfile.mkdtemp(prefix="verdicts-")  # TMPDIR=/dev/shm: no process waits for a disk
+    programs = {}
+    for name in regression.NAMES:
+        programs[name] = os.path.join(os.path.abspath(arguments.out), "bin", name, "lmdbench")
+    stage, ours, theirs = planted(variant, index)
+    environments = {name: {VARIABLE: ours if name == "cand" else theirs} for name in regression.NAMES}
+    comparison = regression.Regression(programs, os.path.abspath(arguments.judge or arguments.program), SCENE, results,
+                                       environments=environments, generator=random.Random(f"{variant} {index}"))
+    started, load = time.monotonic(), os.getloadavg()[0]
+    try:
+        word, why = comparison.behaviour() or comparison.times(arguments.pairs, arguments.most)
+    finally:
+        shutil.rmtree(results)
+    return {"condition": arguments.condition, "variant": variant, "index": index, "stage": stage, "verdict": word, "why": why,
+            "named": stage.replace(":", "'s ") in why if stage else False, "rounds": comparison.rounds,
+            "load": round(0.5 * (load + os.getloadavg()[0]), 2), "seconds": round(time.monotonic() - started, 2),
+            "looks": comparison.looks}
 
 
-def variants():
-    return ["base", "again"] + [f"planted{size}" for size in SIZES]
+def read(out):
+    file = os.path.join(out, "comparisons.jsonl")
+    if not os.path.exists(file):
+        return []
+    with open(file, encoding="utf-8") as stream:
+        return [json.loads(line) for line in stream]
 
 
 def run(arguments):
-    os.makedirs(arguments.out, exist_ok=True)
-    root = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..")
-    first = 0
-    while os.path.exists(result_name(arguments.out, first, "done")):
-        first += 1
+    variants = arguments.variants.split(",")
     end = time.monotonic() + 60 * arguments.minutes
-    index = first
-    while time.monotonic() < end:
-        order = variants()
-        random.Random(index).shuffle(order)
-        started = time.monotonic()
-        for variant in order:
-            environment = dict(os.environ, LMDBENCH_PLANTED="")
-            if variant.startswith("planted"):
-                environment["LMDBENCH_PLANTED"] = f"{stage_of(index)}:{variant[len('planted'):]}"
-            subprocess.run([os.path.abspath(arguments.program), "--quiet", "run", *SCENE, "--out",
-                            os.path.abspath(result_name(arguments.out, index, variant))], cwd=root, env=environment,
-                           check=True, stdout=subprocess.DEVNULL, stdin=subprocess.DEVNULL)
-        with open(result_name(arguments.out, index, "done"), "w", encoding="utf-8") as stream:
-            stream.write(f"{os.getloadavg()[0]:.2f} {time.monotonic() - started:.2f}\n")
-        index += 1
-    print(f"{index - first} rounds, {index} in all")
+    for name in regression.NAMES:
+        place = os.path.join(arguments.out, "bin", name)
+        os.makedirs(place, exist_ok=True)
+        shutil.copy2(arguments.program, os.path.join(place, "lmdbench"))
+    done = [row for row in read(arguments.out) if row["condition"] == arguments.condition]
+    counts = {variant: sum(row["variant"] == variant for row in done) for variant in variants}
+    with open(os.path.join(arguments.out, "comparisons.jsonl"), "a", encoding="utf-8") as stream:
+        for variant in itertools.cycle(variants):
+            if time.monotonic() > end or min(counts.values()) >= arguments.comparisons:
+                break
+            if counts[variant] >= arguments.comparisons:
+                continue
+            stream.write(json.dumps(one_comparison(arguments, variant, counts[variant])) + "\n")
+            stream.flush()
+            counts[variant] += 1
+    print(", ".join(f"{count} of {variant}" for variant, count in counts.items()))
 
 
-def compare(program, base, candidate):
-    started = time.monotonic()
-    done = subprocess.run([program, "--quiet", "compare", "--json", "--base", *base, "--candidate", *candidate],
-                          capture_output=True, text=True, check=False, stdin=subprocess.DEVNULL)
-    if done.returncode not in (0, 1, 4):
-        raise SystemExit(f"lmdbench compare left with {done.returncode}: {done.stderr}")
-    return json.loads(done.stdout), time.monotonic() - started
+def share(count, total):
+    low, high = intervals.share_interval(count, total)
+    return f"{count} ({100 * count / total:.1f} %, {100 * low:.1f} to {100 * high:.1f})"
 
 
-def judge(arguments):
-    rounds = 0
-    while os.path.exists(result_name(arguments.out, rounds, "done")):
-        rounds += 1
-    rows = []
-    for first in range(0, rounds - arguments.processes + 1, arguments.processes):
-        indices = range(first, first + arguments.processes)
-        if len({stage_of(i) for i in indices}) != 1:
-            continue
-        base = [result_name(arguments.out, i, "base") for i in indices]
-        loads = []
-        for i in indices:
-            with open(result_name(arguments.out, i, "done"), encoding="utf-8") as stream:
-                loads.append(float(stream.read().split()[0]))
-        for variant in variants()[1:]:
-            answer, seconds = compare(arguments.program, base,
-                                      [result_name(arguments.out, i, variant) for i in indices])
-            slower = [f"{t['method']}:{t['stage']}" for t in answer["timings"] if t["verdict"] == "slower"]
-            planted = [t for t in answer["timings"] if f"{t['method']}:{t['stage']}" == stage_of(first)]
-            rows.append({"variant": variant, "stage": stage_of(first), "load": f"{sum(loads) / len(loads):.1f}",
-                         "verdict": answer["verdict"], "slower": " ".join(slower).replace("local update", "local_update"),
-                         "named": int(stage_of(first) in slower), "ratio": planted[0]["ratio"],
-                         "low": planted[0]["low"], "detectable": planted[0]["detectable"],
-                         "highest_low": max(t["low"] for t in answer["timings"]), "seconds": f"{seconds:.2f}"})
-    if not rows:
-        raise SystemExit(f"error: {arguments.out} holds fewer than {arguments.processes} rounds (remedy: run more)")
-    with open(os.path.join(arguments.out, "verdicts.csv"), "w", encoding="utf-8", newline="") as stream:
-        writer = csv.DictWriter(stream, list(rows[0]), lineterminator="\n")
-        writer.writeheader()
-        writer.writerows(rows)
-    text = table(rows, arguments.processes)
-    with open(os.path.join(arguments.out, "verdicts.md"), "w", encoding="utf-8") as stream:
-        stream.write(text)
-    draw(rows, os.path.join(arguments.out, "roc.png"))
-    print(text)
+def quantile(values, part):
+    """The value at the nearest rank."""
+    values = sorted(values)
+    return values[min(len(values) - 1, int(part * len(values)))]
 
 
-def table(rows, processes):
-    loads = [float(row["load"]) for row in rows]
-    lines = [f"{processes} processes a side, load average {min(loads):.1f} to {max(loads):.1f}.", "",
-             "| planted | comparisons | slower | right stage named | unsure | same | faster | median detectable |",
-             "|---|---|---|---|---|---|---|---|"]
-    for variant in variants()[1:]:
-        chosen = [row for row in rows if row["variant"] == variant]
-        if not chosen:
-            continue
-        count = {verdict: sum(row["verdict"] == verdict for row in chosen)
-                 for verdict in ("slower", "unsure", "same", "faster")}
-        detectable = sorted(row["detectable"] for row in chosen)[len(chosen) // 2]
-        named = "" if variant == "again" else sum(row["named"] for row in chosen)
-        label = "nothing (base again)" if variant == "again" else variant[len("planted"):] + " %"
-        lines.append(f"| {label} | {len(chosen)} | {count['slower']} | {named} | {count['unsure']} | {count['same']} | "
-                     f"{count['faster']} | {100 * detectable:.1f} % |")
+def table(rows):
+    lines = ["| condition | planted | comparisons | slower (95 % interval) | right stage named | unsure | same | faster | rounds, "
+             "mean | s a verdict: median, p99, worst | load |", "|---|---|---|---|---|---|---|---|---|---|---|"]
+    for condition in sorted({row["condition"] for row in rows}):
+        for variant in sorted({row["variant"] for row in rows}, key=lambda name: 0 if name == AGAIN else int(name)):
+            chosen = [row for row in rows if row["condition"] == condition and row["variant"] == variant]
+            if not chosen:
+                continue
+            total = len(chosen)
+            count = {word: sum(row["verdict"] == word for row in chosen) for word in regression.EXIT_CODES}
+            named = "" if variant == AGAIN else sum(row["verdict"] == "slower" and row["named"] for row in chosen)
+            seconds, loads = [row["seconds"] for row in chosen], [row["load"] for row in chosen]
+            label = "nothing" if variant == AGAIN else variant + " %"
+            lines.append(f"| {condition} | {label} | {total} | {share(count['slower'], total)} | {named} | "
+                         f"{share(count['unsure'], total)} | {count['same']} | {count['faster']} | "
+                         f"{sum(row['rounds'] for row in chosen) / total:.1f} | {quantile(seconds, 0.5):.1f}, "
+                         f"{quantile(seconds, 0.99):.1f}, {max(seconds):.1f} | {min(loads):.1f} to {max(loads):.1f} |")
     return "\n".join(lines) + "\n"
 
 
 def draw(rows, file):
-    """Share of planted slowdowns found over share of false alarms, as the bound that a stage's interval must exceed
-    moves; the rule's own bound is 1."""
-    import matplotlib
-    matplotlib.use("Agg")
+    """Share of planted slowdowns found over share of false alarms, at the first look, as the ratio moves that the interval's
+    lower end of any stage must exceed; and where the whole rule stands."""
+    import figure_style  # noqa: F401  sets matplotlib's backend
     from matplotlib import pyplot
 
-    null = [row["highest_low"] for row in rows if row["variant"] == "again"]
-    figure, axes = pyplot.subplots(figsize=(5.5, 4.5))
-    for size in SIZES:
-        planted = [row["highest_low"] for row in rows if row["variant"] == f"planted{size}"]
-        cuts = sorted(set(null + planted + [0.0, 2.0 * max(null + planted)]), reverse=True)
-        axes.step([sum(v > cut for v in null) / len(null) for cut in cuts],
-                  [sum(v > cut for v in planted) / len(planted) for cut in cuts], where="post",
-                  label=f"{size} % planted, {len(planted)} comparisons")
-        axes.plot(sum(v > 1.0 for v in null) / len(null), sum(v > 1.0 for v in planted) / len(planted), "ko", markersize=4)
-    axes.set_xlabel(f"false alarms (share of {len(null)} comparisons of the base with itself)")
-    axes.set_ylabel("slowdowns found (share)")
-    axes.set_xlim(-0.02, 1.0)
-    axes.set_ylim(0.0, 1.02)
-    axes.legend(loc="lower right", fontsize=8)
-    axes.set_title("dots: interval above 1", fontsize=9)
+    nothing = [row["condition"] for row in rows if row["variant"] == AGAIN]
+    conditions = sorted(name for name in set(nothing) if nothing.count(name) >= LEAST_DRAWN)
+    if not conditions:
+        return
+    sizes = sorted({row["variant"] for row in rows} - {AGAIN}, key=int)
+    figure, panels = pyplot.subplots(1, len(conditions), figsize=(4.6 * len(conditions), 4.2), squeeze=False, sharey=True)
+    for axes, condition in zip(panels[0], conditions):
+        of = {}
+        for row in rows:
+            if row["condition"] == condition:
+                of.setdefault(row["variant"], []).append(row)
+        null = [row["looks"][0]["highest_low"] for row in of.get(AGAIN, []) if row["looks"]]
+        for colour, variant in enumerate(sizes):
+            found = [row["looks"][0]["highest_low"] for row in of.get(variant, []) if row["looks"]]
+            if not found:
+                continue
+            cuts = sorted(set(null + found), reverse=True) + [0.0]
+            axes.step([sum(v > cut for v in null) / len(null) for cut in cuts],
+                      [sum(v > cut for v in found) / len(found) for cut in cuts], where="post", color=f"C{colour}",
+                      label=f"{variant} % planted, {len(found)} comparisons")
+            axes.plot(sum(row["verdict"] == "slower" for row in of[AGAIN]) / len(of[AGAIN]),
+                      sum(row["verdict"] == "slower" for row in of[variant]) / len(of[variant]), "o", color=f"C{colour}")
+        axes.set_title(condition)
+        axes.set_xlabel(f"false alarms (share of {len(null)} equal programs)")
+        axes.set_xlim(-0.02, 1.0)
+        axes.set_ylim(0.0, 1.02)
+        axes.legend(loc="lower right", fontsize=8, title="line: first look alone; dot: whole rule", title_fontsize=8)
+    panels[0][0].set_ylabel("slowdowns found (share)")
     figure.tight_layout()
     figure.savefig(file, dpi=120)
 
@@ -163,16 +170,29 @@ def draw(rows, file):
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     commands = parser.add_subparsers(dest="command", required=True)
-    for name in ("run", "judge"):
-        command = commands.add_parser(name)
-        command.add_argument("--program", required=True)
+    runs = commands.add_parser("run")
+    runs.add_argument("--program", required=True)
+    runs.add_argument("--judge", help="whose `compare` judges (the program's)")
+    runs.add_argument("--condition", required=True, help="a name for the state of the machine")
+    runs.add_argument("--variants", default=f"{AGAIN},3,5,10,20", help="what is planted, in percent, or 'again'")
+    runs.add_argument("--comparisons", type=int, default=500, help="of each variant, those of earlier calls included")
+    runs.add_argument("--minutes", type=float, default=8.0)
+    runs.add_argument("--pairs", type=int, default=6)
+    runs.add_argument("--most", type=int, default=24)
+    for command in (runs, commands.add_parser("table")):
         command.add_argument("--out", required=True)
-        if name == "run":
-            command.add_argument("--minutes", type=float, default=30.0)
-        else:
-            command.add_argument("--processes", type=int, default=6)
     arguments = parser.parse_args()
-    (run if arguments.command == "run" else judge)(arguments)
+    if arguments.command == "run":
+        run(arguments)
+        return 0
+    rows = read(arguments.out)
+    if not rows:
+        raise SystemExit(f"error: {arguments.out} holds no comparisons (remedy: verdict_study.py run)")
+    text = table(rows)
+    with open(os.path.join(arguments.out, "verdicts.md"), "w", encoding="utf-8") as stream:
+        stream.write(text)
+    draw(rows, os.path.join(arguments.out, "verdicts.png"))
+    print(text, end="")
     return 0
 
 

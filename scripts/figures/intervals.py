@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: The lmdbench authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Intervals that keep a verdict from resting on one event: exact Poisson limits of a count, and the bootstrap over paths
-or over blocks of frames. Seeded, so that the same data give the same interval."""
+"""Intervals that keep a verdict from resting on one event: exact Poisson limits of a count, exact binomial limits of a share,
+and the bootstrap over paths or over blocks of frames. Seeded, so that the same data give the same interval."""
 
 import math
 from statistics import NormalDist
@@ -44,6 +44,21 @@ def poisson_interval(count, level=LEVEL):
     highest = count + 10.0 * math.sqrt(count + 1.0) + 20.0
     low = 0.0 if count <= 0 else bisect(lambda mean: poisson_tail(count, mean), 0.0, highest, tail)
     high = bisect(lambda mean: poisson_tail(count + 1, mean), 0.0, highest, 1.0 - tail)
+    return low, high
+
+
+def binomial_tail(count, total, chance):
+    """P(X >= count) among `total` trials of this chance, in (0, 1)."""
+    logarithms = [math.lgamma(total + 1) - math.lgamma(k + 1) - math.lgamma(total - k + 1) + k * math.log(chance)
+                  + (total - k) * math.log1p(-chance) for k in range(count, total + 1)]
+    return math.fsum(math.exp(value) for value in logarithms)
+
+
+def share_interval(count, total, level=LEVEL):
+    """(low, high) of the chance behind `count` of `total` (Clopper and Pearson 1934)."""
+    tail = 0.5 * (1.0 - level)
+    low = 0.0 if count == 0 else bisect(lambda chance: binomial_tail(count, total, chance), 0.0, 1.0, tail)
+    high = 1.0 if count == total else bisect(lambda chance: binomial_tail(count + 1, total, chance), 0.0, 1.0, 1.0 - tail)
     return low, high
 
 

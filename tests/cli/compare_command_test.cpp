@@ -45,6 +45,20 @@ void plant(const std::filesystem::path& file, const char* dataset, std::vector<h
   H5Fclose(id);
 }
 
+/// Multiplies the times of all repetitions, as a slower build would have left them.
+void slow_down(const std::filesystem::path& file, const char* dataset, double factor, double seconds_more) {
+  const hid_t id = H5Fopen(file.c_str(), H5F_ACC_RDWR, H5P_DEFAULT);
+  const hid_t data = H5Dopen2(id, dataset, H5P_DEFAULT);
+  const hid_t space = H5Dget_space(data);
+  std::vector<double> times(static_cast<std::size_t>(H5Sget_simple_extent_npoints(space)));
+  ASSERT_GE(H5Dread(data, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, times.data()), 0);
+  for (double& time : times) time = factor * time + seconds_more;
+  ASSERT_GE(H5Dwrite(data, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, times.data()), 0);
+  H5Sclose(space);
+  H5Dclose(data);
+  H5Fclose(id);
+}
+
 class CompareCommand : public ::testing::Test {
  protected:
   static void SetUpTestSuite() {
@@ -99,6 +113,33 @@ TEST_F(CompareCommand, PlantedBehaviourIsNamed) {
   EXPECT_THAT(compare("a.h5 planted.h5").out, HasSubstr("improved: lmd_count differs in frame 41: "));
   EXPECT_THAT(compare("a.h5 planted.h5 --markdown").out, HasSubstr("| improved | `lmd_count` | 41 |"));
   EXPECT_THAT(read_text(*scratch_ / "junit.xml"), HasSubstr("<failure type=\"changed\""));
+}
+
+TEST_F(CompareCommand, EveryVerdictOnTimesHasItsExitCode) {
+  // Against itself nothing differs at all, so what is planted is all there is.
+  EXPECT_EQ(compare("b.h5 b.h5").code, 0);
+  EXPECT_THAT(compare("b.h5 b.h5").out, HasSubstr("same: "));
+  slow_down(copy("slow.h5"), "/methods/improved/global_search_time", 3.0, 1e-3);
+  const Outcome slower = compare("b.h5 slow.h5 --json");
+  EXPECT_EQ(slower.code, 1);
+  const auto json = nlohmann::json::parse(slower.out);
+  EXPECT_EQ(json["verdict"], "slower");
+  for (const auto& timing : json["timings"])
+    EXPECT_EQ(timing["verdict"],
+              timing["method"] == "improved" && timing["stage"] == "search" ? "slower" : "same");
+  const Outcome faster = compare("slow.h5 b.h5");
+  EXPECT_EQ(faster.code, 0);
+  EXPECT_THAT(faster.out, HasSubstr("faster: "));
+  slow_down(copy("doubtful.h5"), "/methods/improved/global_search_time", 1.3, 0.0);
+  const Outcome unsure = compare("b.h5 doubtful.h5");
+  EXPECT_EQ(unsure.code, 4);
+  EXPECT_THAT(unsure.out, HasSubstr("unsure: "));
+  EXPECT_EQ(compare("b.h5 doubtful.h5 --threshold 0.4").code, 0);
+}
+
+TEST_F(CompareCommand, FalseAlarmsShareTheProbabilityGiven) {
+  EXPECT_EQ(compare("a.h5 b.h5 --false-alarm 0.2").code, 2) << "above the error of the interval";
+  EXPECT_THAT(compare("a.h5 b.h5 --false-alarm 0.05").code, AnyOf(0, 4));
 }
 
 TEST_F(CompareCommand, LateFramesAreATimeAndNoBehaviour) {
@@ -156,6 +197,9 @@ TEST(DoctorCommand, NamesEveryFindingAndTheNoise) {
   for (const auto& finding : json["findings"])
     EXPECT_EQ(finding["health"] == "good", finding["remedy"].get<std::string>().empty()) << finding.dump();
   EXPECT_GT(json["noise"]["spread"].get<double>(), 0.0);
+  EXPECT_GT(json["noise"]["detectable"].get<double>(), 0.0);
+  EXPECT_NEAR(json["noise"]["seconds"].get<double>(), 5.0, 1.5)
+      << "of pieces; on a busy machine the last group is longer";
 }
 
 }  // namespace

@@ -82,7 +82,17 @@ TEST(NoiseFloor, SpreadIsOfSumsOfMinima) {
   EXPECT_DOUBLE_EQ(floor.piece_seconds, 1.0);
   EXPECT_DOUBLE_EQ(floor.typical_excess, 3.0);
   EXPECT_NEAR(floor.spread, std::log(4.0 / 3.0) / std::sqrt(2.0), 1e-12);
-  EXPECT_GT(floor.detectable, floor.spread);
+  EXPECT_TRUE(std::isnan(floor.detectable)) << "two groups are not two sides";
+}
+
+TEST(NoiseFloor, DetectableIsWhatACompareWouldSay) {
+  // 24 groups of one piece: in the first 12 both sides alternate between 1 and 1.1, in the others they are 2 and 2.
+  std::vector<double> times;
+  for (int i = 0; i < 12; ++i) times.push_back(i % 4 < 2 ? 1.0 : 1.1);
+  times.insert(times.end(), 12, 2.0);
+  const NoiseFloor floor = summarise_noise(times, 1, 1);
+  EXPECT_EQ(floor.processes, 6U);
+  EXPECT_NEAR(floor.detectable, 0.05, 1e-9) << "median of 10 % and none";
 }
 
 TEST(NoiseFloor, IsMeasuredInAboutTheTimeAskedFor) {

@@ -8,11 +8,14 @@ import importlib.util
 import io
 import json
 import os
+import random
 import re
+import shutil
 import subprocess
 import sys
 import tempfile
 import unittest
+import xml.etree.ElementTree
 
 import yaml
 
@@ -21,6 +24,7 @@ sys.path.insert(0, os.path.join(ROOT, "scripts"))
 sys.path.insert(0, os.path.join(ROOT, "scripts", "ci"))
 
 import baseline  # noqa: E402
+import regression  # noqa: E402
 import verdict_study  # noqa: E402
 
 PROGRAM = os.environ.get("LMDBENCH_PROGRAM", os.path.join(ROOT, "build", "release", "lmdbench"))
@@ -83,6 +87,23 @@ class BaselineTest(unittest.TestCase):
         self.assertEqual(len(changed(ratio(3.5))), 1)
         self.assertEqual(len(changed(ratio(0.25))), 1)
 
+    def test_a_stale_baseline_is_named(self):
+        with tempfile.TemporaryDirectory() as folder:
+            for scene in baseline.SCENES:
+                shutil.copy(baseline.baseline_file(baseline.FOLDER, scene), folder)
+            file = baseline.baseline_file(folder, "combs")
+            with open(file, encoding="utf-8") as stream:
+                content = json.load(stream)
+            content["methods"]["improved"]["lmds"] += 1
+            with open(file, "w", encoding="utf-8") as stream:
+                json.dump(content, stream)
+            os.remove(baseline.baseline_file(folder, "rocking-box"))
+            status, text = printed(baseline.main, ["check", "--program", PROGRAM, "--folder", folder])
+            self.assertEqual(status, 1)
+            self.assertIn("combs.json: /methods/improved/lmds: ", text)
+            self.assertIn("rocking-box.json: no such baseline", text)
+            self.assertIn("2 differences (remedy: ", text)
+
     def test_missing_baseline_and_program(self):
         with tempfile.TemporaryDirectory() as folder:
             status, text = printed(baseline.main, ["check", "--program", "/does/not/exist", "--folder", folder])
@@ -113,10 +134,146 @@ class RegressionScriptTest(unittest.TestCase):
 
     def test_usage(self):
         for arguments in ([], ["no-such-revision"], ["HEAD", "HEAD", "HEAD"], ["HEAD", "--unknown", "1"],
-                          ["HEAD", "--pairs", "none"], ["HEAD", "--threshold"]):
+                          ["HEAD", "--pairs", "none"], ["HEAD", "--threshold"], ["HEAD", "--threshold", "much"],
+                          ["HEAD", "--experiment", "/does/not/exist.json"]):
             done = self.run_script(*arguments)
             self.assertEqual(done.returncode, 2, arguments)
             self.assertIn("remedy", done.stderr, arguments)
+
+
+def timing(verdict, low=0.98, stage="search"):
+    return {"method": "m", "stage": stage, "verdict": verdict, "low": low, "detectable": 0.02}
+
+
+class Script:
+    """Processes that never run: `answers` are what the judge says, in turn; an answer is (verdict, timings...)."""
+
+    def __init__(self, answers):
+        self.answers, self.runs, self.compared = list(answers), [], []
+
+    def __call__(self, command, environment):
+        if "compare" in command:
+            self.compared.append(command)
+            verdict, *timings = self.answers.pop(0)
+            out = json.dumps({"verdict": verdict, "timings": timings or [timing(verdict)]})
+            return subprocess.CompletedProcess(command, regression.EXIT_CODES[verdict], out, "")
+        self.runs.append((command[0], environment))
+        return subprocess.CompletedProcess(command, 0, "", "")
+
+
+class RuleTest(unittest.TestCase):
+    """The rule, with a judge whose words are given. Answers come in the order: one round; then at every look the candidate,
+    the base against itself, and the fresh rounds alone where there were suspects."""
+
+    def decide(self, *answers, pairs=6, most=24):
+        self.script = Script(answers)
+        rule = regression.Regression({name: name for name in regression.NAMES}, "judge", ["scene"], "results",
+                                     environments={"cand": {"A": "b"}}, generator=random.Random(1), run=self.script)
+        decision = rule.behaviour() or rule.times(pairs, most)
+        self.assertEqual(self.script.answers, [], "not all was asked")
+        return decision
+
+    def test_same_after_six_rounds_in_every_order_once(self):
+        self.assertEqual(self.decide(("same",), ("same",), ("unsure",))[0], "same")
+        names = [name for name, _ in self.script.runs]
+        rounds = [tuple(names[i:i + 3]) for i in range(0, len(names), 3)]
+        self.assertEqual(sorted(rounds), sorted(regression.ORDERS))
+        self.assertTrue(all(environment == ({"A": "b"} if name == "cand" else {}) for name, environment in self.script.runs))
+
+    def test_both_series_of_the_base_judge_the_candidate(self):
+        self.decide(("same",), ("same",), ("same",))
+        command = self.script.compared[1]
+        sides = command[command.index("--base") + 1:command.index("--candidate")]
+        self.assertEqual(len(sides), 12)
+        self.assertEqual(sum("null" in file for file in sides), 6)
+        self.assertIn("--false-alarm", command)
+        self.assertNotIn("--false-alarm", self.script.compared[2], "the base against itself")
+
+    def test_changed_ends_after_one_round(self):
+        self.assertEqual(self.decide(("changed",))[0], "changed")
+        self.assertEqual(len(self.script.runs), 3)
+
+    def test_slower_is_confirmed_by_fresh_rounds(self):
+        word, why = self.decide(("same",), ("slower",), ("same",),
+                                ("slower",), ("same",), ("unsure", timing("unsure", 1.01)))
+        self.assertEqual(word, "slower")
+        self.assertIn("m's search", why)
+        self.assertEqual(len(self.script.runs), 36)
+        self.assertFalse(any("-5.h5" in word for word in self.script.compared[-1]), "rounds of the first look")
+        self.assertTrue(any("-6.h5" in word for word in self.script.compared[-1]))
+
+    def test_slower_alone_is_never_enough(self):
+        slower = (("slower",), ("same",))
+        self.assertEqual(self.decide(("same",), *slower, *slower, ("same", timing("same", 0.99)), *slower,
+                                     ("same", timing("same", 1.0)))[0], "unsure")
+        self.assertEqual(self.decide(("same",), *slower, most=6)[0], "unsure")
+        self.assertEqual(len(self.script.runs), 18)
+
+    def test_another_stage_does_not_confirm(self):
+        first = ("slower", timing("slower"), timing("same", stage="reduction"))
+        fresh = ("slower", timing("unsure", 0.99), timing("slower", 1.2, stage="reduction"))
+        self.assertEqual(self.decide(("same",), first, ("same",), ("unsure",), ("same",), fresh, most=12)[0], "unsure")
+
+    def test_a_suspect_that_turns_out_the_same_is_let_go(self):
+        fresh = ("unsure", timing("unsure", 1.01))
+        self.assertEqual(self.decide(("same",), ("slower",), ("same",), ("same",), ("same",), fresh)[0], "same")
+
+    def test_unsure_gets_as_many_rounds_again(self):
+        unsure = (("unsure",), ("same",))
+        self.assertEqual(self.decide(("same",), *unsure, *unsure, *unsure)[0], "unsure")
+        self.assertEqual(len(self.script.runs), 3 * 24)
+        self.assertEqual(self.decide(("same",), *unsure, ("faster",), ("unsure",))[0], "faster")
+        self.assertEqual(self.decide(("same",), *unsure, *unsure, most=10)[0], "unsure")
+        self.assertEqual(len(self.script.runs), 3 * 10)
+
+    def test_a_base_that_differs_from_itself_is_no_judge(self):
+        fresh = ("slower", timing("slower", 1.2))
+        for word in ("slower", "faster"):
+            decision = self.decide(("same",), ("same",), (word,), ("slower",), (word,), ("slower",), (word,))
+            self.assertEqual(decision[0], "unsure")
+            self.assertIn("no judge", decision[1])
+        self.assertEqual(self.decide(("same",), ("slower",), ("slower",), ("slower",), ("same",), fresh)[0], "slower")
+
+    def test_a_process_that_fails_is_told(self):
+        rule = regression.Regression({name: name for name in regression.NAMES}, "judge", ["scene"], "results",
+                                     run=lambda command, environment: subprocess.CompletedProcess(command, 3, "", "broken mesh"))
+        with self.assertRaisesRegex(regression.Broken, "broken mesh"):
+            rule.behaviour()
+
+
+class RegressionProgramTest(unittest.TestCase):
+    """The real program against itself and against one that does something else, in one round."""
+
+    def compare(self, folder, candidate):
+        return subprocess.run([sys.executable, os.path.join(ROOT, "scripts", "ci", "regression.py"), "--base", PROGRAM,
+                               "--candidate", candidate, "--judge", PROGRAM, "--experiment",
+                               os.path.join(ROOT, "experiments", "shapes.json"), "--set", "/frames=60", "--set",
+                               "/probes/truth/stride_frames=0", "--set", "/probes/fcl/stride_frames=0", "--pairs", "1",
+                               "--most", "1", "--instructions", "0", "--out", folder], capture_output=True, text=True,
+                              check=False, stdin=subprocess.DEVNULL)
+
+    def test_against_itself(self):
+        with tempfile.TemporaryDirectory() as folder:
+            done = self.compare(folder, PROGRAM)
+            self.assertIn(done.returncode, (0, 4), done.stderr)
+            self.assertRegex(done.stdout, r"verdict: (same|faster|unsure) \(.*\); 1 rounds")
+            with open(os.path.join(folder, "verdict.md"), encoding="utf-8") as stream:
+                self.assertIn("| improved | search |", stream.read())
+            self.assertEqual(xml.etree.ElementTree.parse(os.path.join(folder, "junit.xml")).getroot().get("failures"), "0")
+            for name, processes in (("base.json", 2), ("candidate.json", 1)):
+                with open(os.path.join(folder, name), encoding="utf-8") as stream:
+                    rows = json.load(stream)["benchmarks"]
+                self.assertEqual(sum(row["name"] == "improved/search" for row in rows), processes)
+
+    def test_another_behaviour_is_changed(self):
+        with tempfile.TemporaryDirectory() as folder:
+            other = os.path.join(folder, "other")
+            with open(other, "w", encoding="utf-8") as stream:
+                stream.write(f"#!/bin/sh\nexec {PROGRAM} \"$@\" --set /force/maximum_force_n=2\n")
+            os.chmod(other, 0o755)
+            done = self.compare(os.path.join(folder, "out"), other)
+            self.assertEqual(done.returncode, 1, done.stderr)
+            self.assertIn("verdict: changed (results or counters differ); 1 rounds", done.stdout)
 
 
 class BenchmarkFormatTest(unittest.TestCase):
@@ -142,18 +299,28 @@ class BenchmarkFormatTest(unittest.TestCase):
 
 
 class StudyTest(unittest.TestCase):
+    def row(self, variant, verdict, named=False):
+        return {"condition": "idle", "variant": variant, "verdict": verdict, "named": named, "rounds": 6, "seconds": 2.0,
+                "load": 1.0, "looks": [{"highest_low": 1.0}]}
+
     def test_table_counts_verdicts(self):
-        rows = [{"variant": "again", "verdict": "same", "named": 0, "detectable": 0.02, "load": "1.0"},
-                {"variant": "again", "verdict": "unsure", "named": 0, "detectable": 0.04, "load": "3.0"},
-                {"variant": "planted10", "verdict": "slower", "named": 1, "detectable": 0.03, "load": "2.0"}]
-        text = verdict_study.table(rows, 6)
-        self.assertIn("6 processes a side, load average 1.0 to 3.0.", text)
-        self.assertIn("| nothing (base again) | 2 | 0 |  | 1 | 1 | 0 | 4.0 % |", text)
-        self.assertIn("| 10 % | 1 | 1 | 1 | 0 | 0 | 0 | 3.0 % |", text)
+        rows = [self.row("again", "same"), self.row("again", "unsure"), self.row("10", "slower", True),
+                self.row("10", "slower", False)]
+        text = verdict_study.table(rows)
+        self.assertIn("| idle | nothing | 2 | 0 (0.0 %, 0.0 to 84.2) |  | 1 (50.0 %, 1.3 to 98.7) | 1 | 0 | 6.0 | "
+                      "2.0, 2.0, 2.0 | 1.0 to 1.0 |", text)
+        self.assertIn("| idle | 10 % | 2 | 2 (100.0 %, 15.8 to 100.0) | 1 | 0 (0.0 %, 0.0 to 84.2) | 0 | 0 |", text)
 
     def test_stages_change_with_the_comparison(self):
-        planted = [verdict_study.stage_of(i) for i in range(len(verdict_study.STAGES) * verdict_study.ROUNDS_A_STAGE)]
-        self.assertEqual(set(planted), set(verdict_study.STAGES))
+        found = {verdict_study.planted("5", i)[0] for i in range(len(verdict_study.STAGES))}
+        self.assertEqual(found, set(verdict_study.STAGES))
+
+    def test_the_planted_variable_names_no_method_for_the_base_and_has_one_length(self):
+        for index in range(len(verdict_study.STAGES)):
+            stage, ours, theirs = verdict_study.planted("10", index)
+            self.assertEqual(ours, stage + ":10")
+            self.assertEqual(len(ours), len(theirs))
+            self.assertNotIn(theirs.split(":")[0], {name.split(":")[0] for name in verdict_study.STAGES})
 
 
 if __name__ == "__main__":

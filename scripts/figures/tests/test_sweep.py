@@ -129,6 +129,13 @@ class Intervals(unittest.TestCase):
             self.assertAlmostEqual(found[0], low, places=2)
             self.assertAlmostEqual(found[1], high, places=2)
 
+    def test_limits_of_a_share_are_clopper_and_pearsons(self):
+        for count, total, low, high in ((0, 10, 0.0, 0.30850), (5, 10, 0.18709, 0.81291), (3, 500, 0.001239, 0.017434),
+                                        (10, 10, 0.69150, 1.0), (1, 66, 0.0003835, 0.081552)):
+            found = intervals.share_interval(count, total)
+            self.assertAlmostEqual(found[0], low, places=5)
+            self.assertAlmostEqual(found[1], high, places=5)
+
     def test_bootstrap_over_paths_widens_what_comes_in_bursts(self):
         even = intervals.Rate([10] * 6, [1.0] * 6)
         bursts = intervals.Rate([60, 0, 0, 0, 0, 0], [1.0] * 6)

@@ -82,6 +82,11 @@ void add_compare_command(CLI::App& app, int& exit_status) {
       ->check(CLI::Range(0.0001, 10.0))
       ->capture_default_str();
   command
+      ->add_option("--false-alarm", arguments->options.false_alarm,
+                   "probability of a false \"slower\" over all stages together")
+      ->check(CLI::Range(1e-6, INTERVAL_ERROR))
+      ->capture_default_str();
+  command
       ->add_option("--tolerance", arguments->options.exact.tolerance_relative,
                    "real numbers may differ by this share of their row's largest; 0: the same bits")
       ->check(CLI::Range(0.0, 1.0))

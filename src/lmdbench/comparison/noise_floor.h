@@ -16,7 +16,8 @@ struct NoiseFloor {
   /// Standard deviation of the logarithm of what `stage_times` makes of one process: what is left of the noise where
   /// every frame counts with the least time of its repetitions. Effects of memory layout are not in it.
   double spread = 0.0;
-  double detectable = 0.0;  ///< Smallest change that `processes` processes a side would show with that spread
+  double detectable =
+      0.0;  ///< Smallest change that `processes` processes a side would show; NaN if too little was measured
   std::size_t processes = 0;
 };
 

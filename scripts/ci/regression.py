@@ -1,0 +1,207 @@
+# SPDX-FileCopyrightText: The lmdbench authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""When are two programs' times told apart: which processes are run, and which verdict of `lmdbench compare` stands. The rule
+of scripts/ci_regression.sh, which builds the programs and calls this; scripts/ci/verdict_study.py measures the same code.
+
+    python3 scripts/ci/regression.py --base PROGRAM --candidate PROGRAM --experiment FILE --out DIR [option]...
+
+Every round runs three processes in an order of its own (the six orders, shuffled anew for every six rounds): the base, the
+base again as a null control, the candidate. The judge is the candidate's `lmdbench compare`, or that of --judge:
+
+  1. Results and counters, exactly, after one round: a difference ends it, `changed`.
+  2. Instructions under callgrind (scripts/ci/instructions.sh), which no noise touches: more of them end it, `slower`.
+  3. Times, after --pairs rounds: the candidate against both series of the base together. `same` and `faster` end it. Else
+     there are as many rounds again, until --most. A stage that looks slower (a false alarm of SUSPICION over all stages) is
+     a suspect, and `slower` only once the next rounds alone, which know nothing of the first, put it above 1, too (95 %,
+     INTERVAL_ERROR of `lmdbench compare`). Two looks can name suspects, so an equal program is called slower with a
+     probability of at most 2 x 0.05 x 0.05 = 0.5 %.
+  Where the base is slower or faster than itself the machine is no judge yet: more rounds, `unsure` at the end.
+
+Prints the verdict's table and a last line with the reason. Exit code: 0 same or faster, 1 slower or changed, 4 unsure or
+the environment lacks something."""
+
+import argparse
+import json
+import os
+import random
+import shutil
+import subprocess
+import sys
+import time
+
+ROOT = os.path.abspath(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", ".."))
+SUSPICION = 0.05
+# All names have one length: the place of a process' arguments moves its stack, and with it its speed.
+NAMES = ("base", "null", "cand")
+ORDERS = (("base", "cand", "null"), ("base", "null", "cand"), ("cand", "base", "null"), ("cand", "null", "base"),
+          ("null", "base", "cand"), ("null", "cand", "base"))
+EXIT_CODES = {"same": 0, "faster": 0, "slower": 1, "changed": 1, "unsure": 4}
+
+
+class Broken(Exception):
+    """A process failed: no verdict, exit code 4."""
+
+
+def orders(generator):
+    """Endless: every program is as often first, second and last."""
+    while True:
+        shuffled = list(ORDERS)
+        generator.shuffle(shuffled)
+        yield from shuffled
+
+
+def stages(answer, verdict):
+    return {(t["method"], t["stage"]) for t in answer["timings"] if t["verdict"] == verdict}
+
+
+class Regression:
+    """One comparison. `programs` maps NAMES to executables, `environments` (optional) to variables of their processes;
+    `run` is called with (command, environment) and returns a finished process: tests put another one in."""
+
+    def __init__(self, programs, judge, scene, folder, threshold=0.05, allow=(), environments=None, generator=None,
+                 run=None, say=lambda text: None):
+        self.programs, self.judge, self.scene, self.folder = programs, judge, list(scene), folder
+        self.options = ["--threshold", str(threshold)] + [word for name in allow for word in ("--allow", name)]
+        self.environments = environments or {}
+        self.orders = orders(generator or random.Random())
+        self.run_process = run or self.subprocess_run
+        self.say = say
+        self.rounds = 0
+        self.looks = []  # what was seen when, for studies of the rule
+
+    @staticmethod
+    def subprocess_run(command, environment):
+        return subprocess.run(command, cwd=ROOT, env=dict(os.environ, **environment), capture_output=True, text=True,
+                              check=False, stdin=subprocess.DEVNULL)
+
+    def result(self, name, index):
+        return os.path.join(self.folder, f"{name}-{index}.h5")
+
+    def run(self, count):
+        for _ in range(count):
+            for name in next(self.orders):
+                done = self.run_process([self.programs[name], "--quiet", "run", *self.scene, "--out",
+                                         self.result(name, self.rounds)], self.environments.get(name, {}))
+                if done.returncode != 0:
+                    raise Broken(f"the {name}'s run left with {done.returncode}: {done.stderr}")
+            self.rounds += 1
+
+    def compare(self, base, candidate, first=0, options=("--json",)):
+        """The judge's output on the rounds from `first` on; `base` holds one name or two, whose processes are pooled."""
+        sides = [[self.result(name, i) for name in names for i in range(first, self.rounds)]
+                 for names in (base, candidate)]
+        done = self.run_process([self.judge, "--quiet", "compare", "--base", *sides[0], "--candidate", *sides[1],
+                                 *self.options, *options], {})
+        if done.returncode not in (0, 1, 4) or not done.stdout:
+            raise Broken(f"lmdbench compare left with {done.returncode}: {done.stderr}")
+        return done.stdout
+
+    def against_base(self, first=0):
+        return json.loads(self.compare(("base", "null"), ("cand",), first, ("--json", "--false-alarm", str(SUSPICION))))
+
+    def against_itself(self):
+        return json.loads(self.compare(("base",), ("null",)))
+
+    def behaviour(self):
+        """The exact part, from one round; a verdict and its reason, or None."""
+        self.run(1)
+        changed = self.against_base()["verdict"] == "changed"
+        return ("changed", "results or counters differ") if changed else None
+
+    def times(self, pairs, most):
+        """The rule on times, after `behaviour`; the verdict and its reason."""
+        self.run(pairs - self.rounds)
+        suspects, fresh = set(), 0
+        while True:
+            answer = self.against_base()
+            word = answer["verdict"]
+            null = self.against_itself()["verdict"]
+            self.looks.append({"rounds": self.rounds, "candidate": word, "base": null,
+                               "highest_low": max(t["low"] for t in answer["timings"]),
+                               "detectable": max(t["detectable"] for t in answer["timings"])})
+            self.say(f"after {self.rounds} rounds: candidate {word}, base against itself {null}")
+            trusted = null in ("same", "unsure")
+            if suspects and trusted:
+                alone = self.against_base(fresh)
+                confirmed = sorted((t["method"], t["stage"]) for t in alone["timings"]
+                                   if (t["method"], t["stage"]) in suspects - stages(answer, "same") and t["low"] > 1.0)
+                if confirmed:
+                    named = ", ".join(f"{method}'s {stage}" for method, stage in confirmed)
+                    return "slower", f"{named}: confirmed by {self.rounds - fresh} fresh rounds"
+            if word in ("same", "faster") and trusted:
+                return word, f"sure; the base is {null} against itself"
+            if self.rounds >= most:
+                if not trusted:
+                    return "unsure", f"the base is {null} than itself: this machine is no judge, see lmdbench doctor"
+                return "unsure", f"not sure after {self.rounds} rounds, see lmdbench doctor"
+            suspects, fresh = stages(answer, "slower"), self.rounds
+            self.run(min(self.rounds, most - self.rounds))
+
+
+def instructions(arguments, scene):
+    """The gate on instruction counts: a verdict and its reason, or None."""
+    status = subprocess.run([os.path.join(ROOT, "scripts", "ci", "instructions.sh"), arguments.base, arguments.candidate,
+                             scene[0], arguments.instructions, os.path.join(arguments.out, "callgrind"), *scene[1:]],
+                            check=False, stdin=subprocess.DEVNULL).returncode
+    if status == 1:
+        return "slower", "more instructions, counted by callgrind, see above"
+    if status != 0:
+        print("instructions were not counted, see above", file=sys.stderr)
+    return None
+
+
+def report(regression, out):
+    """The full table of the candidate against the base, and the files for other tools."""
+    files = ("--junit", os.path.join(out, "junit.xml"), "--benchmark", os.path.join(out, "candidate.json"),
+             "--benchmark-base", os.path.join(out, "base.json"))
+    table = regression.compare(("base", "null"), ("cand",), 0, files)
+    with open(os.path.join(out, "verdict.md"), "w", encoding="utf-8") as stream:
+        stream.write(regression.compare(("base", "null"), ("cand",), 0, ("--markdown",)))
+    print(table, end="", flush=True)
+
+
+def main(words=None):
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--base", required=True, metavar="PROGRAM")
+    parser.add_argument("--candidate", required=True, metavar="PROGRAM")
+    parser.add_argument("--judge", metavar="PROGRAM", help="whose `compare` judges (the candidate's)")
+    parser.add_argument("--experiment", required=True)
+    parser.add_argument("--set", action="append", default=[], metavar="PTR=VALUE", help="override of the scene, for both")
+    parser.add_argument("--pairs", type=int, default=6, help="rounds before the first verdict on times (6)")
+    parser.add_argument("--most", type=int, default=24, help="rounds at most (24)")
+    parser.add_argument("--threshold", default="0.05", help="least effect that matters (0.05)")
+    parser.add_argument("--allow", action="append", default=[], metavar="COUNTER", help="counter that may differ")
+    parser.add_argument("--instructions", default="0.01", help="least change of instructions that matters; 0: no callgrind")
+    parser.add_argument("--out", required=True, help="folder of results, tables and reports")
+    arguments = parser.parse_args(words)
+    if not 1 <= arguments.pairs <= arguments.most:
+        parser.error("1 <= --pairs <= --most (remedy: leave both out for 6 and 24)")
+
+    arguments.out = os.path.abspath(arguments.out)
+    results = os.path.join(arguments.out, "results")
+    shutil.rmtree(results, ignore_errors=True)
+    os.makedirs(results)
+    programs = {}
+    for name, program in zip(NAMES, (arguments.base, arguments.base, arguments.candidate)):
+        programs[name] = os.path.join(arguments.out, "bin", name, "lmdbench")
+        os.makedirs(os.path.dirname(programs[name]), exist_ok=True)
+        shutil.copy2(program, programs[name])
+    scene = [os.path.abspath(arguments.experiment)] + [word for pair in arguments.set for word in ("--set", pair)]
+    regression = Regression(programs, os.path.abspath(arguments.judge or arguments.candidate), scene, results, arguments.threshold, arguments.allow,
+                            say=lambda text: print(text, file=sys.stderr))
+    started = time.monotonic()
+    try:
+        decision = regression.behaviour()
+        if decision is None and float(arguments.instructions) > 0.0:
+            decision = instructions(arguments, scene)
+        word, why = decision or regression.times(arguments.pairs, arguments.most)
+        report(regression, arguments.out)
+    except Broken as error:
+        print(f"error: {error}", file=sys.stderr)
+        return EXIT_CODES["unsure"]
+    print(f"verdict: {word} ({why}); {regression.rounds} rounds, {time.monotonic() - started:.0f} s")
+    return EXIT_CODES[word]
+
+
+if __name__ == "__main__":
+    sys.exit(main())
