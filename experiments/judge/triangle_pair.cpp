@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <array>
+#include <iomanip>
+#include <sstream>
 #include <utility>
 
 namespace lmdbench::testing {
@@ -34,6 +36,17 @@ double magnitude(const TrianglePair& pair) {
     largest = std::max({largest, pair.a[i].cwiseAbs().maxCoeff(), pair.b[i].cwiseAbs().maxCoeff()});
   }
   return largest;
+}
+
+std::string paste(const TrianglePair& pair) {
+  std::ostringstream text;
+  text << std::setprecision(17) << "\n";
+  for (const Triangle* t : {&pair.a, &pair.b}) {
+    text << "Triangle{";
+    for (const Vec3& p : *t) text << "Vec3(" << p[0] << ", " << p[1] << ", " << p[2] << "), ";
+    text << "}\n";
+  }
+  return text.str();
 }
 
 }  // namespace lmdbench::testing

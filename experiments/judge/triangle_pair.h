@@ -4,6 +4,8 @@
 
 #include <lmdbench/geometry/types.h>
 
+#include <string>
+
 namespace lmdbench::testing {
 
 struct TrianglePair {
@@ -19,5 +21,8 @@ TrianglePair reordered(const TrianglePair& pair, int order);
 
 /// Largest absolute coordinate of the pair: the scale that errors are relative to.
 double magnitude(const TrianglePair& pair);
+
+/// The pair as C++ that pastes back into a test.
+std::string paste(const TrianglePair& pair);
 
 }  // namespace lmdbench::testing

@@ -33,8 +33,8 @@ def measured(part):
         return 0, False
 
 
-def is_time(name):
-    return name.endswith("_time") or ("summary/" in name and name.endswith(("_s", "/frames_late")))
+def is_time(name, dataset):
+    return name.endswith("_time") or dataset.attrs.get("made_of_times", 0) == 1
 
 
 def differences(a, b):
@@ -44,7 +44,7 @@ def differences(a, b):
         found = {}
         for which, file in enumerate((first, second)):
             def visit(name, item, which=which):
-                if isinstance(item, h5py.Dataset) and not name.startswith("provenance") and not is_time(name):
+                if isinstance(item, h5py.Dataset) and not name.startswith("provenance") and not is_time(name, item):
                     found.setdefault(name, [None, None])[which] = item[()]
             file.visititems(visit)
         for name, (left, right) in sorted(found.items()):

@@ -21,9 +21,8 @@ inline std::map<std::string, std::vector<char>> deterministic_datasets(const std
       id, H5_INDEX_NAME, H5_ITER_INC,
       [](hid_t object, const char* name, const H5O_info_t* info, void* data) -> herr_t {
         const std::string path(name);
-        const bool is_summary = path.find("/summary/") != std::string::npos;
-        const bool is_time = path.ends_with("_time") ||
-                             (is_summary && (path.ends_with("_s") || path.ends_with("/frames_late")));
+        const bool is_time =
+            path.ends_with("_time") || H5Aexists_by_name(object, name, "made_of_times", H5P_DEFAULT) > 0;
         if (info->type != H5O_TYPE_DATASET || is_time || path.rfind("provenance", 0) == 0) return 0;
         const hid_t dataset = H5Dopen2(object, name, H5P_DEFAULT);
         const hid_t type = H5Dget_type(dataset);

@@ -10,9 +10,7 @@
 #include <judge/brute_force_distance.h>
 
 #include <cmath>
-#include <iomanip>
 #include <limits>
-#include <sstream>
 #include <string>
 
 namespace lmdbench {
@@ -27,18 +25,6 @@ using testing::TrianglePair;
 constexpr double KERNEL_ERROR_BOUND = 2.0 * COINCIDENCE_TOLERANCE;
 
 constexpr int PAIRS = 10000;
-
-/// The pair as C++ that pastes back into a test.
-std::string paste(const TrianglePair& pair) {
-  std::ostringstream text;
-  text << std::setprecision(17) << "\n";
-  for (const Triangle* t : {&pair.a, &pair.b}) {
-    text << "Triangle{";
-    for (const Vec3& p : *t) text << "Vec3(" << p[0] << ", " << p[1] << ", " << p[2] << "), ";
-    text << "}\n";
-  }
-  return text.str();
-}
 
 class TriangleFamilies : public ::testing::TestWithParam<TriangleFamily> {};
 

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/geometry/tolerance.h>
 #include <lmdbench/geometry/triangle_distance.h>
+#include <lmdbench/methods/original/feature_points.h>
 
 #include <judge/triangle_families.h>
 // RapidCheck's header uses GoogleTest without including it.
@@ -130,17 +131,6 @@ RC_GTEST_PROP(TriangleDistanceProperty, AnEdgeGivesTheSameBitsFromBothOfItsTrian
     RC_ASSERT(first.point_b == second.point_b);
     RC_ASSERT(first.squared_distance == second.squared_distance);
   }
-}
-
-/// Corners, edge middles and centroid: the feature points of the original algorithm.
-std::array<Vec3, 7> feature_points(const Triangle& t) {
-  return {t[0],
-          t[1],
-          t[2],
-          0.5 * (t[0] + t[1]),
-          0.5 * (t[1] + t[2]),
-          0.5 * (t[2] + t[0]),
-          (t[0] + t[1] + t[2]) / 3.0};
 }
 
 /// No point of the triangle is farther than this from a feature point: corners and edge middles cut it into

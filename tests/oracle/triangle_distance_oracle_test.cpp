@@ -10,9 +10,7 @@
 #include <judge/exact_distance.h>
 
 #include <cmath>
-#include <iomanip>
 #include <limits>
-#include <sstream>
 #include <string>
 
 namespace lmdbench {
@@ -33,17 +31,6 @@ constexpr int QUICK_PAIRS = 400;
 constexpr double REFERENCE_BOUND = 1e-15;
 /// What rational arithmetic loses when it is rounded to a double.
 constexpr long double LAST_ROUNDING = std::numeric_limits<double>::epsilon();
-
-std::string paste(const TrianglePair& pair) {
-  std::ostringstream text;
-  text << std::setprecision(17) << "\n";
-  for (const Triangle* t : {&pair.a, &pair.b}) {
-    text << "Triangle{";
-    for (const Vec3& p : *t) text << "Vec3(" << p[0] << ", " << p[1] << ", " << p[2] << "), ";
-    text << "}\n";
-  }
-  return text.str();
-}
 
 class TriangleOracle : public ::testing::TestWithParam<testing::TriangleFamily> {};
 

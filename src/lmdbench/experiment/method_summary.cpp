@@ -98,7 +98,7 @@ constexpr std::array NUMBERS = {
                   &M::frame_time_median_s},
     SummaryNumber{"frame_time_p99_s", "s", "the same, 99th percentile", &M::frame_time_p99_s},
     SummaryNumber{"frame_time_maximum_s", "s", "the same, longest", &M::frame_time_maximum_s},
-    SummaryNumber{"frames_late", "1", "frames in contact whose time is above 1 ms", &M::frames_late},
+    SummaryNumber{"frames_late", "1", "frames in contact whose time is above 1 ms", &M::frames_late, true},
 };
 
 }  // namespace

@@ -76,6 +76,10 @@ struct SummaryNumber {
   std::string_view units;  ///< SI symbol, "1" for counts and ratios.
   std::string_view long_name;
   double MethodSummary::*value;
+  /// Made of times although its unit is not one: different in every run.
+  bool counts_times = false;
+
+  bool made_of_times() const { return units == "s" || counts_times; }
 };
 
 /// All numbers, in the order of reports.

@@ -17,7 +17,7 @@
 namespace lmdbench {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using OrderedJson = nlohmann::ordered_json;
 
 /// Frames compared with exhaustive truth and with FCL, of the 2,001 of the path.
 constexpr int TRUTH_STRIDE = 20;
@@ -31,11 +31,11 @@ std::string seen_from(const std::filesystem::path& folder, const std::string& me
 }
 
 /// An entry of a mesh with its units guessed.
-Json mesh_entry(const std::string& mesh, const std::filesystem::path& folder,
-                const std::filesystem::path& mesh_folder, const std::string& place,
-                std::vector<DefaultNote>& choices) {
+OrderedJson mesh_entry(const std::string& mesh, const std::filesystem::path& folder,
+                       const std::filesystem::path& mesh_folder, const std::string& place,
+                       std::vector<DefaultNote>& choices) {
   const double diagonal = bounding_box_diagonal(resolve_mesh(mesh, mesh_folder).mesh);
-  Json entry{{"mesh", seen_from(folder, mesh)}};
+  OrderedJson entry{{"mesh", seen_from(folder, mesh)}};
   if (diagonal > LARGEST_PLAUSIBLE_DIAGONAL) {
     entry["scale"] = 0.001;
     choices.push_back({place + "/scale", "0.001",
@@ -68,11 +68,12 @@ NewExperiment new_experiment(const std::string& moving, const std::string& fixed
   result.specification_file = folder / (result.name + ".path.json");
   result.path_file = folder / (result.name + ".tum");
 
-  Json json{{"name", result.name}, {"title", fmt::format("{} past {}", stem_of(moving), stem_of(fixed))}};
+  OrderedJson json{{"name", result.name},
+                   {"title", fmt::format("{} past {}", stem_of(moving), stem_of(fixed))}};
   if (is_mesh_name(moving) || is_mesh_name(fixed))
     json["mesh_folder"] = std::filesystem::proximate(mesh_folder, folder).generic_string();
   json["moving"] = mesh_entry(moving, folder, mesh_folder, "/moving", result.choices);
-  json["fixed"] = Json::array({mesh_entry(fixed, folder, mesh_folder, "/fixed/0", result.choices)});
+  json["fixed"] = OrderedJson::array({mesh_entry(fixed, folder, mesh_folder, "/fixed/0", result.choices)});
 
   // What the program chooses for a file of two meshes, from the one place that chooses.
   const Experiment open = parse_experiment(json.dump(), result.experiment_file);
@@ -84,7 +85,7 @@ NewExperiment new_experiment(const std::string& moving, const std::string& fixed
                    {"saturation_cutoff", 0.1},
                    {"maximum_force_n", prepared.profiles.front().force.maximum_force},
                    {"sharpness", prepared.profiles.front().force.sharpness}};
-  json["methods"] = Json::array();
+  json["methods"] = OrderedJson::array();
   for (const MethodChoice& method : open.methods)
     json["methods"].push_back(
         {{"name", method.name},

@@ -12,13 +12,13 @@
 namespace lmdbench {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using OrderedJson = nlohmann::ordered_json;
 
-Json point_json(const Vec3& p) {
+OrderedJson point_json(const Vec3& p) {
   return {p.x(), p.y(), p.z()};
 }
 
-Json feature_json(const FeatureId& feature) {
+OrderedJson feature_json(const FeatureId& feature) {
   return {{"kind", std::string(to_string(feature.kind))}, {"index", feature.index}};
 }
 
@@ -42,11 +42,11 @@ QueryAnswer query(Method& method, const TimedPose& pose, double cutoff) {
 }
 
 std::string query_json(const QueryAnswer& answer) {
-  Json json;
+  OrderedJson json;
   json["time"] = answer.time;
   json["method"] = answer.method;
   json["minimum_distance"] = minimum_distance(answer.lmds);  // NaN becomes null
-  json["lmds"] = Json::array();
+  json["lmds"] = OrderedJson::array();
   for (const Lmd& lmd : answer.lmds) {
     json["lmds"].push_back({{"distance", lmd.distance},
                             {"point_moving", point_json(lmd.point_moving)},
@@ -54,7 +54,7 @@ std::string query_json(const QueryAnswer& answer) {
                             {"feature_moving", feature_json(lmd.feature_moving)},
                             {"feature_fixed", feature_json(lmd.feature_fixed)}});
   }
-  json["counters"] = Json::object();
+  json["counters"] = OrderedJson::object();
   for (const auto& [name, value] : answer.counters) json["counters"][name] = value;
   json["seconds"] = answer.seconds;
   return json.dump();

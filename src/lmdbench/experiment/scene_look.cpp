@@ -191,9 +191,9 @@ std::string to_text(const SceneLook& look) {
 }
 
 nlohmann::ordered_json to_json(const SceneLook& look) {
-  using Json = nlohmann::ordered_json;
-  Json json;
-  json["meshes"] = Json::array();
+  using OrderedJson = nlohmann::ordered_json;
+  OrderedJson json;
+  json["meshes"] = OrderedJson::array();
   for (const SceneLook::Mesh& mesh : look.meshes)
     json["meshes"].push_back({{"role", mesh.role},
                               {"name", mesh.name},
@@ -208,11 +208,11 @@ nlohmann::ordered_json to_json(const SceneLook& look) {
   json["frames_in_contact"] = look.frames_in_contact;
   json["nearest_m"] = look.nearest;  // NaN becomes null
   json["defaults"] = defaults_json(look.defaults);
-  json["warnings"] = Json::array();
+  json["warnings"] = OrderedJson::array();
   for (const SceneWarning& warning : look.warnings)
     json["warnings"].push_back({{"what", warning.what}, {"remedy", warning.remedy}});
   if (look.times.empty()) return json;
-  json["expected_seconds"] = Json::object();
+  json["expected_seconds"] = OrderedJson::object();
   for (const ExpectedTime& time : look.times) json["expected_seconds"][time.stage] = time.seconds;
   return json;
 }

@@ -304,9 +304,11 @@ void write_summary(ResultWriter& writer, const RunSummary& summary) {
   write("/summary/true_lmd_count_maximum", "1", "true LMDs in a probed frame, most",
         summary.true_lmd_count_maximum);
   for (const MethodSummary& method : summary.methods)
-    for (const SummaryNumber& number : summary_numbers())
-      write(fmt::format("/methods/{}/summary/{}", method.label, number.name), number.units, number.long_name,
-            method.*number.value);
+    for (const SummaryNumber& number : summary_numbers()) {
+      const std::string path = fmt::format("/methods/{}/summary/{}", method.label, number.name);
+      write(path, number.units, number.long_name, method.*number.value);
+      if (number.made_of_times()) writer.attribute(path, "made_of_times", std::int64_t{1});
+    }
 }
 
 }  // namespace lmdbench

@@ -99,14 +99,14 @@ PathSpec parse_path_spec(const std::string& text, const std::string& name) {
 }
 
 std::string path_spec_text(const PathSpec& spec) {
-  using Ordered = nlohmann::ordered_json;
+  using OrderedJson = nlohmann::ordered_json;
   const auto mesh = [](const PlacedMesh& choice) {
-    Ordered entry{{"mesh", choice.mesh}};
+    OrderedJson entry{{"mesh", choice.mesh}};
     write_placement(choice.placement, entry);
     return entry;
   };
   const auto degrees = [](double angle) { return std::stod(fmt::format("{:.12g}", angle / DEGREE)); };
-  Ordered json{
+  OrderedJson json{
       {"moving", mesh(spec.moving)},
       {"fixed", mesh(spec.fixed)},
       {"frame_rate_hz", spec.frame_rate},
@@ -118,7 +118,7 @@ std::string path_spec_text(const PathSpec& spec) {
   if (spec.radial_speed) json["radial_speed_m_per_s"] = *spec.radial_speed;
   if (spec.radial_acceleration) json["radial_acceleration_m_per_s2"] = *spec.radial_acceleration;
   json["gap_floor"] = spec.gap_floor;
-  json["gaps"] = Ordered::array();
+  json["gaps"] = OrderedJson::array();
   for (const GapPoint& point : spec.gaps)
     json["gaps"].push_back({{"time_s", point.time}, {"gap", point.gap}});
   return json.dump(2) + "\n";

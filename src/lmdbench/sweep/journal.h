@@ -11,7 +11,9 @@
 #include <utility>
 
 /// What a sweep has done so far, beside its result: a JSON line for each point and repetition, on the disk before the
-/// next one begins. A sweep that is stopped, or gets another point, goes on from there.
+/// next one begins. A sweep that is stopped, or gets another point, goes on from there. (A run's part, partial_result.h,
+/// is another thing: its shape is known before the first frame, and a frame has no time for a call of the system. Here
+/// points come and go between two sittings, and an entry is what one of them happened to measure, once a minute.)
 namespace lmdbench {
 
 class Journal {

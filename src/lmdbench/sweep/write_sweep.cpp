@@ -15,15 +15,15 @@
 namespace lmdbench {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using OrderedJson = nlohmann::ordered_json;
 
 constexpr std::string_view ERROR = "force_error_rms_n";
 constexpr std::string_view COST = "processor_share";
 
 /// Axes as a JSON object.
-Json axes_json(const SweepPoint& point) {
-  Json axes = Json::object();
-  for (const auto& [place, value] : point.axes) axes[place] = Json::parse(value);
+OrderedJson axes_json(const SweepPoint& point) {
+  OrderedJson axes = OrderedJson::object();
+  for (const auto& [place, value] : point.axes) axes[place] = OrderedJson::parse(value);
   return axes;
 }
 
@@ -193,21 +193,21 @@ std::string sweep_text(const Sweep& sweep, const SweepResult& result) {
 }
 
 std::string sweep_json(const Sweep& sweep, const SweepResult& result) {
-  Json rows = Json::array();
+  OrderedJson rows = OrderedJson::array();
   for (std::size_t i = 0; i < sweep.points.size(); ++i) {
     const SweepPoint& point = sweep.points[i];
     const PointResult& values = result.points[i];
-    Json row{{"scene", point.scene},
-             {"series", point.series},
-             {"method", point.experiment.methods.front().name},
-             {"axes", axes_json(point)},
-             {"failure", values.failure.empty() ? Json() : Json(values.failure)},
-             {"on_front", on_front(sweep, result, i)},
-             {"truth_checked_frames", values.errors.truth_checked_frames},
-             {"truth_wrong_frames", values.errors.truth_wrong_frames}};
+    OrderedJson row{{"scene", point.scene},
+                    {"series", point.series},
+                    {"method", point.experiment.methods.front().name},
+                    {"axes", axes_json(point)},
+                    {"failure", values.failure.empty() ? OrderedJson() : OrderedJson(values.failure)},
+                    {"on_front", on_front(sweep, result, i)},
+                    {"truth_checked_frames", values.errors.truth_checked_frames},
+                    {"truth_wrong_frames", values.errors.truth_wrong_frames}};
     for (const PointNumber& number : point_numbers()) {
       const double value = values.number(number.name);
-      row[std::string(number.name)] = std::isfinite(value) ? Json(value) : Json();
+      row[std::string(number.name)] = std::isfinite(value) ? OrderedJson(value) : OrderedJson();
     }
     rows.push_back(std::move(row));
   }

@@ -6,8 +6,10 @@
 #include <gtest/gtest.h>
 #include <support/scenes.h>
 
+#include <cmath>
 #include <cstddef>
 #include <memory>
+#include <numbers>
 #include <random>
 #include <sstream>
 #include <string>
@@ -143,6 +145,26 @@ TEST(Certified, FindsTheTruthOnBoxesInParallel) {
     }
   }
   EXPECT_GT(comparison.lmds(), 100u);
+}
+
+TEST(Certified, FindsTheTruthOnNearlyParallelEdges) {
+  // Two sharp edges that cross close to an end of either, at angles for which the place of the crossing is no longer exact.
+  const Scene scene = make_scene(make_wedge(0.1, 0.1, 0.05), make_wedge(0.1, 0.1, 0.05), 0.0);
+  std::mt19937_64 random(12);
+  KernelComparison comparison;
+  for (int i = 0; i < 300; ++i) {
+    const double angle = std::pow(10.0, -8.0 + 6.0 * testing::uniform(random));
+    const double from_end = 0.1 * std::pow(10.0, -8.0 + 8.0 * testing::uniform(random));
+    Pose pose;
+    pose.rotation =
+        Eigen::AngleAxisd(angle, Vec3::UnitZ()) * Eigen::AngleAxisd(std::numbers::pi, Vec3::UnitY());
+    // The crossing is `from_end` inside the end of the fixed edge, somewhere on the moving one.
+    const double place = i % 2 == 0 ? 0.05 - from_end : 0.09 * (testing::uniform(random) - 0.5);
+    const Vec3 on_moving = pose.rotation * Vec3(0.0, place, 0.025);
+    pose.translation = Vec3(0.0, 0.05 - from_end, 0.025 + 0.002 * testing::uniform(random)) - on_moving;
+    comparison.check(scene, pose, 0.01);
+  }
+  EXPECT_GE(comparison.lmds(), 300u);
 }
 
 TEST(Certified, FindsTheTruthOnItsOwnCopy) {

@@ -5,6 +5,8 @@
 #include "methods/certified/hierarchy/wide_samples.h"
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <numbers>
 #include <random>
 
 namespace lmdbench {
@@ -125,6 +127,39 @@ TEST(WideLifetime, NothingIsAnLmdBeforeItsFramesAreOver) {
   EXPECT_GT(rejected, 20000u);
   EXPECT_GT(beyond, 1000u);
   EXPECT_GT(held, 5000u);
+}
+
+/// A turn that changes only how far a direction is outside a cone, by all that lemma 11 of PROOF.md grants: a disc with a
+/// wide cone round its axis turns a point of its rim up to a point beside it.
+TEST(WideLifetime, ATurnLeavesAConeNoEarlierThanItsFramesAreOver) {
+  constexpr double CONE = 80.0 * std::numbers::pi / 180.0, BESIDE = 1e-3;
+  std::mt19937_64 random(1);
+  LaneSample disc(random), point(random);
+  disc.centre = Vec3::Zero();
+  disc.axis = Vec3::UnitZ();
+  disc.radius = 1.0;
+  disc.thickness = 0.0;
+  disc.cosine = std::cos(CONE);
+  point.centre = {1.0 + BESIDE, 0.0, 0.0};
+  point.axis = -Vec3::UnitX();
+  point.radius = point.thickness = point.cosine = 0.0;
+  // The point is as far above the rim as the disc has turned, and inside its cone from here on.
+  const double turn = std::atan(BESIDE / std::tan(CONE));
+  WideForecast forecast;
+  forecast.spin = 1e-6F;
+  forecast.cutoff = 0.01F;
+  forecast.reach = 4.0F;
+  for (const bool moving_lanes : {false, true}) {
+    WideNode home{}, node{};
+    (moving_lanes ? point : disc).store(home, 0);
+    (moving_lanes ? disc : point).store(node, 3);
+    const WideProbe probe = make_probe(WideChild(home, 0), WideTransform(Mat3::Identity(), Vec3::Zero()));
+    const WideLimits limits{0.01F, 0.0F, static_cast<float>(2.0 * POSITION_ROUNDING)};
+    const WideLifetimes result = test_lanes_lifetime(node, probe, limits, forecast, {moving_lanes, {}, 0u});
+    EXPECT_EQ(result.lmd, 0u);
+    EXPECT_LE(static_cast<double>(forecast.spin) * static_cast<double>(result.frames), turn);
+    EXPECT_GT(static_cast<double>(forecast.spin) * static_cast<double>(result.frames), 0.3 * turn);
+  }
 }
 
 /// Two children of which a point each touches at the end of a motion.

@@ -18,8 +18,11 @@ namespace lmdbench {
 namespace {
 
 /// Tilt beyond which the first-order test of no piece of a plateau passes (PLATEAU_PIECE_TOLERANCE and the
-/// rounding beside it), with room.
+/// rounding beside it), with room; but see `acceptable_tilt`.
 constexpr double CLEAR_TILT = 1e-8;
+/// What rounding grants the first-order test of a direction, times the coordinates over its length: 8 epsilon on either
+/// mesh, between which the direction may share a tilt, with room.
+constexpr double ROUNDED_TILT = 20.0 * std::numeric_limits<double>::epsilon();
 /// Contacts whose directions differ by more are never one set of minimisers.
 constexpr double DIRECTION_DOUBT = 1e-6;
 /// How far, relative to the coordinates, a minimum that a triangle pair found may be from the contact that it
@@ -30,10 +33,6 @@ constexpr double SAME_DISTANCE = 1e-6;
 
 double along(const Plane& plane, const Vec3& n, const Vec3& x) {
   return plane.normal.dot(plane.point - x) / plane.normal.dot(n);
-}
-
-double cross(const Vec2& a, const Vec2& b) {
-  return a[0] * b[1] - a[1] * b[0];
 }
 
 /// Whether all of b is farther than the tolerance outside some side of a.
@@ -91,10 +90,21 @@ void FlatContacts::start(std::int32_t body, double cutoff, double touch, double 
 FlatVerdict FlatContacts::judge(const Range& distances, double tilt) {
   // Faces that are in touch or cross have no direction: their triangles tell.
   if (distances.greatest < 0.0) return FlatVerdict::NONE;
-  if (distances.least <= 2.0 * touch_) return FlatVerdict::UNSURE;
+  const bool is_exact = tolerance_ == 0.0;
+  if (is_exact && tilt > acceptable_tilt(distances.least)) return FlatVerdict::NONE;
+  if (distances.least <= 2.0 * touch_)
+    return is_exact && distances.greatest > 4.0 * touch_ ? doubt() : FlatVerdict::UNSURE;
   if (distances.greatest - distances.least <= std::max(tolerance_, coincidence_length(coordinates_)))
     return FlatVerdict::FOUND;
-  return tilt <= CLEAR_TILT ? doubt() : FlatVerdict::NONE;
+  return is_exact || tilt <= CLEAR_TILT ? doubt() : FlatVerdict::NONE;
+}
+
+double FlatContacts::acceptable_tilt(double distance) const {
+  return CLEAR_TILT + ROUNDED_TILT * coordinates_ / std::max(distance, touch_);
+}
+
+double FlatContacts::largest_tilt() const {
+  return tolerance_ > 0.0 ? LARGEST_PARALLEL_TILT : acceptable_tilt(touch_);
 }
 
 std::span<const ConvexPolygon> FlatContacts::pieces_of(const Contact& contact) const {
@@ -161,7 +171,7 @@ FlatVerdict FlatContacts::add_faces(const FlatSide& moving, std::int32_t region_
                                     std::int32_t region_fixed) {
   const Plane plane_m = moving.plane(region_moving), plane_f = fixed.plane(region_fixed);
   const double tilt = (plane_m.normal + plane_f.normal).norm();
-  if (tilt > (tolerance_ > 0.0 ? LARGEST_PARALLEL_TILT : CLEAR_TILT)) return FlatVerdict::NONE;
+  if (tilt > largest_tilt()) return FlatVerdict::NONE;
   const Vec3 n = contact_direction(plane_m.normal, plane_f.normal, moving.surface, fixed.surface);
   const PlanarFrame frame(plane_f.point, n);
   collect_pieces(moving, region_moving, frame, of_moving_);
@@ -227,7 +237,7 @@ FlatVerdict FlatContacts::add_edge_face(const FlatSide& of_edge, std::int32_t st
   const double length = u.norm();
   const Plane plane = of_face.plane(region);
   const double tilt = std::abs(u.dot(plane.normal)) / length;
-  if (!(tilt <= (tolerance_ > 0.0 ? LARGEST_PARALLEL_TILT : CLEAR_TILT))) return FlatVerdict::NONE;
+  if (!(tilt <= largest_tilt())) return FlatVerdict::NONE;
   const Vec3 n = -(plane.normal - u.dot(plane.normal) / (length * length) * u).normalized();
   const PlanarFrame frame(plane.point, n);
   collect_pieces(of_face, region, frame, of_fixed_);
@@ -298,7 +308,10 @@ FlatVerdict FlatContacts::add_edges(const FlatSide& moving, std::int32_t straigh
   const Vec3 b0 = fixed.vertex(ends_f[0]), v = fixed.vertex(ends_f[1]) - b0;
   const double length_u = u.norm(), length_v = v.norm();
   const double tilt = u.cross(v).norm() / (length_u * length_v);
-  if (!(tilt <= (tolerance_ > 0.0 ? LARGEST_PARALLEL_TILT : CLEAR_TILT))) return FlatVerdict::NONE;
+  if (!(tilt <= largest_tilt())) return FlatVerdict::NONE;
+  if (tolerance_ == 0.0 && tilt > CLEAR_TILT &&
+      tilt > acceptable_tilt(std::sqrt(segment_distance({a0, a0 + u}, {b0, b0 + v}).squared_distance)))
+    return FlatVerdict::NONE;
   const double sense = u.dot(v) > 0.0 ? 1.0 : -1.0;
   const Vec3 w = (u / length_u + sense / length_v * v).normalized();
   const double end_a = u.dot(w), begin_b = (b0 - a0).dot(w), end_b = begin_b + v.dot(w);

@@ -48,7 +48,7 @@ enum class FlatVerdict : std::uint8_t {
 ///
 /// Features are parallel when their distance varies over the set by no more than rounding (what the exact
 /// triangle distance takes as parallel), or than the planar tolerance of rounded meshes. Between rounding and
-/// CLEAR_TILT the definition's own tolerances decide triangle by triangle: UNSURE.
+/// `acceptable_tilt` the definition's own tolerances decide triangle by triangle: UNSURE.
 class FlatContacts {
  public:
   /// A connected set of minimisers.
@@ -64,7 +64,7 @@ class FlatContacts {
   /// @param coordinates largest coordinate of the two meshes in the world
   void start(std::int32_t body, double cutoff, double touch, double coordinates, double tolerance);
   const std::vector<Contact>& contacts() const { return contacts_; }
-  /// Whether some features are tilted by more than rounding and less than CLEAR_TILT, without a planar tolerance: then
+  /// Whether some features are tilted by more than rounding and less than `acceptable_tilt`, without a planar tolerance: then
   /// which pieces a plateau has is known only triangle by triangle, for all features alike.
   bool is_in_doubt() const { return in_doubt_; }
   /// To be called when all contacts are found: leaves in doubt what belongs to one set of minimisers, such as ridges that
@@ -101,6 +101,11 @@ class FlatContacts {
     }
   };
   FlatVerdict judge(const Range& distances, double tilt);
+  /// Tilt that the definition's first-order test may accept between features at a distance [m]: rounding grants the more
+  /// the shorter the direction is.
+  double acceptable_tilt(double distance) const;
+  /// Beyond it nothing is parallel, at whatever distance.
+  double largest_tilt() const;
   std::span<const ConvexPolygon> pieces_of(const Contact& contact) const;
   bool do_touch(std::size_t one, std::size_t other) const;
   FlatVerdict doubt() {
