@@ -87,7 +87,7 @@ build_revision() {
   if [[ ! -x $tree/build/release/lmdbench ]]; then
     [[ -e $tree ]] || git -C "$ROOT" worktree add --quiet --detach --force "$tree" "$commit"
     (cd "$tree" && export CCACHE_BASEDIR="$tree" CCACHE_NOHASHDIR=1 &&
-      cmake --preset release -DLMDBENCH_BUILD_TESTS=OFF -DLMDBENCH_BUILD_EXPERIMENTS=OFF -DLMDBENCH_BUILD_ORACLE=OFF &&
+      cmake --preset release -DLMDBENCH_BUILD_TESTS=OFF -DLMDBENCH_BUILD_EXPERIMENTS=OFF -DLMDBENCH_WITH_CGAL=OFF &&
       cmake --build --preset release --parallel "$JOBS" --target lmdbench) >"$out/build-$name.log" 2>&1 ||
       die "$EXIT_ENVIRONMENT" "commit $commit does not build, see $out/build-$name.log"
   fi

@@ -3,6 +3,7 @@
 #include <lmdbench/base/file_descriptor.h>
 #include <lmdbench/base/file_hash.h>
 #include <lmdbench/base/input_file.h>
+#include <lmdbench/base/json_schema.h>
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -11,7 +12,9 @@
 
 #include <array>
 #include <cerrno>
+#include <string>
 #include <system_error>
+#include <vector>
 
 namespace lmdbench {
 namespace {
@@ -25,6 +28,30 @@ const char* kind_of(mode_t mode) {
   return "no regular file";
 }
 
+/// For a name that leads nowhere: where it leaves what exists, and the name there that is likely meant; empty where
+/// there is none.
+std::string likely_name(const std::filesystem::path& file) {
+  constexpr std::size_t MOST_NAMES = 10000;
+  std::filesystem::path here = file.is_absolute() ? "" : ".";
+  std::error_code error;
+  for (const std::filesystem::path& part : file) {
+    if (std::filesystem::exists(here / part, error)) {
+      here /= part;
+      continue;
+    }
+    std::vector<std::string> names;
+    for (std::filesystem::directory_iterator entry(here, error), end;
+         !error && entry != end && names.size() < MOST_NAMES; entry.increment(error))
+      names.push_back(entry->path().filename().string());
+    const std::string near = nearest_word(part.string(), names);
+    return near.empty()
+               ? ""
+               : fmt::format("there is no \"{}\" in {}: did you mean \"{}\"?", part.string(),
+                             std::filesystem::absolute(here, error).lexically_normal().string(), near);
+  }
+  return {};
+}
+
 }  // namespace
 
 FileContent read_input_file(const std::filesystem::path& file, const InputKind& kind) {
@@ -33,8 +60,9 @@ FileContent read_input_file(const std::filesystem::path& file, const InputKind& 
     throw InputError(file.string(), "", problem, remedy);
   };
   const auto fail_for = [&](int error) {
+    const std::string hint = error == ENOENT ? likely_name(file) : "";
     fail(fmt::format("cannot read the {}: {}", kind.what, std::generic_category().message(error)),
-         kind.remedy);
+         hint.empty() ? kind.remedy : hint);
   };
   // Looked at before it is opened: opening alone can make a device act.
   struct stat status {};

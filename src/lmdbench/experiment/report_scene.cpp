@@ -6,8 +6,8 @@
 #include <lmdbench/catalogue/off_file.h>
 #include <lmdbench/experiment/experiment.h>
 #include <lmdbench/experiment/prepare.h>
-#include <lmdbench/experiment/query.h>
 #include <lmdbench/experiment/report_scene.h>
+#include <lmdbench/methods/query.h>
 #include <lmdbench/methods/registry.h>
 
 #include <fmt/format.h>
@@ -87,7 +87,7 @@ void write_report_scene(const ResultReader& result, const std::filesystem::path&
   const std::vector<TimedPose> poses = recorded_poses(result, frames);
   std::string lines;
   for (std::size_t i = 0; i < poses.size(); ++i) {
-    const std::string line = query_json(query(*method, poses[i], scene.cutoff));
+    const std::string line = query_json(query(*method, poses[i].pose, scene.cutoff, poses[i].time));
     lines += fmt::format("{{\"frame\":{},{}\n", frames[i], std::string_view(line).substr(1));
   }
   write_file_atomically(folder / "lmds.jsonl", lines);
