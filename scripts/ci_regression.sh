@@ -84,7 +84,7 @@ build_revision() {
   fi
   say "building $1"
   (cd "$tree" && export CCACHE_BASEDIR="${CCACHE_BASEDIR:-$tree}" CCACHE_NOHASHDIR=1 &&
-    cmake --preset release -DLMDBENCH_BUILD_TESTS=OFF -DLMDBENCH_BUILD_EXPERIMENTS=OFF -DLMDBENCH_BUILD_ORACLE=OFF \
+    cmake --preset release -DLMDBENCH_BUILD_TESTS=OFF -DLMDBENCH_BUILD_EXPERIMENTS=OFF -DLMDBENCH_WITH_CGAL=OFF \
       -DLMDBENCH_PRECOMPILED_HEADERS=OFF "${cmake_options[@]}" &&
     cmake --build --preset release --parallel "$JOBS" --target lmdbench) >"$out/build-$1.log" 2>&1 ||
     die "$EXIT_ENVIRONMENT" "commit $1 does not build, see $out/build-$1.log"

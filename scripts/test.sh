@@ -85,6 +85,11 @@ end_to_end() {
     [[ -s $folder/figure7.png ]]
 }
 
+# Without the optional parts, about a minute.
+smallest_build() {
+  python3 "$ROOT/scripts/smallest_build.py" >&2
+}
+
 if ! step "Set-up" "$ROOT/scripts/setup.sh"; then
   die "$EXIT_ENVIRONMENT" "set-up failed, see above"
 fi
@@ -94,6 +99,7 @@ if check "Build (release, warnings are errors)" build_preset release -DLMDBENCH_
   tests "Tests (release)" release
   check "Experiment files" experiment_files
   check "Run, result format and figure" end_to_end
+  check "Smallest build" smallest_build
   # All of it takes minutes: ./scripts/lint.sh
   check "Static analysis of what changed" "$ROOT/scripts/lint.sh" --tidy-changed
 fi

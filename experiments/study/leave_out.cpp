@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/base/error.h>
+#include <lmdbench/base/statistics.h>
 #include <lmdbench/base/temporary_folder.h>
 #include <lmdbench/comparison/exact_differences.h>
 #include <lmdbench/experiment/rules.h>
@@ -17,42 +18,48 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <chrono>
 #include <filesystem>
-#include <limits>
 #include <map>
 #include <memory>
+#include <random>
 #include <set>
 #include <string>
 #include <vector>
 
 /// What each rule of the plan saves, and that it changes no result: every scene is run as a user would run it, in a
-/// process of its own, with all rules on auto and with one of them off.
+/// process of its own, with all rules on auto, with one of them off, and with all of them off. Settings take turns in
+/// random order, round by round, and a ratio is one of two processes of the same round.
 namespace lmdbench::study {
 namespace {
 
+constexpr const char* AUTO = "auto";
+constexpr const char* NONE = "none";
+
 struct LeaveOutChoice {
   std::vector<std::string> experiments;
-  std::int64_t processes = 3;
+  std::int64_t processes = 5;
+  std::int64_t frames = 0;
 };
 
 /// What one process cost.
 struct Cost {
-  double seconds =
-      std::numeric_limits<double>::infinity();  ///< Of the processor; the least of several processes.
-  double megabytes = std::numeric_limits<double>::infinity();
-  double kilobytes_written = 0.0;
+  double seconds = 0.0;  ///< Of the processor.
+  double wall_seconds = 0.0;
+  double megabytes = 0.0;  ///< Most that was resident.
 };
+using Costs = std::vector<Cost>;  // one a round
 
 std::filesystem::path program() {
   return std::filesystem::read_symlink("/proc/self/exe").parent_path() / "lmdbench";
 }
 
 /// Runs the program in silence.
-/// @return its processor time and largest resident memory
-rusage run_once(const std::vector<std::string>& arguments) {
+Cost run_once(const std::vector<std::string>& arguments) {
   std::vector<char*> argv;
   for (const std::string& argument : arguments) argv.push_back(const_cast<char*>(argument.c_str()));
   argv.push_back(nullptr);
+  const auto begin = std::chrono::steady_clock::now();
   const pid_t child = ::fork();
   if (child < 0) throw EnvironmentError("", "fork", "no further process", "end others");
   if (child == 0) {
@@ -66,22 +73,45 @@ rusage run_once(const std::vector<std::string>& arguments) {
   if (::wait4(child, &status, 0, &usage) < 0 || !WIFEXITED(status) || WEXITSTATUS(status) != 0)
     throw EnvironmentError("", fmt::format("{}", fmt::join(arguments, " ")), "did not end well",
                            "run it by hand");
-  return usage;
-}
-
-/// @param switches e.g. {"/plan/shared_mesh=off"}
-void run_scene(const std::string& experiment, const std::vector<std::string>& switches,
-               const std::filesystem::path& out, Cost& cost) {
-  std::vector<std::string> arguments{
-      program().string(), "run", experiment, "-q", "--out", out.string(), "--set", "/driver/repetitions=1"};
-  for (const std::string& entry : switches) arguments.insert(arguments.end(), {"--set", entry});
-  const rusage usage = run_once(arguments);
   const auto seconds = [](const timeval& time) {
     return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
   };
-  cost.seconds = std::min(cost.seconds, seconds(usage.ru_utime) + seconds(usage.ru_stime));
-  cost.megabytes = std::min(cost.megabytes, static_cast<double>(usage.ru_maxrss) / 1024.0);
-  cost.kilobytes_written = static_cast<double>(std::filesystem::file_size(out)) / 1024.0;
+  return {seconds(usage.ru_utime) + seconds(usage.ru_stime),
+          std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count(),
+          static_cast<double>(usage.ru_maxrss) / 1024.0};
+}
+
+/// @param setting AUTO, NONE or the rule that is off
+/// @param frames  0: all of the path
+Cost run_scene(const std::string& experiment, const std::string& setting, std::int64_t frames,
+               const std::filesystem::path& out) {
+  std::vector<std::string> arguments{
+      program().string(), "run", experiment, "-q", "--out", out.string(), "--set", "/driver/repetitions=1"};
+  const auto set = [&](const std::string& entry) { arguments.insert(arguments.end(), {"--set", entry}); };
+  if (frames > 0) set(fmt::format("/frames={}", frames));
+  for (const RuleDescription& rule : rule_descriptions())
+    if (setting == NONE || setting == rule.name) set(fmt::format("/plan/{}=off", rule.name));
+  return run_once(arguments);
+}
+
+/// Median over the rounds.
+double median_of(const Costs& costs, double Cost::*member) {
+  std::vector<double> values;
+  for (const Cost& cost : costs) values.push_back(cost.*member);
+  return median(values);
+}
+
+/// What is saved of `without`, in percent, round by round: "30 (28 to 33)", the median and all that were seen.
+struct Saving {
+  double median = 0.0, least = 0.0, most = 0.0;
+  std::string text() const { return fmt::format("{:.0f} ({:.0f} to {:.0f})", median, least, most); }
+};
+Saving saving(const Costs& without, const Costs& with, double Cost::*member) {
+  std::vector<double> percent;
+  for (std::size_t i = 0; i < with.size(); ++i)
+    percent.push_back(100.0 * (1.0 - with[i].*member / (without[i].*member)));
+  const auto [least, most] = std::minmax_element(percent.begin(), percent.end());
+  return {median(percent), *least, *most};
 }
 
 /// What differs between two results, times apart: names of counters for those, else datasets.
@@ -100,53 +130,83 @@ bool is_counter(const std::string& dataset) {
   return dataset.find("counters/") != std::string::npos;
 }
 
+std::string changes(const std::set<std::string>& changed, bool& equal) {
+  if (changed.empty()) return "none";
+  const bool only_counters = std::all_of(changed.begin(), changed.end(), is_counter);
+  equal = equal && only_counters;
+  return only_counters ? fmt::format("{} counters", changed.size())
+                       : fmt::format("{}", fmt::join(changed, ", "));
+}
+
 int compare_rules(const LeaveOutChoice& choice) {
+  constexpr std::int64_t FEW_FRAMES = 10;
   const TemporaryFolder folder(std::filesystem::temp_directory_path(), "lmdbench-leave-out-");
-  std::map<std::string, std::string> rows;  // by rule
+  const auto file = [&](std::string_view setting) { return folder.path() / fmt::format("{}.h5", setting); };
+  std::vector<std::string> settings{AUTO, NONE};
+  for (const RuleDescription& rule : rule_descriptions()) settings.emplace_back(rule.name);
+  std::map<std::string, std::string> rows, idle;  // by rule
   std::map<std::string, int> pays;
+  std::string scenes;
   bool equal = true;
+  std::mt19937 shuffled(1);
   for (const std::string& experiment : choice.experiments) {
     const std::string name = std::filesystem::path(experiment).stem().string();
-    const auto file = [&](std::string_view what) { return folder.path() / fmt::format("{}.h5", what); };
-    std::map<std::string, Cost> costs;
-    // In turns, so that a busy moment of the machine meets all alike.
-    for (std::int64_t process = 0; process < choice.processes; ++process) {
-      run_scene(experiment, {}, file("auto"), costs["auto"]);
-      for (const RuleDescription& rule : rule_descriptions())
-        run_scene(experiment, {fmt::format("/plan/{}=off", rule.name)}, file(rule.name),
-                  costs[std::string(rule.name)]);
+    std::map<std::string, Costs> costs, starts;
+    for (std::int64_t round = 0; round < choice.processes; ++round) {
+      std::shuffle(settings.begin(), settings.end(), shuffled);
+      for (const std::string& setting : settings)
+        costs[setting].push_back(run_scene(experiment, setting, choice.frames, file(setting)));
+      for (const char* setting : {AUTO, NONE})
+        starts[setting].push_back(run_scene(experiment, setting, FEW_FRAMES, file("few")));
     }
-    const auto plan = nlohmann::json::parse(ResultReader(file("auto")).texts("/provenance/plan").front());
+    const ResultReader result(file(AUTO));
+    const Costs& with = costs[AUTO];
+    scenes +=
+        fmt::format("| {} | {} | {:.0f} | {:.0f} | {} | {:.0f} | {:.0f} | {:.0f} | {:.0f} | {:.0f} | {} |\n",
+                    name, result.shape("/path/time").front(), 1e3 * median_of(costs[NONE], &Cost::seconds),
+                    1e3 * median_of(with, &Cost::seconds), saving(costs[NONE], with, &Cost::seconds).text(),
+                    median_of(costs[NONE], &Cost::megabytes), median_of(with, &Cost::megabytes),
+                    1e3 * median_of(starts[NONE], &Cost::wall_seconds),
+                    1e3 * median_of(starts[AUTO], &Cost::wall_seconds),
+                    static_cast<double>(std::filesystem::file_size(file(AUTO))) / 1024.0,
+                    changes(differences(file(NONE), file(AUTO)), equal));
+    const auto plan = nlohmann::json::parse(result.texts("/provenance/plan").front());
     for (const auto& decision : plan["rules"]) {
-      const std::string rule = decision["name"];
-      const bool on = decision["on"];
-      const Cost& with = costs["auto"];
-      const Cost& without = costs[rule];
-      const std::set<std::string> changed = differences(file(rule), file("auto"));
-      const bool only_counters = std::all_of(changed.begin(), changed.end(), is_counter);
-      equal = equal && only_counters;
-      const double saved = 1.0 - with.seconds / without.seconds;
-      const double saved_memory = 1.0 - with.megabytes / without.megabytes;
-      if (on && (saved > 0.03 || saved_memory > 0.03)) ++pays[rule];
-      rows[rule] += fmt::format(
-          "| {} | {} | {:.0f} | {:.0f} | {:.0f} % | {:.0f} | {:.0f} | {:.0f} / {:.0f} | {} | {} |\n", name,
-          on ? "on" : "off", 1e3 * without.seconds, 1e3 * with.seconds, 100.0 * saved, without.megabytes,
-          with.megabytes, without.kilobytes_written, with.kilobytes_written,
-          changed.empty() ? "none"
-          : only_counters ? fmt::format("{} counters", changed.size())
-                          : fmt::format("{}", fmt::join(changed, ", ")),
-          decision["reason"].get<std::string>());
+      const std::string rule = decision["name"], reason = decision["reason"];
+      const std::string changed = changes(differences(file(rule), file(AUTO)), equal);
+      if (!decision["on"].get<bool>()) {
+        idle[rule] += fmt::format("{}{} ({})", idle[rule].empty() ? "" : "; ", name, reason);
+        continue;
+      }
+      const Saving time = saving(costs[rule], with, &Cost::seconds);
+      const Saving memory = saving(costs[rule], with, &Cost::megabytes);
+      // In every round, so that noise alone cannot look like a saving.
+      if (time.least > 0.0 && time.median > 1.0) ++pays[rule];
+      rows[rule] +=
+          fmt::format("| {} | {:.0f} | {:.0f} | {} | {} | {} | {} |\n", name,
+                      1e3 * median_of(costs[rule], &Cost::seconds), 1e3 * median_of(with, &Cost::seconds),
+                      time.text(), memory.text(), changed, reason);
     }
   }
-  fmt::print("# What the rules of the plan leave out\n\n");
+  fmt::print(
+      "| scene | frames | processor time, no rule [ms] | all rules [ms] | saved [%] | memory, no rule [MB] | "
+      "all "
+      "[MB] | start to end of {} frames, no rule [ms] | all [ms] | file [kB] | differences |\n"
+      "|---|---|---|---|---|---|---|---|---|---|---|\n{}\n",
+      FEW_FRAMES, scenes);
   for (const RuleDescription& rule : rule_descriptions()) {
     const std::string key(rule.name);
-    fmt::print("## {}\n\n{}; saves {}. Pays (3 % of time or memory) on {} of {} scenes.\n\n", key,
-               rule.effect, rule.saving, pays[key], choice.experiments.size());
     fmt::print(
-        "| scene | rule | processor time without [ms] | with [ms] | saved | memory without [MB] | with [MB] "
-        "| file [kB] | differences | why |\n");
-    fmt::print("|---|---|---|---|---|---|---|---|---|---|\n{}\n", rows[key]);
+        "## {}\n\n{}; saves {}. Pays (more than 1 % of processor time, and in every round) on {} of {} "
+        "scenes.\n\n",
+        key, rule.effect, rule.saving, pays[key], choice.experiments.size());
+    if (!rows[key].empty())
+      fmt::print(
+          "| scene | processor time without [ms] | with [ms] | saved [%] | memory saved [%] | differences | "
+          "why "
+          "|\n|---|---|---|---|---|---|---|\n{}\n",
+          rows[key]);
+    if (!idle[key].empty()) fmt::print("Off: {}.\n\n", idle[key]);
   }
   fmt::print("{}\n", equal ? "Results are the same bits with every rule and without it."
                            : "RESULTS DIFFER: see above.");
@@ -160,8 +220,10 @@ void add_leave_out(CLI::App& app, Run& chosen) {
       app.add_subcommand("leave-out", "What each rule of the plan saves, and that it changes no result");
   const auto choice = std::make_shared<LeaveOutChoice>();
   command->add_option("EXPERIMENT", choice->experiments, "experiment files")->required();
-  command->add_option("--processes", choice->processes, "processes a setting; the least time counts")
-      ->capture_default_str();
+  command->add_option("--processes", choice->processes, "processes a setting; medians of all")
+      ->capture_default_str()
+      ->check(CLI::PositiveNumber);
+  command->add_option("--frames", choice->frames, "frames of each path; all without it");
   command->callback([choice, &chosen] { chosen = [choice] { return compare_rules(*choice); }; });
 }
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include <lmdbench/record/build_info.h>
+#include <lmdbench/base/build_info.h>
 #include <lmdbench/record/machine_info.h>
 
 #include <nlohmann/json.hpp>

@@ -123,8 +123,17 @@ class Result:
 
     def read(self, path):
         if path not in self.h5:
-            raise ResultError(f"{self.file}: {path}: is missing (remedy: run the experiment again)")
+            raise ResultError(f"{self.file}: {path}: is missing (remedy: {self._remedy_for(path)})")
         return self.h5[path][()]
+
+    def _remedy_for(self, path):
+        """What makes a run keep a dataset that is not there."""
+        record = getattr(self, "experiment", {}).get("record", {})
+        name = path.split("/")[-1]
+        kind = "timings" if name.endswith("_time") else "counters" if "counters/" in path else "frames"
+        if path.startswith("/methods/") and record.get(kind) is False:
+            return f"the run left it out: run the experiment again with --set /record/{kind}=true"
+        return "run the experiment again"
 
     def read_text(self, path):
         return self.texts(path)[0]
@@ -160,7 +169,7 @@ class Result:
         return self.methods[label]
 
     def repetitions(self):
-        return max((method.read("local_update_time").shape[0] for method in self.methods.values()), default=0)
+        return max((m.read("local_update_time").shape[0] for m in self.methods.values() if m.has("local_update_time")), default=0)
 
     def summary_number(self, path):
         return float(np.ravel(self.read(path))[0])

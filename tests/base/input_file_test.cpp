@@ -42,6 +42,19 @@ TEST(InputFile, RefusesWhatIsNoRegularFileWithoutWaiting) {
   EXPECT_THAT(message(folder / "none"), AllOf(HasSubstr("none: cannot read"), HasSubstr("No such file")));
 }
 
+TEST(InputFile, SuggestsTheNameThatIsLikelyMeant) {
+  const ScratchDirectory folder;
+  std::filesystem::create_directories(folder / "meshes" / "scans");
+  folder.write("meshes/scans/bunny.off", "OFF\n");
+  const auto message = [&](const std::filesystem::path& file) {
+    return message_of<Error>([&] { read_input_file(file, {.what = "mesh file"}); });
+  };
+  EXPECT_THAT(message(folder / "meshs/scans/bunny.off"), HasSubstr("there is no \"meshs\""));
+  EXPECT_THAT(message(folder / "meshs/scans/bunny.off"), HasSubstr("did you mean \"meshes\"?"));
+  EXPECT_THAT(message(folder / "meshes/scans/buny.off"), HasSubstr("did you mean \"bunny.off\"?"));
+  EXPECT_THAT(message(folder / "meshes/scans/dragon.off"), HasSubstr("check the name"));
+}
+
 TEST(InputFile, NamesTheLimit) {
   const ScratchDirectory folder;
   const auto file = folder.write("f", std::string(11, 'x'));

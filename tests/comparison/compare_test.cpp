@@ -104,6 +104,22 @@ TEST_F(Compare, OneStageThatIsSureIsSlowerWhateverTheOthersAre) {
   EXPECT_EQ(found.verdict, Verdict::SLOWER);
 }
 
+TEST_F(Compare, WhatTheRunsLeftOutIsSaid) {
+  SyntheticResult slow, bare;
+  slow.slowdown["original/search"] = 1.15;
+  slow.counters = bare.counters = false;
+  const Comparison found = compare_results(side(bare, "a", 6), side(slow, "b", 6), {});
+  EXPECT_EQ(found.verdict, Verdict::SLOWER);
+  EXPECT_THAT(timing(found, "original", "search").work, HasSubstr("no counters"));
+  bare.times = false;
+  try {
+    compare_results({side(bare, "c", 2)[0]}, {side(bare, "d", 2)[1]}, {});
+    ADD_FAILURE() << "without times there is nothing to judge";
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("/record/timings"));
+  }
+}
+
 TEST_F(Compare, ASpikeInOneRepetitionDoesNotCount) {
   SyntheticResult spike;
   spike.spike_frame = 1;

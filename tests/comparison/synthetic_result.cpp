@@ -51,6 +51,7 @@ void write_lists(ResultWriter& writer, const SyntheticResult& result, const std:
 /// (repetition, column) times, all alike but for the warm-up and the spike.
 void write_times(ResultWriter& writer, const SyntheticResult& result, const std::string& path, double seconds,
                  int columns, const std::string& stage) {
+  if (!result.times) return;
   const auto found = result.slowdown.find(stage);
   const double factor = result.process_factor * (found == result.slowdown.end() ? 1.0 : found->second);
   std::vector<double> times;
@@ -85,8 +86,10 @@ void write_method(ResultWriter& writer, const SyntheticResult& result, const std
     global_frame.push_back(5 * s);
     per_search.push_back(1000 + (s == result.search_with_more_work ? 100 : 0));
   }
-  write_integers(writer, group + "/counters/node_pairs", node_pairs);
-  write_integers(writer, group + "/counters/leaf_pairs", node_pairs);
+  if (result.counters) {
+    write_integers(writer, group + "/counters/node_pairs", node_pairs);
+    write_integers(writer, group + "/counters/leaf_pairs", node_pairs);
+  }
   if (!result.extra_counter.empty() && !searches)
     write_integers(writer, group + "/counters/" + result.extra_counter, node_pairs);
   if (!result.idle_counter.empty() && !searches)
@@ -95,7 +98,7 @@ void write_method(ResultWriter& writer, const SyntheticResult& result, const std
               method + "/local update");
   if (searches) {
     write_integers(writer, group + "/global_frame", global_frame);
-    write_integers(writer, group + "/global_counters/node_pairs", per_search);
+    if (result.counters) write_integers(writer, group + "/global_counters/node_pairs", per_search);
     write_times(writer, result, group + "/global_search_time", 50 * MICROSECOND, SEARCHES,
                 method + "/search");
     write_real(writer, group + "/first_reduction_time",

@@ -29,6 +29,8 @@ struct SyntheticResult {
   std::string idle_counter;   ///< Another counter of certified that stays 0, "" for none
   double summary = 0.5;       ///< A number of the summary that is no time
   int repetitions = 3;
+  bool times = true;     ///< As /record/timings
+  bool counters = true;  ///< As /record/counters
 
   std::filesystem::path write(const std::filesystem::path& file) const;
 };

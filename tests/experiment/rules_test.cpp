@@ -64,7 +64,12 @@ TEST(Rules, AllHoldOnASceneThatNeedsThem) {
   const ScratchDirectory scratch;
   const RunResult result = run_experiment(experiment(scratch.write("p.tum", resting_path())));
   for (const RuleDecision& rule : result.plan.rules) EXPECT_TRUE(rule.on) << rule.reason;
-  EXPECT_THAT(decision(result, Rule::REPEATED_POSE).reason, HasSubstr("100 of 201 frames repeat"));
+  EXPECT_THAT(decision(result, Rule::REPEATED_POSE).reason,
+              HasSubstr("27 of 56 exhaustive searches and 10 of 23 cross-checks"));
+  EXPECT_THAT(decision(result, Rule::TRUTH_IN_CONTACT).reason, HasSubstr("of 56 exhaustive searches"));
+  const RunResult only_fcl =
+      run_experiment(experiment(scratch.write("p.tum", resting_path()), {"/probes/truth/stride_frames=0"}));
+  EXPECT_TRUE(decision(only_fcl, Rule::REPEATED_POSE).on) << "the cross-check repeats, too";
   EXPECT_EQ(result.prepared.scene().moving, result.prepared.scene().fixed.front());
   EXPECT_EQ(result.prepared.meshes.size(), 2u);
   EXPECT_EQ(result.prepared.meshes[1].role, "fixed_0");
@@ -89,7 +94,7 @@ TEST(Rules, WhereTheConditionDoesNotHoldOnIsAnError) {
                               {"/plan/repeated_pose=on"}));
     FAIL();
   } catch (const UsageError& error) {
-    EXPECT_THAT(error.what(), HasSubstr("/plan/repeated_pose: cannot be on: 0 of 11 frames repeat"));
+    EXPECT_THAT(error.what(), HasSubstr("/plan/repeated_pose: cannot be on: 0 of 2 exhaustive searches"));
   }
 }
 
@@ -130,22 +135,13 @@ TEST(Rules, NoneChangesAResult) {
   }
 }
 
-TEST(Rules, ARepeatedPoseCostsNoSearch) {
+TEST(Rules, ATimedFrameIsSearchedWhereverThePathRests) {
   const ScratchDirectory scratch;
   const std::string path = scratch.write("p.tum", resting_path());
-  const auto work = [](const RunResult& result, std::size_t method) {
-    std::uint64_t sum = 0;
-    const auto& frames = result.records[method].frames;
-    for (const FrameRecord& frame : std::vector(frames.begin() + 150, frames.end()))
-      for (const auto count : frame.counters.values) sum += static_cast<std::uint64_t>(count);
-    return sum;
-  };
   const RunResult with = run_experiment(experiment(path));
-  const RunResult without =
-      run_experiment(experiment(path, {"/plan/repeated_pose=off", "/methods/0/frame_coherence=false"}));
-  EXPECT_EQ(work(with, 0), 0u);
-  EXPECT_GT(work(without, 0), 0u);
-  EXPECT_EQ(work(with, 1), work(without, 1)) << "a method that tracks is left alone";
+  const RunResult without = run_experiment(experiment(path, {"/plan/repeated_pose=off"}));
+  for (std::size_t method = 0; method < 2; ++method)
+    EXPECT_EQ(with.records[method].work_hash, without.records[method].work_hash);
 }
 
 TEST(Rules, TheyAreInThePlan) {

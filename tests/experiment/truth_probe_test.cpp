@@ -184,6 +184,41 @@ class WrongMethod : public Method {
   double distance_;
 };
 
+TEST(FclProbe, AFrameAtThePoseOfTheOneBeforeHasItsAnswers) {
+  const Scene scene = facing_spheres();
+  const LockstepInput input = approach({0.04, 0.04, 0.04, 0.03, 0.03});
+  const LockstepMethod off{"off", [] { return std::make_unique<WrongMethod>(0.044); }, PROFILE};
+  const FclCheck reused = probe_fcl(scene, input, {off}, {0, 1, 2, 3, 4}, 1e-6, {});
+  const FclCheck fresh =
+      probe_fcl(scene, input, {off}, {0, 1, 2, 3, 4}, 1e-6, {}, {.warm = true, .reuse_repeated = false});
+  ASSERT_EQ(reused.frames.size(), 5u);
+  ASSERT_EQ(reused.exceptions.size(), 5u) << "the method is wrong in every frame";
+  ASSERT_EQ(fresh.exceptions.size(), 5u);
+  for (std::size_t k = 0; k < 5; ++k) {
+    EXPECT_EQ(reused.frames[k].frame, fresh.frames[k].frame);
+    EXPECT_EQ(reused.frames[k].distance, fresh.frames[k].distance);
+    EXPECT_EQ(reused.frames[k].lmdbench_distance, fresh.frames[k].lmdbench_distance);
+    EXPECT_EQ(reused.frames[k].method_difference, fresh.frames[k].method_difference);
+    EXPECT_EQ(reused.exceptions[k].frame, static_cast<std::int64_t>(k));
+    EXPECT_EQ(reused.exceptions[k].fcl_distance, fresh.exceptions[k].fcl_distance);
+  }
+}
+
+TEST(TruthProbe, AFrameAtThePoseOfTheOneBeforeHasItsSet) {
+  const LockstepInput input = approach({0.04, 0.04, 0.02, 0.02, 0.03});
+  const auto reused = probe_truth(facing_spheres(), input, PROFILE, {0, 1, 2, 3}, {});
+  const auto fresh = probe_truth(facing_spheres(), input, PROFILE, {0, 1, 2, 3}, {}, nullptr, false);
+  ASSERT_EQ(reused.size(), fresh.size());
+  for (std::size_t k = 0; k < fresh.size(); ++k) {
+    ASSERT_EQ(reused[k].lmds.size(), fresh[k].lmds.size()) << k;
+    EXPECT_EQ(minimum_distance(reused[k].lmds), minimum_distance(fresh[k].lmds)) << k;
+    EXPECT_EQ(reused[k].force, fresh[k].force) << k;
+    EXPECT_EQ(reused[k].force_jump, fresh[k].force_jump) << k;
+  }
+  EXPECT_EQ(reused[0].force_jump[0], 0.0);
+  EXPECT_GT(reused[1].force_jump[0], 0.0);
+}
+
 TEST(FclProbe, ListsExceptionsWithTheirPoses) {
   const Scene scene = facing_spheres();
   const LockstepInput input = approach({0.04, 0.03});

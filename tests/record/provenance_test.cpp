@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/base/build_info.h>
 #include <lmdbench/base/file_hash.h>
-#include <lmdbench/record/build_info.h>
 #include <lmdbench/record/machine_info.h>
 #include <lmdbench/record/provenance.h>
 
@@ -18,7 +18,6 @@ namespace {
 
 using ::testing::ContainsRegex;
 using ::testing::ElementsAre;
-using ::testing::HasSubstr;
 using testing::OpenResult;
 using testing::ScratchDirectory;
 
@@ -55,25 +54,6 @@ TEST(Provenance, IdentifiesTheRun) {
       result.strings("/provenance/inputs/sha256"),
       ElementsAre("ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad"));  // FIPS 180-2, "abc"
   EXPECT_THAT(result.integers("/provenance/inputs/size"), ElementsAre(3));
-}
-
-TEST(BuildInfo, SaysWhatWasBuilt) {
-  const BuildInfo& info = build_info();
-  EXPECT_THAT(info.git_commit, ContainsRegex("^([0-9a-f]{40}|unknown)$"));
-  EXPECT_THAT(std::set<std::string>({"yes", "no", "unknown"}), ::testing::Contains(info.git_dirty));
-  EXPECT_EQ(info.git_commit == "unknown", info.git_dirty == "unknown");
-  EXPECT_THAT(info.compiler, ContainsRegex("^[A-Za-z]+ [0-9]+"));
-  EXPECT_THAT(info.compiler_flags, HasSubstr("-ffp-contract=off"));
-  EXPECT_THAT(info.compiler_flags, HasSubstr("-DEIGEN_MAX_ALIGN_BYTES=16"));
-  for (const auto& [name, version] : info.libraries) EXPECT_FALSE(version.empty()) << name;
-}
-
-TEST(BuildInfo, VersionTextNamesCommitCompilerAndLibraries) {
-  const std::string text = version_text();
-  EXPECT_EQ(text.rfind("lmdbench " + build_info().version, 0), 0u);
-  EXPECT_THAT(text, HasSubstr(build_info().git_commit));
-  EXPECT_THAT(text, HasSubstr(build_info().compiler));
-  EXPECT_THAT(text, HasSubstr("eigen 3."));
 }
 
 TEST(MachineInfo, HasEveryFactOnceAndNoneEmpty) {

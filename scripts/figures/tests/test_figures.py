@@ -127,6 +127,20 @@ class ReadingTest(ScriptsTest):
         with self.assertRaisesRegex(ResultError, "unfinished run.*--resume"):
             Result(file)
 
+    def test_what_a_run_left_out_is_told_from_what_is_lost(self):
+        def leave_out(h5):
+            experiment = json.loads(h5["/provenance/experiment"][()].ravel()[0])
+            experiment["record"] = {"timings": False, "counters": True}
+            del h5["/provenance/experiment"], h5["/methods/original/local_update_time"], h5["/methods/improved/force"]
+            h5["/provenance/experiment"] = [json.dumps(experiment)]
+
+        result = Result(self.edited("less.h5", leave_out))
+        with self.assertRaisesRegex(ResultError, "local_update_time: is missing.*--set /record/timings=true"):
+            result.method("original").times("local_update_time")
+        with self.assertRaisesRegex(ResultError, r"force: is missing \(remedy: run the experiment again\)"):
+            result.method("improved").force_magnitude()
+        self.assertEqual(result.repetitions(), result.method("improved").read("local_update_time").shape[0])
+
     def test_missing_dataset_is_named(self):
         file = self.edited("lacks.h5", lambda h5: h5["/methods/original"].__delitem__("force"))
         with self.assertRaisesRegex(ResultError, "lacks.h5: /methods/original/force: is missing"):

@@ -3,6 +3,7 @@
 #include <lmdbench/base/file_descriptor.h>
 #include <lmdbench/base/file_hash.h>
 #include <lmdbench/base/input_file.h>
+#include <lmdbench/base/json_schema.h>
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -11,7 +12,9 @@
 
 #include <array>
 #include <cerrno>
+#include <string>
 #include <system_error>
+#include <vector>
 
 namespace lmdbench {
 namespace {
@@ -25,6 +28,30 @@ const char* kind_of(mode_t mode) {
   return "no regular file";
 }
 
+/// For a name that leads nowhere: where it leaves what exists, and the name there that is likely meant; empty where
+/// there is none.
+std::string likely_name(const std::filesystem::path& file) {
+  constexpr std::size_t MOST_NAMES = 10000;
+  std::filesystem::path here = file.is_absolute() ? "" : ".";
+  std::error_code error;
+  for (const std::filesystem::path& part : file) {
+    if (std::filesystem::exists(here / part, error)) {
+      here /= part;
+      continue;
+    }
+    std::vector<std::string> names;
+    for (std::filesystem::directory_iterator entry(here, error), end;
+         !error && entry != end && names.size() < MOST_NAMES; entry.increment(error))
+      names.push_back(entry->path().filename().string());
+    const std::string near = nearest_word(part.string(), names);
+    return near.empty()
+               ? ""
+               : fmt::format("there is no \"{}\" in {}: did you mean \"{}\"?", part.string(),
+                             std::filesystem::absolute(here, error).lexically_normal().string(), near);
+  }
+  return {};
+}
+
 /// The errors about one file.
 struct Refusal {
   const std::filesystem::path& file;
@@ -35,8 +62,9 @@ struct Refusal {
     throw InputError(file.string(), "", problem, remedy);
   }
   [[noreturn]] void unreadable(int error) const {
+    const std::string hint = error == ENOENT ? likely_name(file) : "";
     (*this)(fmt::format("cannot read the {}: {}", kind.what, std::generic_category().message(error)),
-            kind.remedy);
+            hint.empty() ? kind.remedy : hint);
   }
   void unless_regular(const struct stat& status) const {
     if (!S_ISREG(status.st_mode))

@@ -19,10 +19,10 @@
 #include <tbb/parallel_invoke.h>
 #endif
 
-/// Loops over several threads. They run on oneTBB; under the thread sanitizer (LMDBENCH_VISIBLE_THREADS) on
-/// std::thread, because the distribution's oneTBB is not instrumented: the sanitizer cannot see how its tasks
-/// wait for one another, and reports each hand-over as a race. What our own code does in the loops it then
-/// sees whole.
+/// Loops over several threads. They run on oneTBB; in builds without it and under the thread sanitizer
+/// (LMDBENCH_VISIBLE_THREADS) on std::thread, because the distribution's oneTBB is not instrumented: the sanitizer cannot
+/// see how its tasks wait for one another, and reports each hand-over as a race. What our own code does in the loops it
+/// then sees whole. Where one range is all there is, no pool of threads is made.
 namespace lmdbench {
 
 #ifdef LMDBENCH_VISIBLE_THREADS
@@ -68,6 +68,10 @@ class PerThread {
 /// Calls body(begin, end) for ranges that cover [0, count), of about `grain` or more.
 template <typename Body>
 void parallel_ranges(std::size_t count, std::size_t grain, const Body& body) {
+  if (count <= grain) {
+    body(std::size_t{0}, count);
+    return;
+  }
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, grain),
                     [&](const tbb::blocked_range<std::size_t>& range) { body(range.begin(), range.end()); });
 }

@@ -5,13 +5,13 @@
 #include <lmdbench/base/input_file.h>
 #include <lmdbench/base/limits.h>
 #include <lmdbench/catalogue/cut_short.h>
+#include <lmdbench/catalogue/line_reader.h>
 #include <lmdbench/catalogue/off_file.h>
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <limits>
 #include <string>
@@ -21,66 +21,9 @@ namespace lmdbench {
 
 namespace {
 
-/// Within a line of an OFF file.
-constexpr std::string_view OFF_BLANKS = " \t\r";
-
 // Positions come first in a vertex's line whatever follows: texture coordinates (ST), colours (C), normals (N).
 constexpr std::array<std::string_view, 8> KEYWORDS{"OFF",   "COFF",   "NOFF",   "CNOFF",
                                                    "STOFF", "STCOFF", "STNOFF", "STCNOFF"};
-
-// Hands out the file's lines without comments and blank lines, and numbers from them.
-class LineReader {
- public:
-  LineReader(std::string file, std::string_view text) : file_(std::move(file)), rest_(text) {}
-
-  // Goes to the next line that holds something.
-  bool next_line() {
-    while (!rest_.empty()) {
-      const std::size_t end = rest_.find('\n');
-      line_ = rest_.substr(0, end);
-      rest_ = end == std::string_view::npos ? std::string_view{} : rest_.substr(end + 1);
-      ++line_number_;
-      line_ = line_.substr(0, line_.find('#'));
-      skip_blanks();
-      if (!line_.empty()) return true;
-    }
-    return false;
-  }
-
-  std::string_view word() {
-    const std::string_view result = line_.substr(0, line_.find_first_of(OFF_BLANKS));
-    line_.remove_prefix(result.size());
-    skip_blanks();
-    return result;
-  }
-
-  template <typename Number>
-  Number number(const char* what) {
-    std::string_view text = word();
-    if (text.empty()) fail(fmt::format("{} is missing", what));
-    if (text.size() > 1 && text[0] == '+' && text[1] != '-') text.remove_prefix(1);
-    Number value{};
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (error == std::errc::result_out_of_range) fail(fmt::format("{} '{}' is out of range", what, text));
-    if (error != std::errc{} || end != text.data() + text.size())
-      fail(fmt::format("{} '{}' is not a number", what, text));
-    return value;
-  }
-
-  bool begins_with(std::string_view start) const { return line_.starts_with(start); }
-  bool at_line_end() const { return line_.empty(); }
-
-  [[noreturn]] void fail(const std::string& problem, const std::string& remedy = "correct the line") const {
-    throw InputError(file_, fmt::format("line {}", line_number_), problem, remedy);
-  }
-
- private:
-  void skip_blanks() { line_.remove_prefix(std::min(line_.size(), line_.find_first_not_of(OFF_BLANKS))); }
-
-  std::string file_;
-  std::string_view rest_, line_;
-  std::size_t line_number_ = 0;
-};
 
 void read_vertices(LineReader& lines, std::int64_t count, TriangleMesh& mesh) {
   for (std::int64_t v = 0; v < count; ++v) {

@@ -13,6 +13,10 @@ class App;
 /// and throws the errors of `error.h`. Results go to standard output, everything else to standard error.
 namespace lmdbench {
 
+/// Those of this build; one that it was made without is there and says what it needs.
+/// @param exit_status receives the exit code of a command that judges
+void add_commands(CLI::App& app, const std::vector<std::string>& argv, int& exit_status);
+
 void add_run_command(CLI::App& app, const std::vector<std::string>& argv);
 void add_plan_command(CLI::App& app);
 void add_init_command(CLI::App& app);

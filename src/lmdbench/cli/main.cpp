@@ -1,14 +1,10 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/base/build_info.h>
 #include <lmdbench/base/error.h>
 #include <lmdbench/base/limits.h>
-#include <lmdbench/cli/anatomy_command.h>
 #include <lmdbench/cli/commands.h>
-#include <lmdbench/cli/export_command.h>
-#include <lmdbench/cli/mesh_command.h>
-#include <lmdbench/cli/path_command.h>
 #include <lmdbench/cli/talk.h>
-#include <lmdbench/record/provenance.h>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -55,21 +51,8 @@ int run_program(int argc, char** argv) {
   app.footer(
       "Exit codes: 0 done; 1 a check failed; 2 usage or experiment file wrong; 3 input data wrong; "
       "4 the environment lacks something; 70 a bug of lmdbench.");
-  add_run_command(app, {argv, argv + argc});
-  add_plan_command(app);
-  add_init_command(app);
-  add_stability_command(app);
-  add_record_command(app);
-  add_query_command(app);
   int exit_status = static_cast<int>(ExitCode::DONE);
-  add_compare_command(app, exit_status);
-  add_doctor_command(app);
-  add_report_command(app);
-  add_export_command(app);
-  add_anatomy_command(app);
-  add_work_precision_command(app, {argv, argv + argc});
-  add_mesh_command(app);
-  add_path_command(app);
+  add_commands(app, {argv, argv + argc}, exit_status);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -4,11 +4,11 @@
 #include <lmdbench/base/json_text.h>
 #include <lmdbench/catalogue/manifest.h>
 #include <lmdbench/cli/commands.h>
-#include <lmdbench/experiment/query.h>
 #include <lmdbench/geometry/tolerance.h>
 #include <lmdbench/mesh/flatten.h>
 #include <lmdbench/mesh/surface.h>
 #include <lmdbench/mesh/validity.h>
+#include <lmdbench/methods/query.h>
 #include <lmdbench/methods/registry.h>
 #include <lmdbench/motion/tum_file.h>
 
@@ -83,7 +83,7 @@ void run_query(const QueryOptions& options) {
                     options.cutoff};
   const std::unique_ptr<Method> method = make_method(options.method, scene, method_options);
   for (const TimedPose& pose : poses) {
-    const QueryAnswer answer = query(*method, pose, options.cutoff);
+    const QueryAnswer answer = query(*method, pose.pose, options.cutoff, pose.time);
     fmt::print("{}{}", options.json ? query_json(answer) : query_text(answer), options.json ? "\n" : "");
   }
 }

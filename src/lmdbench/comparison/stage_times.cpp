@@ -44,6 +44,9 @@ std::size_t measured_repetitions(const ResultReader& file) {
   std::size_t least = std::numeric_limits<std::size_t>::max();
   for (const std::string& label : file.groups("/methods")) {
     const std::string dataset = "/methods/" + label + "/local_update_time";
+    if (!file.has(dataset))
+      throw InputError(file.file().string(), dataset, "is missing: the run kept no times",
+                       "run the experiment with /record/timings at true");
     const std::vector<std::size_t> shape = file.shape(dataset);
     if (shape.size() != 2 || shape[0] <= warm_up(file))
       throw InputError(file.file().string(), dataset, "holds no measured repetition",

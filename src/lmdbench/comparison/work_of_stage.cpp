@@ -18,6 +18,7 @@ std::string work_of_stage(const ResultReader& base, const ResultReader& candidat
   if (found == stages().end()) return {};
   const std::string group = "/methods/" + method + "/" + std::string(found->counter_group);
   const std::vector<std::string> counters = base.datasets(group);
+  if (counters.empty()) return "its work is not known: the results hold no counters";
   std::string moved;
   bool more = false;
   for (const std::string& counter : counters) {

@@ -28,7 +28,7 @@ double unit_of_finest(const Surface& moving, const std::vector<const Surface*>& 
   return finest > 0.0 ? 1.0 / finest : 1.0;
 }
 
-std::unique_ptr<Model> build_model(const TriangleMesh& mesh, double scale, const std::string& which) {
+std::shared_ptr<const Model> build_model(const TriangleMesh& mesh, double scale, const std::string& which) {
   if (mesh.triangles.empty())
     throw InputError("", which, "the mesh has no triangles, so there is no distance to cross-check",
                      "leave the cross-check out or give a mesh with triangles");
@@ -40,7 +40,7 @@ std::unique_ptr<Model> build_model(const TriangleMesh& mesh, double scale, const
   for (const auto& corners : mesh.triangles)
     triangles.emplace_back(static_cast<std::size_t>(corners[0]), static_cast<std::size_t>(corners[1]),
                            static_cast<std::size_t>(corners[2]));
-  auto model = std::make_unique<Model>();
+  auto model = std::make_shared<Model>();
   model->beginModel(static_cast<int>(triangles.size()), static_cast<int>(points.size()));
   model->addSubModel(points, triangles);
   model->endModel();
@@ -67,7 +67,9 @@ class FclCrosscheck::Implementation {
         moving_(build_model(moving.mesh, scale_, "moving mesh")),
         last_(fixed.size()) {
     for (std::size_t i = 0; i < fixed.size(); ++i)
-      fixed_.push_back(build_model(fixed[i]->mesh, scale_, "fixed mesh " + std::to_string(i)));
+      fixed_.push_back(fixed[i] == &moving
+                           ? moving_
+                           : build_model(fixed[i]->mesh, scale_, "fixed mesh " + std::to_string(i)));
   }
 
   double scale() const { return scale_; }
@@ -142,8 +144,8 @@ class FclCrosscheck::Implementation {
   }
 
   double scale_;
-  std::unique_ptr<Model> moving_;
-  std::vector<std::unique_ptr<Model>> fixed_;
+  std::shared_ptr<const Model> moving_;
+  std::vector<std::shared_ptr<const Model>> fixed_;
   std::vector<LastPair> last_;
 };
 

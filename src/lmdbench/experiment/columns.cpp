@@ -71,6 +71,10 @@ std::vector<Column<SearchRecord>> search_columns(const MethodDescription& method
   return columns;
 }
 
+bool is_counter(const std::string& name) {
+  return name.starts_with("counters/") || name.starts_with("global_counters/");
+}
+
 std::vector<Column<LoopFrame>> loop_columns(bool turns) {
   using L = LoopFrame;
   const auto energy = [](const std::string& name, const std::string& long_name,

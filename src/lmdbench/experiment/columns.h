@@ -41,6 +41,8 @@ Column<Row> column(std::string name, std::string units, std::string long_name, V
 std::vector<Column<FrameRecord>> frame_columns(const MethodDescription& method, bool torque);
 /// Empty for a method without searches at a rate of their own.
 std::vector<Column<SearchRecord>> search_columns(const MethodDescription& method);
+/// Whether a column of those two is a work counter.
+bool is_counter(const std::string& name);
 /// Of a closed loop.
 /// @param turns  whether the device actuates six degrees of freedom
 std::vector<Column<LoopFrame>> loop_columns(bool turns);

@@ -93,6 +93,9 @@ struct Experiment {
   std::int64_t truth_stride_frames = 0;  ///< 0: no truth probe.
   std::int64_t fcl_stride_frames = 0;    ///< 0: no cross-check.
   double fcl_tolerance_relative = 0.0;
+  bool record_frames = true;    ///< Every frame's and search's numbers, without counters and times.
+  bool record_counters = true;  ///< Every frame's and search's work counters.
+  bool record_timings = true;   ///< Every time of every repetition.
   bool record_lmds = false;
   std::int64_t polyline_stride_frames = 0;  ///< 0: no intersection polylines.
   bool record_torque = false;

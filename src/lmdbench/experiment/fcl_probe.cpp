@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/crosscheck/fcl_crosscheck.h>
 #include <lmdbench/experiment/fcl_probe.h>
+#include <lmdbench/experiment/rules.h>
 #include <lmdbench/snch/nearest_tracker.h>
 
 #include <algorithm>
@@ -44,21 +45,44 @@ class ExactMinimum {
 
 }  // namespace
 
+void require_fcl(const std::string& /*file*/, const std::string& /*place*/) {}
+
 FclCheck probe_fcl(const Scene& scene, const LockstepInput& input, const std::vector<LockstepMethod>& methods,
                    const std::vector<std::int64_t>& frames, double tolerance_relative,
-                   const Progress& progress, bool warm) {
+                   const Progress& progress, const ProbeShortcuts& shortcuts) {
   std::vector<const Surface*> fixed;
   for (const auto& body : scene.fixed) fixed.push_back(&body->surface());
   const FclCrosscheck fcl(scene.moving->surface(), fixed);
   std::vector<std::unique_ptr<Method>> instances;
   for (const LockstepMethod& method : methods) instances.push_back(method.make());
 
-  ExactMinimum exact(scene, warm);
+  ExactMinimum exact(scene, shortcuts.warm);
   FclCheck check;
   WorkCounters ignored;
   LmdSet lmds;
+  const auto tell = [&] {
+    if (progress &&
+        !progress(static_cast<std::int64_t>(check.frames.size()), static_cast<std::int64_t>(frames.size())))
+      throw Interrupted();
+  };
+  std::size_t noted = 0;  // exceptions before those of the last frame
   for (const std::int64_t frame : frames) {
     const Pose& X_WM = input.poses[static_cast<std::size_t>(frame)];
+    if (shortcuts.reuse_repeated && !check.frames.empty() &&
+        same_pose(input.poses[static_cast<std::size_t>(check.frames.back().frame)], X_WM)) {
+      check.frames.push_back(check.frames.back());
+      check.frames.back().frame = frame;
+      const std::vector<FclException> again(check.exceptions.begin() + static_cast<std::ptrdiff_t>(noted),
+                                            check.exceptions.end());
+      noted = check.exceptions.size();
+      for (FclException exception : again) {
+        exception.frame = frame;
+        check.exceptions.push_back(std::move(exception));
+      }
+      tell();
+      continue;
+    }
+    noted = check.exceptions.size();
     const FclResult theirs = fcl.distance(X_WM);
     FclFrame row;
     row.frame = frame;
@@ -91,9 +115,7 @@ FclCheck probe_fcl(const Scene& scene, const LockstepInput& input, const std::ve
       row.method_difference.push_back(difference);
     }
     check.frames.push_back(std::move(row));
-    if (progress &&
-        !progress(static_cast<std::int64_t>(check.frames.size()), static_cast<std::int64_t>(frames.size())))
-      throw Interrupted();
+    tell();
   }
   // Not in the order in which the experiment lists its methods: the result must not depend on it.
   std::sort(check.exceptions.begin(), check.exceptions.end(),

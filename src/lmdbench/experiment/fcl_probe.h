@@ -50,9 +50,19 @@ struct FclCheck {
   std::vector<FclException> exceptions;
 };
 
+/// What leaves the answers as they are.
+struct ProbeShortcuts {
+  bool warm = true;            ///< The exact distance begins with the last frame's nearest triangles.
+  bool reuse_repeated = true;  ///< A frame at the pose of the one before it has its answers.
+};
+
+/// @param file,place where the cross-check is asked for
+/// @throws EnvironmentError in a build without FCL
+void require_fcl(const std::string& file, const std::string& place);
+
 /// @throws Interrupted when `progress` asks to stop
 FclCheck probe_fcl(const Scene& scene, const LockstepInput& input, const std::vector<LockstepMethod>& methods,
                    const std::vector<std::int64_t>& frames, double tolerance_relative,
-                   const Progress& progress, bool warm = true);
+                   const Progress& progress, const ProbeShortcuts& shortcuts = {});
 
 }  // namespace lmdbench

@@ -5,6 +5,7 @@
 #include <lmdbench/base/json_document.h>
 #include <lmdbench/base/json_schema.h>
 #include <lmdbench/experiment/experiment.h>
+#include <lmdbench/experiment/fcl_probe.h>
 #include <lmdbench/experiment/schema.h>
 #include <lmdbench/methods/registry.h>
 #include <lmdbench/motion/tum_file.h>
@@ -179,9 +180,13 @@ Experiment from_json(Json document, const std::filesystem::path& path) {
   const Json& probes = document["probes"];
   experiment.truth_stride_frames = probes["truth"]["stride_frames"].get<std::int64_t>();
   experiment.fcl_stride_frames = probes["fcl"]["stride_frames"].get<std::int64_t>();
+  if (experiment.fcl_stride_frames > 0) require_fcl(file, "/probes/fcl/stride_frames");
   experiment.fcl_tolerance_relative = probes["fcl"]["tolerance_relative"].get<double>();
   experiment.acceptance = read_acceptance(document["limits"], experiment, file);
   experiment.rules = read_rule_switches(document["plan"]);
+  experiment.record_frames = document["record"]["frames"].get<bool>();
+  experiment.record_counters = document["record"]["counters"].get<bool>();
+  experiment.record_timings = document["record"]["timings"].get<bool>();
   experiment.record_torque = document["record"]["torque"].get<bool>();
   experiment.record_lmds = document["record"]["lmds"].get<bool>();
   experiment.polyline_stride_frames = document["record"]["polylines"]["stride_frames"].get<std::int64_t>();

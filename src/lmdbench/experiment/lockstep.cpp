@@ -77,13 +77,9 @@ class MethodRun {
     FrameRecord result;
     frame_counters_ = &result.counters;
     if (every_frame_) {
-      const Pose& X_WM = pose();
-      const bool repeats = input_.reuse_repeated_poses && last_pose_ && same_pose(*last_pose_, X_WM);
-      if (!repeats) found_.clear();
-      run(Stage::LOCAL_UPDATE, [&](WorkCounters& counters) {
-        if (!repeats) every_frame_->search(X_WM, found_, counters);
-      });
-      last_pose_ = X_WM;
+      found_.clear();
+      run(Stage::LOCAL_UPDATE,
+          [&](WorkCounters& counters) { every_frame_->search(pose(), found_, counters); });
       result.lmd_count_before_reduction = static_cast<double>(found_.size());
       result.lmd_age = 0.0;
     } else {
@@ -180,8 +176,7 @@ class MethodRun {
   std::unique_ptr<Method> every_frame_;  ///< ... which searches in every frame instead.
   DirectionMemory memory_;
   [[no_unique_address]] const PlantedSlowdown planted_;
-  LmdSet found_;                            ///< Of `every_frame_`, ...
-  std::optional<Pose> last_pose_;           ///< ... at this pose.
+  LmdSet found_;                            ///< Of `every_frame_`.
   WorkCounters* frame_counters_ = nullptr;  ///< Of the frame under way.
   bool search_changed_ = false;             ///< Since the last frame that was kept.
   MethodRecord record_;

@@ -47,7 +47,6 @@ struct LockstepInput {
   std::optional<std::int64_t> frames = std::nullopt;  ///< Unset: as many as the path has poses.
   Vec3 reference_M = Vec3::Zero();  ///< Point of the moving mesh about which torque is taken.
   VirtualPhantom device;
-  bool reuse_repeated_poses = false;                  ///< See Rule::REPEATED_POSE.
   std::function<bool(std::int64_t frame)> keep_lmds;  ///< Frames whose LMD sets are to be kept.
 };
 

@@ -3,6 +3,7 @@
 #include <lmdbench/base/error.h>
 #include <lmdbench/base/file_hash.h>
 #include <lmdbench/base/input_file.h>
+#include <lmdbench/base/parallel.h>
 #include <lmdbench/catalogue/manifest.h>
 #include <lmdbench/experiment/prepare.h>
 #include <lmdbench/experiment/truth_probe.h>
@@ -119,6 +120,17 @@ ForceProfile profile_for(const ForceChoice& force, double cutoff, const std::str
   return profile;
 }
 
+/// What every run needs of each mesh, side by side where the meshes are large enough for threads.
+void prepare_hierarchies(const Scene& scene) {
+  constexpr std::size_t WORTH_A_THREAD = 2048;  // triangles
+  const auto large = [](const std::shared_ptr<const Body>& body) {
+    return body->surface().mesh.triangles.size() >= WORTH_A_THREAD;
+  };
+  if (!large(scene.moving) || std::none_of(scene.fixed.begin(), scene.fixed.end(), large)) return;
+  parallel_for(scene.fixed.size() + 1,
+               [&](std::size_t i) { (i == 0 ? scene.moving : scene.fixed[i - 1])->prepared<Hierarchy>(); });
+}
+
 bool touches(const Scene& scene, const Pose& X_WM) {
   for (const auto& fixed : scene.fixed) {
     const NearestPair pair = nearest_pair(scene.moving->surface(), scene.moving->prepared<Hierarchy>(),
@@ -187,7 +199,6 @@ PreparedRun prepare(const Experiment& experiment, const Progress& progress) {
                                  .frames = std::nullopt,
                                  .reference_M = Vec3::Zero(),
                                  .device = VirtualPhantom(device),
-                                 .reuse_repeated_poses = false,
                                  .keep_lmds = {}},
                        .times = {},
                        .meshes = std::move(notes),
@@ -220,6 +231,7 @@ PreparedRun prepare(const Experiment& experiment, const Progress& progress) {
                                  reference_M = prepared.input.reference_M] {
       return std::make_unique<DevicePoses>(loop, path, period, reference_M);
     };
+  prepare_hierarchies(prepared.scene());
   prepared.starts_touching = touches(prepared.scene(), prepared.input.poses.front());
   if (prepared.starts_touching)
     prepared.warnings.emplace_back(

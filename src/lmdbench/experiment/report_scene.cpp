@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/base/atomic_file.h>
 #include <lmdbench/catalogue/off_file.h>
-#include <lmdbench/experiment/query.h>
 #include <lmdbench/experiment/report_scene.h>
 #include <lmdbench/experiment/result_scene.h>
+#include <lmdbench/methods/query.h>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -31,7 +31,8 @@ void write_report_scene(const ResultReader& result, const std::filesystem::path&
   std::string lines;
   for (const ResultTrack& track : tracks_of_result(result, MOST_FRAMES))
     for (std::size_t i = 0; i < track.poses.size(); ++i) {
-      const std::string line = query_json(query(*method, track.poses[i], scene.cutoff));
+      const std::string line =
+          query_json(query(*method, track.poses[i].pose, scene.cutoff, track.poses[i].time));
       lines += fmt::format("{{\"frame\":{},\"track\":{},{}\n", track.frames[i],
                            nlohmann::json(track.method).dump(), std::string_view(line).substr(1));
     }

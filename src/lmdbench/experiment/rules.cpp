@@ -3,6 +3,7 @@
 #include <lmdbench/base/error.h>
 #include <lmdbench/experiment/experiment.h>
 #include <lmdbench/experiment/rules.h>
+#include <lmdbench/experiment/truth_probe.h>
 #include <lmdbench/methods/registry.h>
 
 #include <fmt/format.h>
@@ -40,11 +41,21 @@ RuleVerdict truth_in_contact(const RuleFacts& facts) {
           fmt::format("{} of {} exhaustive searches would be of frames out of contact", empty, searches)};
 }
 
+/// Of the frames, in their order, those at the pose of the one before.
+std::int64_t repeats_among(const std::vector<std::int64_t>& frames, std::span<const Pose> poses) {
+  std::int64_t repeats = 0;
+  for (std::size_t k = 1; k < frames.size(); ++k)
+    repeats +=
+        same_pose(poses[static_cast<std::size_t>(frames[k - 1])], poses[static_cast<std::size_t>(frames[k])])
+            ? 1
+            : 0;
+  return repeats;
+}
+
 RuleVerdict repeated_pose(const RuleFacts& facts) {
-  const auto& methods = facts.experiment.methods;
-  if (std::all_of(methods.begin(), methods.end(),
-                  [](const MethodChoice& m) { return method_description(m.name).tracks_locally; }))
-    return {false, "no method searches in every frame"};
+  const std::vector<std::int64_t> fcl_frames =
+      probed_frames(static_cast<std::int64_t>(facts.poses.size()), facts.experiment.fcl_stride_frames);
+  if (facts.truth_frames.empty() && fcl_frames.empty()) return {false, "no frame is probed"};
   // What a closed loop's encoders will tell nobody knows, but they count in steps.
   if (facts.experiment.loop.closed) {
     const bool steps = facts.experiment.loop.resolution_m > 0.0;
@@ -52,11 +63,15 @@ RuleVerdict repeated_pose(const RuleFacts& facts) {
                                        facts.experiment.loop.resolution_m)
                          : "the simulated device's encoders are exact"};
   }
-  std::int64_t repeats = 0;
-  for (std::size_t k = 1; k < facts.poses.size(); ++k)
-    repeats += same_pose(facts.poses[k - 1], facts.poses[k]) ? 1 : 0;
-  return {repeats > 0,
-          fmt::format("{} of {} frames repeat the pose before them", repeats, facts.poses.size())};
+  std::vector<std::int64_t> truth_frames;  // each is searched with the next one
+  for (const std::int64_t frame : facts.truth_frames)
+    truth_frames.insert(truth_frames.end(), {frame, frame + 1});
+  const std::int64_t truth = repeats_among(truth_frames, facts.poses);
+  const std::int64_t fcl = repeats_among(fcl_frames, facts.poses);
+  return {truth + fcl > 0,
+          fmt::format(
+              "{} of {} exhaustive searches and {} of {} cross-checks would be at the pose of the one before",
+              truth, truth_frames.size(), fcl, fcl_frames.size())};
 }
 
 RuleVerdict warm_crosscheck(const RuleFacts& facts) {
@@ -75,8 +90,8 @@ constexpr std::array<RuleDescription, RULE_COUNT> RULES{{
      "frames out of contact have an empty true set without a search", "exhaustive searches",
      &truth_in_contact},
     {Rule::REPEATED_POSE, "repeated_pose",
-     "a frame at the pose of the one before reuses its set, in methods that search in every frame",
-     "searches", &repeated_pose},
+     "a probed frame at the pose of the one probed before has its true set and its distances",
+     "exhaustive searches and cross-checks of a mesh at rest", &repeated_pose},
     {Rule::WARM_CROSSCHECK, "warm_crosscheck",
      "the exact distance beside FCL's begins with the nearest triangles of the frame before",
      "time of the cross-check", &warm_crosscheck},

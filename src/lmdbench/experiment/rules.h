@@ -15,7 +15,7 @@
 
 /// What a run leaves out because the scene shows that it would change nothing. Each rule is data: a condition on the
 /// scene, what is left out, a switch of the experiment (`/plan/NAME`). None touches what a method does in a timed
-/// frame but REPEATED_POSE, which leaves the frame out: a benchmark must not improve the algorithms that it compares.
+/// frame: a benchmark must not improve the algorithms that it compares.
 /// Results are the same bits with a rule and without it (`lmdbench-study leave-out`).
 namespace lmdbench {
 

@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/base/build_info.h>
 #include <lmdbench/base/error.h>
 #include <lmdbench/base/file_hash.h>
 #include <lmdbench/base/output_guard.h>
@@ -113,7 +114,8 @@ RunResult run_and_keep(const Experiment& experiment, const RunProgress& progress
   result.plan.scene = look_at(experiment, prepared, result.in_contact);
   for (const SceneWarning& warning : result.plan.scene->warnings) result.warnings.push_back(to_text(warning));
   result.plan.rules = decide_rules({experiment, prepared.input.poses, result.in_contact, probed});
-  prepared.input.reuse_repeated_poses = is_on(result.plan.rules, Rule::REPEATED_POSE);
+  const ProbeShortcuts shortcuts{.warm = is_on(result.plan.rules, Rule::WARM_CROSSCHECK),
+                                 .reuse_repeated = is_on(result.plan.rules, Rule::REPEATED_POSE)};
   result.records = run_lockstep(methods, prepared.input, experiment.driver, phase("run"), keeper.get());
   if (keeper) result.resumed_frames = keeper->resumed_frames();
 
@@ -127,7 +129,8 @@ RunResult run_and_keep(const Experiment& experiment, const RunProgress& progress
     if (result.plan.needs(Part::TRUTH_PROBE))
       track.truth =
           probe_truth(profile.scene, input, profile.force, probed, phase("truth"),
-                      is_on(result.plan.rules, Rule::TRUTH_IN_CONTACT) ? &track.in_contact : nullptr);
+                      is_on(result.plan.rules, Rule::TRUTH_IN_CONTACT) ? &track.in_contact : nullptr,
+                      shortcuts.reuse_repeated);
     if (result.plan.needs(Part::INTERSECTIONS))
       track.polylines =
           probe_polylines(profile.scene, input, probed_frames(frame_count, experiment.polyline_stride_frames),
@@ -135,9 +138,9 @@ RunResult run_and_keep(const Experiment& experiment, const RunProgress& progress
     if (result.plan.needs(Part::FCL)) {
       std::vector<LockstepMethod> along;
       for (const std::size_t i : track.methods) along.push_back(methods[i]);
-      track.fcl = probe_fcl(
-          profile.scene, input, along, probed_frames(frame_count, experiment.fcl_stride_frames),
-          experiment.fcl_tolerance_relative, phase("fcl"), is_on(result.plan.rules, Rule::WARM_CROSSCHECK));
+      track.fcl =
+          probe_fcl(profile.scene, input, along, probed_frames(frame_count, experiment.fcl_stride_frames),
+                    experiment.fcl_tolerance_relative, phase("fcl"), shortcuts);
     }
   }
   if (result.plan.needs(Part::TRUTH_PROBE)) {

@@ -142,9 +142,11 @@ RunKeeper::RunKeeper(PartFile& part, const Experiment& experiment, std::int64_t 
                          std::size_t) { image.reserve(info, kind, shape); });
     file_.emplace(part, image.image());
   }
+  file_->hold_open(true);
   for_each_dataset([&](ReservedDataset& dataset, const DatasetInfo& info, ElementKind kind,
                        const std::vector<std::size_t>& shape,
                        std::size_t width) { dataset = file_->dataset(info.path, kind, shape, width); });
+  file_->hold_open(false);
   for (KeptMethod& kept : methods_) {
     kept.known_frames.resize(static_cast<std::size_t>(repetitions_), 0);
     for (std::size_t r = 0; r < kept.known_frames.size(); ++r) {

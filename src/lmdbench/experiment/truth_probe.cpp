@@ -1,11 +1,13 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/experiment/rules.h>
 #include <lmdbench/experiment/truth_probe.h>
 #include <lmdbench/force/aggregate.h>
 #include <lmdbench/methods/registry.h>
 
 #include <cmath>
 #include <cstddef>
+#include <optional>
 
 namespace lmdbench {
 namespace {
@@ -29,7 +31,8 @@ std::vector<std::int64_t> probed_frames(std::int64_t frame_count, std::int64_t s
 
 std::vector<TruthFrame> probe_truth(const Scene& scene, const LockstepInput& input,
                                     const ForceProfile& profile, const std::vector<std::int64_t>& frames,
-                                    const Progress& progress, const std::vector<bool>* in_contact) {
+                                    const Progress& progress, const std::vector<bool>* in_contact,
+                                    bool reuse_repeated) {
   const std::unique_ptr<Method> exhaustive = make_method("exhaustive", scene);
   WorkCounters ignored;
   const auto rendered = [&](const LmdSet& lmds, std::int64_t frame, ForceLaw law) {
@@ -39,9 +42,19 @@ std::vector<TruthFrame> probe_truth(const Scene& scene, const LockstepInput& inp
         RigidTransform(input.poses[static_cast<std::size_t>(frame)]).point(input.reference_M);
     return input.device.render(sum_forces(lmds, with_law, reference_W), profile.largest_sum).force;
   };
+  std::optional<Pose> searched;  // where the last set was found, ...
+  LmdSet found;                  // ... and the set
   const auto search = [&](std::int64_t frame, LmdSet& lmds) {
     const auto at = static_cast<std::size_t>(frame);
-    if (in_contact == nullptr || (*in_contact)[at]) exhaustive->search(input.poses[at], lmds, ignored);
+    if (in_contact != nullptr && !(*in_contact)[at]) return;
+    if (reuse_repeated && searched && same_pose(*searched, input.poses[at])) {
+      lmds = found;
+      return;
+    }
+    exhaustive->search(input.poses[at], lmds, ignored);
+    if (!reuse_repeated) return;
+    searched = input.poses[at];
+    found = lmds;
   };
   std::vector<TruthFrame> truth;
   LmdSet next;

@@ -50,10 +50,12 @@ std::vector<std::int64_t> probed_frames(std::int64_t frame_count, std::int64_t s
 /// Computes truth at the given frames.
 /// @param profile  the scene's; its law is ignored
 /// @param in_contact  one a frame, where frames out of contact are known to have an empty set; else null
+/// @param reuse_repeated  whether a frame at the pose of the one searched before it has its set without a search
 /// @param progress may stop the probe by returning false, which throws Interrupted
 std::vector<TruthFrame> probe_truth(const Scene& scene, const LockstepInput& input,
                                     const ForceProfile& profile, const std::vector<std::int64_t>& frames,
-                                    const Progress& progress, const std::vector<bool>* in_contact = nullptr);
+                                    const Progress& progress, const std::vector<bool>* in_contact = nullptr,
+                                    bool reuse_repeated = true);
 
 /// @pre the record keeps the LMD sets of the truth's frames
 std::vector<TruthComparison> compare_with_truth(const std::vector<TruthFrame>& truth,

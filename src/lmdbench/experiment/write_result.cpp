@@ -42,16 +42,19 @@ void write_column(ResultWriter& writer, const DatasetInfo& info, const std::vect
   }
 }
 
-/// All columns of a table of records.
+/// The columns of a table of records that the experiment keeps.
 template <typename Row>
 void write_columns(ResultWriter& writer, const std::string& group, const std::vector<Column<Row>>& columns,
-                   const std::vector<Row>& rows) {
-  for (const Column<Row>& column : columns)
+                   const std::vector<Row>& rows, const Experiment& experiment) {
+  for (const Column<Row>& column : columns) {
+    const bool kept = is_counter(column.name) ? experiment.record_counters : experiment.record_frames;
+    if (!kept) continue;
     std::visit(
         [&](const auto& value) {
           write_column(writer, {group + "/" + column.name, column.units, column.long_name}, rows, value);
         },
         column.value);
+  }
 }
 
 /// Times of all repetitions as a (repetition, column) array.
@@ -66,16 +69,18 @@ void write_times(ResultWriter& writer, const DatasetInfo& info,
 }
 
 void write_frames(ResultWriter& writer, const std::string& group, const MethodDescription& method,
-                  const MethodRecord& record, bool torque) {
-  write_columns(writer, group, frame_columns(method, torque), record.frames);
-  write_times(writer, {group + "/local_update_time", "s", "time of the frame's local part, by repetition"},
-              record.repetitions, &RepetitionTimes::local_update);
+                  const MethodRecord& record, const Experiment& experiment) {
+  write_columns(writer, group, frame_columns(method, experiment.record_torque), record.frames, experiment);
+  if (experiment.record_timings)
+    write_times(writer, {group + "/local_update_time", "s", "time of the frame's local part, by repetition"},
+                record.repetitions, &RepetitionTimes::local_update);
 }
 
 /// What only a method with a search of its own rate has.
 void write_searches(ResultWriter& writer, const std::string& group, const MethodDescription& method,
-                    const MethodRecord& record) {
-  write_columns(writer, group, search_columns(method), record.searches);
+                    const MethodRecord& record, const Experiment& experiment) {
+  write_columns(writer, group, search_columns(method), record.searches, experiment);
+  if (!experiment.record_timings) return;
   for (const SearchTime& time : search_times(method))
     write_times(writer, {group + "/" + time.name, "s", time.long_name}, record.repetitions, time.times);
 }
@@ -237,12 +242,13 @@ void write_method(ResultWriter& writer, const Experiment& experiment, const RunR
   const PreparedProfile& profile = result.prepared.profiles[track.profile];
   writer.attribute(group, "profile", profile.name);
   write_profile(writer, group, profile, result.prepared.input.device);
-  write_frames(writer, group, method, record, experiment.record_torque);
-  if (method.tracks_locally) write_searches(writer, group, method, record);
+  write_frames(writer, group, method, record, experiment);
+  if (method.tracks_locally) write_searches(writer, group, method, record, experiment);
   if (!track.truth.empty()) write_truth(writer, group + "/truth", track.truth, result.comparisons[index]);
   if (experiment.loop.closed) {
     write_poses(writer, group + "/path", record.poses);
-    write_columns(writer, group + "/loop", loop_columns(experiment.loop.rotation.has_value()), record.loop);
+    write_columns(writer, group + "/loop", loop_columns(experiment.loop.rotation.has_value()), record.loop,
+                  experiment);
   }
   if (!result.one_track) {
     write_in_contact(writer, experiment.loop.closed ? group + "/loop" : group, track.in_contact);

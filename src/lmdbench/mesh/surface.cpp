@@ -147,7 +147,14 @@ Surface build_surface(TriangleMesh mesh) {
   Surface surface;
   surface.mesh = std::move(mesh);
   surface.adjacency = build_adjacency(surface.mesh);
-  parallel_invoke([&] { derive_normals(surface); }, [&] { derive_flags(surface); });
+  const auto normals = [&] { derive_normals(surface); };
+  const auto flags = [&] { derive_flags(surface); };
+  if (surface.mesh.triangles.size() > ITEMS_A_TASK) {
+    parallel_invoke(normals, flags);
+  } else {
+    normals();
+    flags();
+  }
   return surface;
 }
 

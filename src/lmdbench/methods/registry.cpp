@@ -66,6 +66,9 @@ const MethodDescription& method_description(std::string_view name, const std::st
                                             const std::string& place) {
   const auto found = find(name);
   if (found != method_descriptions().end()) return *found;
+  for (const MissingMethod& missing : missing_methods())
+    if (missing.name == name)
+      throw missing_part(missing.part, file, place, fmt::format("the method \"{}\"", name));
   const std::string near = nearest_word(std::string(name), method_names());
   throw UsageError(file, place, fmt::format("unknown method \"{}\"", name),
                    near.empty() ? fmt::format("known methods: {}", fmt::join(method_names(), ", "))

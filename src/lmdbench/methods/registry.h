@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <lmdbench/base/missing_part.h>
 #include <lmdbench/lmd/method.h>
 #include <lmdbench/lmd/method_description.h>
 #include <lmdbench/lmd/scene.h>
@@ -20,10 +21,18 @@ namespace lmdbench {
 /// In the order of reports.
 const std::vector<MethodDescription>& method_descriptions();
 
-/// Their names, for messages.
+/// A method that this build was made without, and the part of it that is missing.
+struct MissingMethod {
+  std::string_view name;
+  OptionalPart part;
+};
+const std::vector<MissingMethod>& missing_methods();
+
+/// Names of the methods that there are, for messages.
 std::vector<std::string> method_names();
 
-/// @throws UsageError for an unknown name, with the nearest one or the known ones
+/// @throws UsageError for an unknown name, with the nearest one or the known ones; EnvironmentError for one that this
+///         build was made without
 /// @param file,place where the name stands, for the message
 const MethodDescription& method_description(std::string_view name, const std::string& file = "",
                                             const std::string& place = "method");

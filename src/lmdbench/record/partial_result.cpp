@@ -96,10 +96,12 @@ class PartialResult::Implementation {
   bool valid() const { return mapping_ != nullptr; }
   const std::string& fingerprint() const { return fingerprint_; }
 
+  void hold_open(bool open) { held_ = open ? open_part(name_) : Hdf5Handle(); }
+
   ReservedDataset dataset(const std::string& path, ElementKind kind, const std::vector<std::size_t>& shape,
                           std::size_t row_values) const {
-    // Not kept open: a reader in the same process could not open the file then.
-    const Hdf5Handle file = open_part(name_);
+    const Hdf5Handle opened = held_.valid() ? Hdf5Handle() : open_part(name_);
+    const Hdf5Handle& file = held_.valid() ? held_ : opened;
     const Hdf5Handle dataset(H5Dopen2(file.get(), path.c_str(), H5P_DEFAULT), &H5Dclose);
     if (!dataset.valid()) refuse(path);
     const Hdf5Handle type(H5Dget_type(dataset.get()), &H5Tclose);
@@ -125,6 +127,7 @@ class PartialResult::Implementation {
   }
 
   std::filesystem::path name_;
+  Hdf5Handle held_;
   std::string fingerprint_;
   std::byte* mapping_ = nullptr;
   std::size_t size_ = 0;
@@ -152,6 +155,10 @@ std::optional<PartialResult> PartialResult::open(PartFile& part) {
 
 const std::string& PartialResult::fingerprint() const {
   return implementation_->fingerprint();
+}
+
+void PartialResult::hold_open(bool open) {
+  implementation_->hold_open(open);
 }
 
 ReservedDataset PartialResult::dataset(const std::string& path, ElementKind kind,

@@ -62,6 +62,9 @@ class PartialResult {
   /// Text attribute `fingerprint` of the root; empty where there is none.
   const std::string& fingerprint() const;
 
+  /// Holds the file open over many look-ups, or lets it go: no other reader in the same process can open it meanwhile.
+  void hold_open(bool open);
+
   /// A reserved dataset.
   /// @param row_values  numbers in a row: of shape (R, N) a row is one number, of (N, 3) three
   /// @throws InputError when the part has no such dataset of this kind and shape

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include <lmdbench/record/build_info.h>
+#include <lmdbench/base/build_info.h>
 #include <lmdbench/record/machine_info.h>
 #include <lmdbench/record/provenance.h>
 
@@ -39,18 +39,6 @@ void write_inputs(ResultWriter& writer, const std::vector<InputFile>& inputs) {
 }
 
 }  // namespace
-
-std::string version_text() {
-  const BuildInfo& info = build_info();
-  std::string text = fmt::format(
-      "lmdbench {} (commit {}, local changes: {})\n{}, {}\ncompiled by {} with {}\n", info.version,
-      info.git_commit, info.git_dirty, info.target, info.build_type, info.compiler, info.compiler_flags);
-  std::string libraries;
-  for (const auto& [name, version] : info.libraries) {
-    libraries += fmt::format("{}{} {}", libraries.empty() ? "" : ", ", name, version);
-  }
-  return text + "libraries: " + libraries;
-}
 
 void write_provenance(ResultWriter& writer, const std::vector<std::string>& argv,
                       const std::string& experiment_json, const std::string& plan_json,

@@ -20,9 +20,6 @@ struct InputFile {
   std::int64_t size = 0;  ///< Of these bytes.
 };
 
-/// "lmdbench 0.1.0 (commit, dirty flag), compiler, flags, library versions": the text of `--version`.
-std::string version_text();
-
 inline constexpr const char* RESULT_FORMAT = "lmdbench-result";
 /// Major version: readers refuse an unknown one. It rises when a dataset changes its meaning or disappears.
 inline constexpr int RESULT_FORMAT_VERSION = 2;

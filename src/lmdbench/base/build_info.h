@@ -23,4 +23,7 @@ struct BuildInfo {
 /// The git state is that of the moment of the build, not of the configuration.
 const BuildInfo& build_info();
 
+/// "lmdbench 0.1.0 (commit, dirty flag), compiler, flags, library versions": the text of `--version`.
+std::string version_text();
+
 }  // namespace lmdbench

@@ -1,10 +1,8 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include <lmdbench/record/build_info.h>
+#include <lmdbench/base/build_info.h>
 
-#include <Eigen/Core>
 #include <fmt/format.h>
-#include <hdf5.h>
 #include <lmdbench_build_settings.h>  // made by CMake at configure time
 #include <lmdbench_git_state.h>  // made by git_state.cmake at every build, changed only when git's state changes
 
@@ -14,7 +12,7 @@ namespace lmdbench {
 
 namespace {
 
-/// "assimp=5.2.5 fcl=0.7.0" as CMake found them, and what the headers in use say of themselves.
+/// "assimp=5.2.5 fcl=0.7.0" as CMake found them.
 std::vector<std::pair<std::string, std::string>> library_versions() {
   std::vector<std::pair<std::string, std::string>> versions;
   std::string_view found = LMDBENCH_LIBRARY_VERSIONS;
@@ -24,13 +22,6 @@ std::vector<std::pair<std::string, std::string>> library_versions() {
     const std::size_t equals = entry.find('=');
     versions.emplace_back(entry.substr(0, equals), entry.substr(equals + 1));
   }
-  versions.emplace_back(
-      "eigen", fmt::format("{}.{}.{}", EIGEN_WORLD_VERSION, EIGEN_MAJOR_VERSION, EIGEN_MINOR_VERSION));
-  unsigned major = 0;
-  unsigned minor = 0;
-  unsigned release = 0;
-  H5get_libversion(&major, &minor, &release);
-  versions.emplace_back("hdf5", fmt::format("{}.{}.{}", major, minor, release));
   std::sort(versions.begin(), versions.end());
   return versions;
 }
@@ -53,6 +44,18 @@ BuildInfo make_build_info() {
 const BuildInfo& build_info() {
   static const BuildInfo INFO = make_build_info();
   return INFO;
+}
+
+std::string version_text() {
+  const BuildInfo& info = build_info();
+  std::string text = fmt::format(
+      "lmdbench {} (commit {}, local changes: {})\n{}, {}\ncompiled by {} with {}\n", info.version,
+      info.git_commit, info.git_dirty, info.target, info.build_type, info.compiler, info.compiler_flags);
+  std::string libraries;
+  for (const auto& [name, version] : info.libraries) {
+    libraries += fmt::format("{}{} {}", libraries.empty() ? "" : ", ", name, version);
+  }
+  return text + "libraries: " + libraries;
 }
 
 }  // namespace lmdbench

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include <lmdbench/experiment/query.h>
+#include <lmdbench/methods/query.h>
 #include <lmdbench/methods/registry.h>
 
 #include <gtest/gtest.h>
@@ -14,16 +14,15 @@ Scene spheres() {
   return testing::make_scene(make_sphere(0.5, 3), make_sphere(0.5, 3), 0.05);
 }
 
-TimedPose at_gap(double gap, double time = 0.0) {
-  TimedPose pose;
-  pose.time = time;
-  pose.pose.translation = Vec3(1.0 + gap, 0.0, 0.0);
+Pose at_gap(double gap) {
+  Pose pose;
+  pose.translation = Vec3(1.0 + gap, 0.0, 0.0);
   return pose;
 }
 
 TEST(Query, JsonHasTheContractsKeys) {
   const auto method = make_method("exhaustive", spheres());
-  const auto json = nlohmann::json::parse(query_json(query(*method, at_gap(0.04, 1.5), 0.05)));
+  const auto json = nlohmann::json::parse(query_json(query(*method, at_gap(0.04), 0.05, 1.5)));
   EXPECT_EQ(json["time"], 1.5);
   EXPECT_EQ(json["method"], "exhaustive");
   EXPECT_NEAR(json["minimum_distance"].get<double>(), 0.04, 1e-9);
@@ -70,7 +69,7 @@ TEST(Query, EveryMethodSortsByDistance) {
   const Pose pose = testing::grazing_pose(scene, 0.01, random);
   for (const std::string& name : method_names()) {
     const auto method = make_method(name, scene);
-    const QueryAnswer answer = query(*method, {0.0, pose}, scene.cutoff);
+    const QueryAnswer answer = query(*method, pose, scene.cutoff);
     ASSERT_FALSE(answer.lmds.empty()) << name;
     for (std::size_t i = 1; i < answer.lmds.size(); ++i)
       EXPECT_LE(answer.lmds[i - 1].distance, answer.lmds[i].distance) << name;

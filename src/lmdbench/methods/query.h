@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <lmdbench/geometry/pose.h>
 #include <lmdbench/lmd/lmd.h>
 #include <lmdbench/lmd/method.h>
-#include <lmdbench/motion/path.h>
 
 #include <cstdint>
 #include <string>
@@ -24,7 +24,9 @@ struct QueryAnswer {
 
 /// Searches at the pose; methods that track after a search (the improved algorithm's
 /// reduction) do so at the same pose.
-QueryAnswer query(Method& method, const TimedPose& pose, double cutoff);
+/// @param cutoff metres
+/// @param time   of the pose, for the answer [s]
+QueryAnswer query(Method& method, const Pose& X_WM, double cutoff, double time = 0.0);
 
 /// One line of JSON without a line end (the contract of `lmdbench query --json`). A
 /// distance of 0 is a number like any other; an empty set has the minimum distance null.

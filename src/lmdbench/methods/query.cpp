@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include <lmdbench/experiment/query.h>
 #include <lmdbench/lmd/method_description.h>
+#include <lmdbench/methods/query.h>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -24,15 +24,15 @@ OrderedJson feature_json(const FeatureId& feature) {
 
 }  // namespace
 
-QueryAnswer query(Method& method, const TimedPose& pose, double cutoff) {
+QueryAnswer query(Method& method, const Pose& X_WM, double cutoff, double time) {
   QueryAnswer answer;
-  answer.time = pose.time;
+  answer.time = time;
   answer.method = method.description().name;
   WorkCounters counters;
   const auto begin = std::chrono::steady_clock::now();
-  method.search(pose.pose, answer.lmds, counters);
+  method.search(X_WM, answer.lmds, counters);
   for (int i = 0; i < method.description().trackings_after_search; ++i)
-    method.track(pose.pose, answer.lmds, counters);
+    method.track(X_WM, answer.lmds, counters);
   answer.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   answer.lmds = within_cutoff(answer.lmds, cutoff);
   std::stable_sort(answer.lmds.begin(), answer.lmds.end(), lmd_less);

@@ -1,0 +1,82 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <lmdbench/base/error.h>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <utility>
+
+namespace lmdbench {
+
+/// Hands out the lines of a mesh in text without comments (# to the end) and blank lines, and numbers from them.
+class LineReader {
+ public:
+  LineReader(std::string file, std::string_view text) : file_(std::move(file)), rest_(text) {}
+
+  /// Goes to the next line that holds something.
+  bool next_line() {
+    while (!rest_.empty()) {
+      const std::size_t end = rest_.find('\n');
+      line_ = rest_.substr(0, end);
+      rest_ = end == std::string_view::npos ? std::string_view{} : rest_.substr(end + 1);
+      ++line_number_;
+      line_ = line_.substr(0, line_.find('#'));
+      skip_blanks();
+      if (!line_.empty()) return true;
+    }
+    return false;
+  }
+
+  /// The next word of the line; empty at its end.
+  std::string_view word() {
+    const std::string_view result = line_.substr(0, line_.find_first_of(BLANKS));
+    line_.remove_prefix(result.size());
+    skip_blanks();
+    return result;
+  }
+
+  template <typename Number>
+  Number number(const char* what) {
+    return number<Number>(what, word());
+  }
+
+  /// @param what the number is, for messages
+  /// @throws InputError naming the line, unless the text is a number and nothing else
+  template <typename Number>
+  Number number(const char* what, std::string_view text) const {
+    if (text.empty()) fail(fmt::format("{} is missing", what));
+    if (text.size() > 1 && text[0] == '+' && text[1] != '-') text.remove_prefix(1);
+    Number value{};
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (error == std::errc::result_out_of_range) fail(fmt::format("{} '{}' is out of range", what, text));
+    if (error != std::errc{} || end != text.data() + text.size())
+      fail(fmt::format("{} '{}' is not a number", what, text));
+    return value;
+  }
+
+  bool begins_with(std::string_view start) const { return line_.starts_with(start); }
+  bool ends_with(std::string_view end) const { return line_.ends_with(end); }
+  bool at_line_end() const { return line_.empty(); }
+
+  [[noreturn]] void fail(const std::string& problem, const std::string& remedy = "correct the line") const {
+    throw InputError(file_, fmt::format("line {}", line_number_), problem, remedy);
+  }
+
+ private:
+  static constexpr std::string_view BLANKS = " \t\r";
+
+  void skip_blanks() { line_.remove_prefix(std::min(line_.size(), line_.find_first_not_of(BLANKS))); }
+
+  std::string file_;
+  std::string_view rest_, line_;
+  std::size_t line_number_ = 0;
+};
+
+}  // namespace lmdbench

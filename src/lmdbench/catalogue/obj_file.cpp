@@ -1,0 +1,91 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/base/limits.h>
+#include <lmdbench/catalogue/line_reader.h>
+#include <lmdbench/catalogue/obj_file.h>
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace lmdbench {
+namespace {
+
+/// Keywords whose lines are no part of the surface.
+constexpr std::array<std::string_view, 11> LEFT_OUT{"vn", "vt", "vp",     "g",      "o", "s",
+                                                    "l",  "p",  "mtllib", "usemtl", "mg"};
+
+constexpr const char* CONVERT =
+    "cut polygons into triangles where they were made, or convert the file to OFF";
+
+Vec3 read_position(LineReader& lines) {
+  Vec3 position;
+  for (int axis = 0; axis < 3; ++axis)
+    position[axis] = static_cast<double>(static_cast<float>(lines.number<double>("a coordinate")));
+  if (!position.allFinite()) lines.fail("a coordinate is not finite", "correct or remove it");
+  return position;
+}
+
+/// The position that "7", "7/1", "7//3" or "-1" (the last one so far) names.
+const Vec3& read_corner(const LineReader& lines, std::string_view word, const std::vector<Vec3>& positions) {
+  const auto count = static_cast<std::int64_t>(positions.size());
+  const auto named = lines.number<std::int64_t>("a vertex index", word.substr(0, word.find('/')));
+  const std::int64_t index = named < 0 ? count + named : named - 1;
+  if (index < 0 || index >= count)
+    lines.fail(fmt::format("a face names vertex {}, but {} vertices stand before it", named, count),
+               "vertices are counted from 1, backwards from -1; correct the index");
+  return positions[static_cast<std::size_t>(index)];
+}
+
+/// Whether every triangle of the fan round the first corner turns the way that the whole polygon does.
+bool is_convex(const std::vector<Vec3>& corners) {
+  Vec3 area = Vec3::Zero();
+  for (std::size_t k = 1; k + 1 < corners.size(); ++k)
+    area += (corners[k] - corners[0]).cross(corners[k + 1] - corners[0]);
+  for (std::size_t k = 0; k < corners.size(); ++k) {
+    const Vec3& next = corners[(k + 1) % corners.size()];
+    const Vec3& after = corners[(k + 2) % corners.size()];
+    if ((next - corners[k]).cross(after - next).dot(area) < 0.0) return false;
+  }
+  for (std::size_t k = 1; k + 1 < corners.size(); ++k)
+    if ((corners[k] - corners[0]).cross(corners[k + 1] - corners[0]).dot(area) < 0.0) return false;
+  return true;
+}
+
+}  // namespace
+
+TriangleMesh parse_obj(std::string_view text, const std::string& file) {
+  LineReader lines(file, text);
+  TriangleMesh mesh;
+  std::vector<Vec3> positions, corners;
+  while (lines.next_line()) {
+    if (lines.ends_with("\\") || lines.ends_with("\\\r"))
+      lines.fail("the line is continued on the next", "join the two lines");
+    const std::string_view keyword = lines.word();
+    if (keyword == "v") {
+      positions.push_back(read_position(lines));
+      continue;
+    }
+    if (keyword != "f") {
+      if (std::find(LEFT_OUT.begin(), LEFT_OUT.end(), keyword) == LEFT_OUT.end())
+        lines.fail(fmt::format("'{}' is no keyword of a polygon mesh", keyword.substr(0, 40)),
+                   "convert the file to OFF");
+      continue;
+    }
+    corners.clear();
+    while (!lines.at_line_end()) corners.push_back(read_corner(lines, lines.word(), positions));
+    if (corners.size() < 3) lines.fail(fmt::format("a face of {} corners", corners.size()));
+    if (corners.size() > 3 && !is_convex(corners)) lines.fail("a polygon that is not convex", CONVERT);
+    // Every face has corners of its own, as assimp gives them: importing welds them in the order of use.
+    const auto first = static_cast<std::int32_t>(mesh.vertices.size());
+    mesh.vertices.insert(mesh.vertices.end(), corners.begin(), corners.end());
+    for (std::int32_t k = 1; k + 1 < static_cast<std::int32_t>(corners.size()); ++k)
+      mesh.triangles.push_back({first, first + k, first + k + 1});
+    if (static_cast<std::int64_t>(mesh.triangles.size()) > limit_of(Limit::TRIANGLES))
+      lines.fail(fmt::format("more triangles than the limit of {}", limit_of(Limit::TRIANGLES)),
+                 "decimate the mesh, or " + raise_remedy(Limit::TRIANGLES));
+  }
+  return mesh;
+}
+
+}  // namespace lmdbench

@@ -1,0 +1,24 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/cli/commands.h>
+#include <lmdbench/cli/mesh_command.h>
+#include <lmdbench/cli/path_command.h>
+
+namespace lmdbench {
+
+void add_commands(CLI::App& app, const std::vector<std::string>& argv, int& exit_status) {
+  add_run_command(app, argv);
+  add_plan_command(app);
+  add_init_command(app);
+  add_stability_command(app);
+  add_record_command(app);
+  add_query_command(app);
+  add_compare_command(app, exit_status);
+  add_doctor_command(app);
+  add_report_command(app);
+  add_work_precision_command(app, argv);
+  add_mesh_command(app);
+  add_path_command(app);
+}
+
+}  // namespace lmdbench

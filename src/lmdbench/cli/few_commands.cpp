@@ -1,0 +1,25 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+// In place of all_commands.cpp in a build without HDF5 (LMDBENCH_WITH_HDF5).
+#include <lmdbench/base/missing_part.h>
+#include <lmdbench/cli/commands.h>
+#include <lmdbench/cli/mesh_command.h>
+#include <lmdbench/cli/path_command.h>
+
+#include <CLI/CLI.hpp>
+
+namespace lmdbench {
+
+void add_commands(CLI::App& app, const std::vector<std::string>& /*argv*/, int& /*exit_status*/) {
+  add_query_command(app);
+  add_mesh_command(app);
+  add_path_command(app);
+  for (const std::string name :
+       {"run", "plan", "init", "stability", "record", "compare", "doctor", "report", "work-precision"}) {
+    CLI::App* command = app.add_subcommand(name, "not in this build: needs HDF5");
+    command->prefix_command();  // whatever its arguments are
+    command->callback([name] { throw missing_part(PART_HDF5, "", "", "the command " + name); });
+  }
+}
+
+}  // namespace lmdbench
