@@ -1,6 +1,8 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/cli/anatomy_command.h>
 #include <lmdbench/cli/commands.h>
+#include <lmdbench/cli/export_command.h>
 #include <lmdbench/cli/mesh_command.h>
 #include <lmdbench/cli/path_command.h>
 
@@ -16,6 +18,8 @@ void add_commands(CLI::App& app, const std::vector<std::string>& argv, int& exit
   add_compare_command(app, exit_status);
   add_doctor_command(app);
   add_report_command(app);
+  add_export_command(app);
+  add_anatomy_command(app);
   add_work_precision_command(app, argv);
   add_mesh_command(app);
   add_path_command(app);

@@ -4,8 +4,8 @@
 #include <lmdbench/base/error.h>
 #include <lmdbench/base/output_guard.h>
 #include <lmdbench/experiment/export_frames.h>
-#include <lmdbench/experiment/query.h>
 #include <lmdbench/experiment/result_scene.h>
+#include <lmdbench/methods/query.h>
 #include <lmdbench/geometry/pose.h>
 #include <lmdbench/record/vtu_file.h>
 
@@ -136,7 +136,7 @@ void export_track(Exporter& exporter, const ResultReader& result, const Scene& s
     const RigidTransform transform(pose);
     moving.add(time, frame, mesh_grid(mesh, transform));
     VtuGrid pairs = empty_lmd_grid();
-    for (const Lmd& lmd : query(*exact, track.poses[i], scene.cutoff).lmds)
+    for (const Lmd& lmd : query(*exact, track.poses[i].pose, scene.cutoff).lmds)
       add_lmd(pairs, lmd.point_moving, lmd.point_fixed, lmd.distance,
               static_cast<double>(lmd.feature_moving.kind), static_cast<double>(lmd.feature_fixed.kind));
     lmds.add(time, frame, pairs);
