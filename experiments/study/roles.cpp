@@ -26,7 +26,7 @@
 namespace lmdbench::study {
 namespace {
 
-struct Choice {
+struct RolesChoice {
   std::string experiment = "experiments/bunny-closed.json";
   std::string json;
   int repetitions = 5;
@@ -59,7 +59,7 @@ class TimedPoses final : public PoseSource {
 };
 
 /// One method under one profile.
-struct Row {
+struct RoleRow {
   std::string label;
   std::vector<double> device, local;  ///< One a frame [s].
   double global = 0.0;                ///< Sum over the run [s].
@@ -74,8 +74,8 @@ double sum(const std::vector<double>& values) {
   return total;
 }
 
-Row measure(const LockstepMethod& method, LockstepInput input, const DriverChoice& driver) {
-  Row row;
+RoleRow measure(const LockstepMethod& method, LockstepInput input, const DriverChoice& driver) {
+  RoleRow row;
   row.label = method.label;
   const auto make_poses = input.make_poses;
   input.make_poses = [&] { return std::make_unique<TimedPoses>(make_poses(), row.device); };
@@ -101,7 +101,7 @@ Row measure(const LockstepMethod& method, LockstepInput input, const DriverChoic
   return row;
 }
 
-nlohmann::json described(const Row& row) {
+nlohmann::json described(const RoleRow& row) {
   std::vector<double> together(row.local);
   for (std::size_t i = 0; i < together.size(); ++i) together[i] += row.device[i];
   const auto stage = [](const std::vector<double>& values) {
@@ -133,7 +133,7 @@ void print(const nlohmann::json& row) {
       row["frames_with_force"].get<int>());
 }
 
-int run(const Choice& choice) {
+int run(const RolesChoice& choice) {
   const Experiment experiment = load_experiment(choice.experiment, choice.sets);
   if (!experiment.loop.closed)
     throw UsageError(choice.experiment, "/loop/kind", "an open loop",
@@ -161,7 +161,7 @@ int run(const Choice& choice) {
 }  // namespace
 
 void add_roles(CLI::App& app, Run& chosen) {
-  auto choice = std::make_shared<Choice>();
+  auto choice = std::make_shared<RolesChoice>();
   CLI::App* command = app.add_subcommand(
       "roles", "what the device loop, local tracking and the global thread cost in a closed loop");
   command->add_option("--experiment", choice->experiment, "experiment in a closed loop")

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/experiment/anatomy.h>
+#include <lmdbench/geometry/cone.h>
 #include <lmdbench/geometry/triangle_distance.h>
 #include <lmdbench/methods/original/face_neighbours.h>
 #include <lmdbench/snch/traversal.h>
@@ -37,10 +38,6 @@ void collect_level(const Hierarchy& hierarchy, std::int32_t index, int level,
   collect_triangles(hierarchy, index, patch.triangles);
   std::sort(patch.triangles.begin(), patch.triangles.end());
   patches.push_back(std::move(patch));
-}
-
-double angle_between(const Vec3& a, const Vec3& b) {
-  return std::atan2(a.cross(b).norm(), a.dot(b));
 }
 
 NodeTestCase described(NodeVerdict verdict, const WorldNode& a, const HierarchyNode& b) {

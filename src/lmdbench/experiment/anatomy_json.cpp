@@ -12,20 +12,20 @@
 namespace lmdbench {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using OrderedJson = nlohmann::ordered_json;
 
-Json vector_json(const Vec3& v) {
+OrderedJson vector_json(const Vec3& v) {
   return {v.x(), v.y(), v.z()};
 }
 
 template <class Vectors>
-Json vectors_json(const Vectors& vectors) {
-  Json list = Json::array();
+OrderedJson vectors_json(const Vectors& vectors) {
+  OrderedJson list = OrderedJson::array();
   for (const Vec3& v : vectors) list.push_back(vector_json(v));
   return list;
 }
 
-Json mesh_json(const Body& body) {
+OrderedJson mesh_json(const Body& body) {
   const Surface& surface = body.surface();
   return {{"mesh", body.name()},
           {"vertices", vectors_json(surface.mesh.vertices)},
@@ -35,7 +35,7 @@ Json mesh_json(const Body& body) {
 
 /// A node as its tests see it.
 template <class Node>
-Json node_json(const Node& node, const NodePatch& patch) {
+OrderedJson node_json(const Node& node, const NodePatch& patch) {
   return {{"node", patch.node},
           {"centre", vector_json(node.centre)},
           {"radius", node.radius},
@@ -44,10 +44,10 @@ Json node_json(const Node& node, const NodePatch& patch) {
           {"triangles", patch.triangles}};
 }
 
-Json levels_json(const Hierarchy& hierarchy, const std::vector<int>& levels) {
-  Json list = Json::array();
+OrderedJson levels_json(const Hierarchy& hierarchy, const std::vector<int>& levels) {
+  OrderedJson list = OrderedJson::array();
   for (const int level : levels) {
-    Json nodes = Json::array();
+    OrderedJson nodes = OrderedJson::array();
     for (const NodePatch& patch : hierarchy_level(hierarchy, level))
       nodes.push_back(node_json(hierarchy.nodes[static_cast<std::size_t>(patch.node)], patch));
     list.push_back({{"level", level}, {"nodes", nodes}});
@@ -55,10 +55,10 @@ Json levels_json(const Hierarchy& hierarchy, const std::vector<int>& levels) {
   return list;
 }
 
-Json tests_json(const Scene& scene, const Pose& X_WM, int level) {
+OrderedJson tests_json(const Scene& scene, const Pose& X_WM, int level) {
   const Hierarchy& moving = scene.moving->prepared<Hierarchy>();
   const Hierarchy& fixed = scene.fixed.front()->prepared<Hierarchy>();
-  Json list = Json::array();
+  OrderedJson list = OrderedJson::array();
   for (const NodeTestCase& test : node_test_cases(scene, X_WM, level)) {
     const WorldNode world(moving.nodes[static_cast<std::size_t>(test.moving.node)], RigidTransform(X_WM));
     list.push_back({{"verdict", to_string(test.verdict)},
@@ -66,25 +66,26 @@ Json tests_json(const Scene& scene, const Pose& X_WM, int level) {
                     {"fixed", node_json(fixed.nodes[static_cast<std::size_t>(test.fixed.node)], test.fixed)},
                     {"centre_distance", test.centre_distance},
                     {"cone_angle", test.cone_angle},
-                    {"sigma", test.sigma ? Json(*test.sigma) : Json()},
+                    {"sigma", test.sigma ? OrderedJson(*test.sigma) : OrderedJson()},
                     {"angle_moving", test.angle_moving},
                     {"angle_fixed", test.angle_fixed}});
   }
   return list;
 }
 
-Json shaded_json(const ShadedTriangle& triangle) {
+OrderedJson shaded_json(const ShadedTriangle& triangle) {
   return {{"corners", vectors_json(triangle.corners)},
           {"vertex_normals", vectors_json(triangle.vertex_normals)},
           {"face_normal", vector_json(triangle.face_normal)}};
 }
 
-Json sight_json(const Sight& sight) {
-  return {{"shadow", sight.shadow ? vectors_json(*sight.shadow) : Json()}, {"overlaps", sight.overlaps}};
+OrderedJson sight_json(const Sight& sight) {
+  return {{"shadow", sight.shadow ? vectors_json(*sight.shadow) : OrderedJson()},
+          {"overlaps", sight.overlaps}};
 }
 
-Json sights_json(const std::vector<SightCase>& cases) {
-  Json list = Json::array();
+OrderedJson sights_json(const std::vector<SightCase>& cases) {
+  OrderedJson list = OrderedJson::array();
   for (const SightCase& found : cases)
     list.push_back({{"sees", found.sees},
                     {"triangle_moving", found.triangle_moving},
@@ -104,7 +105,7 @@ std::string anatomy_json(const Scene& scene, const Pose& X_WM, double time, cons
   if (sights.empty())
     throw UsageError("", "--time", "at this pose the node tests leave no pair of triangles within the cutoff",
                      "take another time of the path, at which the meshes are within the cutoff");
-  Json around = Json::array();
+  OrderedJson around = OrderedJson::array();
   for (const Neighbourhood& found : neighbourhoods(scene.moving->surface(), sights.front().triangle_moving))
     around.push_back({{"kind", to_string(found.feature.kind)},
                       {"index", found.feature.index},

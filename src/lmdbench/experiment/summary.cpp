@@ -88,38 +88,40 @@ std::string method_text(const MethodSummary& m, bool probed) {
 }
 
 /// The numbers that tell profiles apart, with their column and unit in the table.
-struct Column {
+struct ProfileColumn {
   const char* title;
   double MethodSummary::*value;
   double scale;
 };
 constexpr std::array PROFILE_COLUMNS = {
-    Column{"force [N]", &MethodSummary::rendered_force_median_n, 1.0},
-    Column{"99 % [N]", &MethodSummary::rendered_force_p99_n, 1.0},
-    Column{"clipped [%]", &MethodSummary::force_clipped_share, 100.0},
-    Column{">30 Hz [N]", &MethodSummary::force_above_30_hz_n, 1.0},
-    Column{"jumps [1/s]", &MethodSummary::jumps_per_second, 1.0},
-    Column{"drops [1/s]", &MethodSummary::dropouts_per_second, 1.0},
-    Column{"K_eff [N/m]", &MethodSummary::effective_stiffness_p99_n_per_m, 1.0},
-    Column{"error [N]", &MethodSummary::force_error_rms_n, 1.0},
-    Column{"made [mJ]", &MethodSummary::energy_created_j, 1e3},
+    ProfileColumn{"force [N]", &MethodSummary::rendered_force_median_n, 1.0},
+    ProfileColumn{"99 % [N]", &MethodSummary::rendered_force_p99_n, 1.0},
+    ProfileColumn{"clipped [%]", &MethodSummary::force_clipped_share, 100.0},
+    ProfileColumn{">30 Hz [N]", &MethodSummary::force_above_30_hz_n, 1.0},
+    ProfileColumn{"jumps [1/s]", &MethodSummary::jumps_per_second, 1.0},
+    ProfileColumn{"drops [1/s]", &MethodSummary::dropouts_per_second, 1.0},
+    ProfileColumn{"K_eff [N/m]", &MethodSummary::effective_stiffness_p99_n_per_m, 1.0},
+    ProfileColumn{"error [N]", &MethodSummary::force_error_rms_n, 1.0},
+    ProfileColumn{"made [mJ]", &MethodSummary::energy_created_j, 1e3},
 };
 
 /// One line a method and profile, and below it what the profile changes.
 std::string profile_table(const RunSummary& summary) {
   std::string text = fmt::format("{:<24} {:<10}", "profiles", "");
-  for (const Column& column : PROFILE_COLUMNS) text += fmt::format(" {:>11}", column.title);
+  for (const ProfileColumn& column : PROFILE_COLUMNS) text += fmt::format(" {:>11}", column.title);
   text += "\n";
   const auto line = [&](const std::string& method, const std::string& profile, auto&& value_of) {
     text += fmt::format("{:<24} {:<10}", method, profile);
-    for (const Column& column : PROFILE_COLUMNS)
+    for (const ProfileColumn& column : PROFILE_COLUMNS)
       text += fmt::format(" {:>11}", shown(value_of(column), column.scale, ""));
   };
   std::string before;
   for (const ProfileDifference& difference : summary.profiles) {
     const MethodSummary& first = summary.methods[difference.first];
     const MethodSummary& here = summary.methods[difference.method];
-    const auto of = [](const MethodSummary& m) { return [&m](const Column& c) { return m.*c.value; }; };
+    const auto of = [](const MethodSummary& m) {
+      return [&m](const ProfileColumn& c) { return m.*c.value; };
+    };
     if (first.entry != before) {
       line(first.entry, first.profile, of(first));
       text += "\n";
@@ -127,7 +129,7 @@ std::string profile_table(const RunSummary& summary) {
     }
     line("", here.profile, of(here));
     text += "\n";
-    line("", "  change", [&](const Column& c) { return here.*c.value - first.*c.value; });
+    line("", "  change", [&](const ProfileColumn& c) { return here.*c.value - first.*c.value; });
     if (!std::isnan(difference.force_difference_rms_n))
       text += fmt::format("  same poses: forces differ by {} RMS, {} at most",
                           shown(difference.force_difference_rms_n, 1, " N"),

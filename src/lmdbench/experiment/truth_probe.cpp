@@ -3,20 +3,18 @@
 #include <lmdbench/experiment/rules.h>
 #include <lmdbench/experiment/truth_probe.h>
 #include <lmdbench/force/aggregate.h>
+#include <lmdbench/geometry/cone.h>
 #include <lmdbench/methods/registry.h>
 
-#include <cmath>
 #include <cstddef>
 #include <optional>
 
 namespace lmdbench {
 namespace {
 
-/// Angle between two vectors [rad], accurate near 0 and pi (Kahan's formula is not needed: atan2 of the cross
-/// and dot products has no cancellation there); NaN where one of them vanishes.
-double angle_between(const Vec3& a, const Vec3& b) {
-  if (a.isZero(0.0) || b.isZero(0.0)) return UNSET;
-  return std::atan2(a.cross(b).norm(), a.dot(b));
+/// Angle between two forces [rad]; NaN where one of them vanishes.
+double force_angle(const Vec3& a, const Vec3& b) {
+  return a.isZero(0.0) || b.isZero(0.0) ? UNSET : angle_between(a, b);
 }
 
 }  // namespace
@@ -91,7 +89,7 @@ std::vector<TruthComparison> compare_with_truth(const std::vector<TruthFrame>& t
     comparison.neighbours = agreement(here.lmds, lmds, Match::NEIGHBOURING_FEATURES, scene);
     comparison.minimum_distance_error = minimum_distance(lmds) - minimum_distance(here.lmds);
     comparison.force_error = (frame.force - true_force).norm();
-    comparison.force_angle_error = angle_between(frame.force, true_force);
+    comparison.force_angle_error = force_angle(frame.force, true_force);
     comparison.force_jump = (next.force - frame.force).norm();
     comparisons.push_back(comparison);
   }

@@ -17,12 +17,6 @@ namespace {
 /// Radians added to a half angle: a unit vector and an angle carry a few roundings of one epsilon each.
 constexpr double CONE_WIDENING = 8.0 * std::numeric_limits<double>::epsilon();
 
-/// Angle of two unit vectors. atan2 keeps full precision near 0 and pi, where acos
-/// of the dot product loses half.
-double angle_between(const Vec3& a, const Vec3& b) {
-  return std::atan2(a.cross(b).norm(), a.dot(b));
-}
-
 Cone cone_of_angle(const Vec3& axis, double half_angle) {
   const double widened = half_angle + CONE_WIDENING;
   if (!(widened < std::numbers::pi)) return {};
@@ -30,6 +24,10 @@ Cone cone_of_angle(const Vec3& axis, double half_angle) {
 }
 
 }  // namespace
+
+double angle_between(const Vec3& a, const Vec3& b) {
+  return std::atan2(a.cross(b).norm(), a.dot(b));
+}
 
 double Cone::half_angle() const {
   return is_all_directions() ? std::numbers::pi : std::atan2(sine, cosine);

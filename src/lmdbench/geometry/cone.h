@@ -8,6 +8,10 @@
 
 namespace lmdbench {
 
+/// Angle of two vectors of any lengths but 0, radians in [0, pi]. atan2 keeps full precision near 0 and pi, where acos of
+/// the dot product loses half.
+double angle_between(const Vec3& a, const Vec3& b);
+
 /// Circular cone of directions { n : angle(n, axis) <= phi }, phi in [0, pi]; pi means all directions. The
 /// angle is kept as cosine and sine, so that node tests compare without inverse trigonometry: cos(a + b) =
 /// cos a cos b - sin a sin b. The default is all directions, which is always safe.
