@@ -47,9 +47,9 @@ class TimedPoses final : public PoseSource {
       : source_(std::move(source)), seconds_(seconds) {}
 
   const Pose& pose() const override { return source_->pose(); }
-  std::optional<LoopFrame> render(const Vec3& force_W) override {
+  std::optional<LoopFrame> render(const RenderedForce& rendered) override {
     std::optional<LoopFrame> moved;
-    seconds_.push_back(seconds_of([&] { moved = source_->render(force_W); }));
+    seconds_.push_back(seconds_of([&] { moved = source_->render(rendered); }));
     return moved;
   }
 
