@@ -74,7 +74,7 @@ double sum(const std::vector<double>& values) {
   return total;
 }
 
-RoleRow measure(const LockstepMethod& method, LockstepInput input, const DriverChoice& driver) {
+RoleRow measure_roles(const LockstepMethod& method, LockstepInput input, const DriverChoice& driver) {
   RoleRow row;
   row.label = method.label;
   const auto make_poses = input.make_poses;
@@ -122,7 +122,7 @@ nlohmann::json described(const RoleRow& row) {
           {"global_share", row.global / row.seconds}};
 }
 
-void print(const nlohmann::json& row) {
+void print_roles(const nlohmann::json& row) {
   const auto us = [&](const char* stage, const char* name) { return 1e6 * row[stage][name].get<double>(); };
   const auto ms = [&](const char* name) { return 1e3 * row[name].get<double>(); };
   fmt::print(
@@ -133,7 +133,7 @@ void print(const nlohmann::json& row) {
       row["frames_with_force"].get<int>());
 }
 
-int run(const RolesChoice& choice) {
+int run_roles(const RolesChoice& choice) {
   const Experiment experiment = load_experiment(choice.experiment, choice.sets);
   if (!experiment.loop.closed)
     throw UsageError(choice.experiment, "/loop/kind", "an open loop",
@@ -149,8 +149,8 @@ int run(const RolesChoice& choice) {
   fmt::print("|---|---|---|---|---|---|---|---|---|---|---|---|\n");
   for (int repetition = 0; repetition < choice.repetitions; ++repetition)
     for (const LockstepMethod& method : lockstep_methods(experiment, prepared)) {
-      rows.push_back(described(measure(method, prepared.input, driver)));
-      print(rows.back());
+      rows.push_back(described(measure_roles(method, prepared.input, driver)));
+      print_roles(rows.back());
     }
   experiments::write_report(
       choice.json,
@@ -171,7 +171,7 @@ void add_roles(CLI::App& app, Run& chosen) {
       ->check(CLI::Range(1, 1000))
       ->capture_default_str();
   command->add_option("--json", choice->json, "file for the numbers");
-  command->callback([choice, &chosen] { chosen = [choice] { return run(*choice); }; });
+  command->callback([choice, &chosen] { chosen = [choice] { return run_roles(*choice); }; });
 }
 
 }  // namespace lmdbench::study

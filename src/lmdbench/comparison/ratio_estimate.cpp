@@ -23,7 +23,7 @@ std::vector<double> logarithms(std::span<const double> values) {
 }
 
 /// Both ends of the interval, and whether ranks gave them.
-std::pair<double, double> interval(const Pairings& pairings, std::size_t bound) {
+std::pair<double, double> ends_of(const Pairings& pairings, std::size_t bound) {
   if (bound > 0) return {std::exp(pairings.low(bound)), std::exp(pairings.high(bound))};
   return {std::exp(pairings.smallest()) / SINGLE_PROCESS_FACTOR,
           std::exp(pairings.largest()) * SINGLE_PROCESS_FACTOR};
@@ -37,8 +37,8 @@ RatioEstimate estimate_ratio(std::span<const double> base, std::span<const doubl
   const std::size_t alarm_bound = rank_bound(base.size(), candidate.size(), error);
   RatioEstimate estimate;
   estimate.ratio = std::exp(pairings.shift());
-  std::tie(estimate.low, estimate.high) = interval(pairings, bound);
-  std::tie(estimate.alarm_low, estimate.alarm_high) = interval(pairings, alarm_bound);
+  std::tie(estimate.low, estimate.high) = ends_of(pairings, bound);
+  std::tie(estimate.alarm_low, estimate.alarm_high) = ends_of(pairings, alarm_bound);
   estimate.interval_by_ranks = bound > 0;
   estimate.alarm_by_ranks = alarm_bound > 0;
   estimate.detectable =

@@ -10,7 +10,7 @@ Vec3 point_of(const Pose& X_WM, const Vec3& p_M) {
 }
 
 /// X_WM of a mesh whose point p_M is at p_W.
-Pose pose_of(const Vec3& p_W, const Eigen::Quaterniond& R_WM, const Vec3& p_M) {
+Pose pose_with_point(const Vec3& p_W, const Eigen::Quaterniond& R_WM, const Vec3& p_M) {
   return {p_M.isZero(0.0) ? p_W : Vec3(p_W - R_WM * p_M), R_WM};
 }
 
@@ -34,12 +34,12 @@ void HeldMesh::advance(const RenderedForce& held, const Pose& next_on_path) {
 }
 
 Pose HeldMesh::pose() const {
-  return pose_of(place_.position(), gimbal_ ? gimbal_->orientation() : path_orientation_, held_M_);
+  return pose_with_point(place_.position(), gimbal_ ? gimbal_->orientation() : path_orientation_, held_M_);
 }
 
 Pose HeldMesh::sensed_pose() const {
-  return pose_of(place_.sensed_position(), gimbal_ ? gimbal_->sensed_orientation() : path_orientation_,
-                 held_M_);
+  return pose_with_point(place_.sensed_position(),
+                         gimbal_ ? gimbal_->sensed_orientation() : path_orientation_, held_M_);
 }
 
 Vec3 HeldMesh::velocity() const {
