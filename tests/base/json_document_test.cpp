@@ -11,7 +11,7 @@
 namespace lmdbench {
 namespace {
 
-using testing::HasSubstr;
+using ::testing::HasSubstr;
 using Json = nlohmann::json;
 
 const Json SCHEMA = Json::parse(R"({
@@ -81,8 +81,9 @@ TEST(JsonDocument, CompletesAndChecksTheValuesOfMaps) {
   EXPECT_EQ(JsonDocument(text(""), "w.json", SCHEMA, ExitCode::USAGE).json()["colours"]["red"]["shade"],
             "dark");
   EXPECT_THAT(complaint_about(text("\"shades\": 2")), HasSubstr("/colours/red/shades (line 3): unknown key"));
-  EXPECT_THAT(complaint_about(text("\"shade\": 3")),
-              testing::AllOf(HasSubstr("/colours/red/shade (line 3): "), HasSubstr("[\"dark\",\"light\"]")));
+  EXPECT_THAT(
+      complaint_about(text("\"shade\": 3")),
+      ::testing::AllOf(HasSubstr("/colours/red/shade (line 3): "), HasSubstr("[\"dark\",\"light\"]")));
 }
 
 TEST(JsonDocument, NamesPointerLineAndRemedy) {

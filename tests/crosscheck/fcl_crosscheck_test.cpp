@@ -61,7 +61,7 @@ TEST(FclCrosscheck, FindsACornerOverAFace) {
   EXPECT_EQ(result.fixed_body, 0);
   EXPECT_THAT(result.triangle_fixed, testing::AnyOf(2, 3)) << "triangles of the top face";
   EXPECT_THAT(surface.mesh.triangles.at(static_cast<std::size_t>(result.triangle_moving)),
-              testing::Contains(0))
+              ::testing::Contains(0))
       << "vertex 0 is the lowest corner";
 }
 

@@ -122,7 +122,7 @@ std::string complaint_about(const ForceProfile& profile) {
 }
 
 TEST(ForceProfile, ValidationNamesTheField) {
-  using testing::HasSubstr;
+  using ::testing::HasSubstr;
   const ForceProfile good = profile_of(ForceLaw::EXPONENTIAL, 4.0);
   EXPECT_EQ(complaint_about(good), "");
   for (const double bad : {0.0, -1.0, NAN_VALUE, INFINITE}) {

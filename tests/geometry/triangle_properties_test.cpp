@@ -146,8 +146,8 @@ RC_GTEST_PROP(TriangleDistanceProperty, IsBoundedByTheFeaturePoints, ()) {
   for (int pair_number = 0; pair_number < PAIRS_A_SEED; ++pair_number) {
     const TrianglePair pair = any_pair(random);
     double by_points = HUGE_VAL;
-    for (const Vec3& p : feature_points(pair.a)) {
-      for (const Vec3& q : feature_points(pair.b)) by_points = std::min(by_points, (q - p).norm());
+    for (const Vec3& p : feature_points<7>(pair.a)) {
+      for (const Vec3& q : feature_points<7>(pair.b)) by_points = std::min(by_points, (q - p).norm());
     }
     const double slack = DIFFERENCE_BOUND * testing::magnitude(pair);
     RC_ASSERT(distance(pair) <= by_points + slack);

@@ -24,7 +24,7 @@ const std::filesystem::path ROOT = LMDBENCH_SOURCE_DIR;
 /// Every n-th frame is enough here: `lmdbench path info --spec` checks them all.
 constexpr std::size_t STRIDE = 10;
 
-class CommittedPath : public testing::TestWithParam<const char*> {
+class CommittedPath : public ::testing::TestWithParam<const char*> {
  protected:
   PathSpec spec_ = read_path_spec(ROOT / "paths" / (std::string(GetParam()) + ".json"));
   PathInterpolator path_{read_tum(ROOT / "paths" / (std::string(GetParam()) + ".tum"))};
@@ -67,7 +67,7 @@ TEST_P(CommittedPath, KeepsItsGapOnTheMeshesItNames) {
 }
 
 INSTANTIATE_TEST_SUITE_P(, CommittedPath,
-                         testing::Values("bunny-hard", "bunny-soft", "armadillo-bunny", "shapes"),
+                         ::testing::Values("bunny-hard", "bunny-soft", "armadillo-bunny", "shapes"),
                          [](const auto& path) {
                            std::string name = path.param;
                            std::replace(name.begin(), name.end(), '-', '_');

@@ -13,7 +13,7 @@
 namespace lmdbench {
 namespace {
 
-using testing::HasSubstr;
+using ::testing::HasSubstr;
 
 const std::string SPEC = R"({
   "moving": { "mesh": "bunny-16k", "diagonal_m": 0.15 },

@@ -17,8 +17,8 @@
 namespace lmdbench {
 namespace {
 
-using testing::AllOf;
-using testing::HasSubstr;
+using ::testing::AllOf;
+using ::testing::HasSubstr;
 
 Path read_text(const std::string& text) {
   std::istringstream stream(text);
@@ -83,7 +83,7 @@ TEST(ReadTum, RoundTripKeepsEveryBit) {
   const Path path = random_path(500);
   expect_same_bits(read_text(tum_text(path, "two\nlines")), path);
   EXPECT_THAT(tum_text(path, "two\nlines"),
-              testing::StartsWith("# two\n# lines\n# time x y z qx qy qz qw\n"));
+              ::testing::StartsWith("# two\n# lines\n# time x y z qx qy qz qw\n"));
 }
 
 TEST(ReadTum, NormalisedQuaternionsKeepTheirBitsAndOthersAreNormalised) {
@@ -153,7 +153,7 @@ TEST(ReadTum, MissingFileIsNamed) {
   }
 }
 
-class WriteTum : public testing::Test {
+class WriteTum : public ::testing::Test {
  protected:
   std::filesystem::path folder_ =
       std::filesystem::path(testing::TempDir()) /

@@ -71,9 +71,9 @@ TEST(Device, UnknownNameListsTheKnownOnes) {
     device_named("phantom-desk", "hard.json", "/device");
     FAIL() << "an unknown name was accepted";
   } catch (const UsageError& error) {
-    EXPECT_THAT(error.what(), testing::HasSubstr("hard.json: /device: there is no device 'phantom-desk'"));
-    EXPECT_THAT(error.what(), testing::HasSubstr("phantom-desktop"));
-    EXPECT_THAT(error.what(), testing::HasSubstr("phantom-omni"));
+    EXPECT_THAT(error.what(), ::testing::HasSubstr("hard.json: /device: there is no device 'phantom-desk'"));
+    EXPECT_THAT(error.what(), ::testing::HasSubstr("phantom-desktop"));
+    EXPECT_THAT(error.what(), ::testing::HasSubstr("phantom-omni"));
   }
 }
 
