@@ -193,7 +193,7 @@ TEST(FlatScenes, AFaceTiltedByLessThanATolerancesIsStillOneContactAPlace) {
   const Scene boxes = make_scene(make_box({0.1, 0.1, 0.1}, 3), make_box({0.3, 0.3, 0.1}, 4), 0.02);
   const Scene feet = make_scene(make_two_boxes({0.03, 0.1, 0.1}, 0.04), make_box({0.3, 0.3, 0.1}, 1), 0.02);
   for (int i = 0; i < 30; ++i) {
-    Pose pose = on_top(random, 0.105);
+    Pose pose = turned_on_top(random, 0.105);
     pose.translation *= 0.5;
     pose.translation.z() = 0.105;
     const double tilt = std::pow(10.0, -14.0 + 3.5 * uniform(random));
