@@ -6,6 +6,7 @@
 #include <support/source_directory.h>
 #include <sys/stat.h>
 
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <string>
@@ -238,6 +239,40 @@ TEST_F(HostileInput, PathsThatLastForEver) {
     "gaps": [{"time_s": 0, "gap": 0.1}, {"time_s": 1, "gap": 0.1}]})";
   EXPECT_THAT(refusal("path generate " + write("fast.json", spec) + " --out " + path("o.tum"), USAGE),
               AllOf(HasSubstr("/frame_rate_hz"), HasSubstr("100000"), HasSubstr("remedy")));
+}
+
+/// What has room for many triangles at one vertex is answered, by every method but the one that tries all pairs.
+TEST_F(HostileInput, HubsAndLargePolygonsAreAnswered) {
+  const auto cone = [](int around) {
+    std::string text = "OFF\n" + std::to_string(around + 1) + " " + std::to_string(around) + " 0\n0 0 0\n";
+    for (int i = 0; i < around; ++i) {
+      const double angle = 2.0 * M_PI * i / around;
+      text += std::to_string(std::cos(angle)) + " " + std::to_string(std::sin(angle)) + " -1\n";
+    }
+    for (int i = 0; i < around; ++i)
+      text += "3 0 " + std::to_string(1 + i) + " " + std::to_string(1 + (i + 1) % around) + "\n";
+    return text;
+  };
+  std::string polygon = "OFF\n1000 1 0\n", corners = "1000";
+  for (int i = 0; i < 1000; ++i) {
+    const double angle = 2.0 * M_PI * i / 1000;
+    polygon += std::to_string(std::cos(angle)) + " " + std::to_string(std::sin(angle)) + " 0\n";
+    corners += " " + std::to_string(i);
+  }
+  const std::string pose = write("near.tum", "0 0 0 -0.99 0 0 0 1\n");
+  for (const std::string& mesh :
+       {write("hub.off", cone(20'000)), write("polygon.off", polygon + corners + "\n")}) {
+    for (const char* method : {"improved", "certified", "original", "nearest"}) {
+      const Outcome outcome = lmdbench("query --moving sphere --fixed " + mesh + " --cutoff 0.1 --method " +
+                                           method + " --poses " + pose + " --json",
+                                       LMDBENCH_SOURCE_DIR, PROCESSOR_SECONDS);
+      EXPECT_EQ(outcome.code, 0) << method << mesh << outcome.err;
+    }
+  }
+  // Two of them meet in as many pairs as both have triangles, multiplied.
+  EXPECT_THAT(refusal("query --moving " + path("hub.off") + " --fixed " + path("hub.off") + " --cutoff 0.1",
+                      INPUT_DATA),
+              AllOf(HasSubstr("vertex 0"), HasSubstr("--limit vertex-pairs=")));
 }
 
 TEST_F(HostileInput, PathsThatTakeForEverEndAtTheirLimit) {
