@@ -5,8 +5,8 @@
 #include <lmdbench/base/output_guard.h>
 #include <lmdbench/experiment/export_frames.h>
 #include <lmdbench/experiment/result_scene.h>
-#include <lmdbench/methods/query.h>
 #include <lmdbench/geometry/pose.h>
+#include <lmdbench/methods/query.h>
 #include <lmdbench/record/vtu_file.h>
 
 #include <fmt/format.h>
