@@ -172,7 +172,8 @@ std::optional<Vec3> put_into(const Vec3& p, const std::vector<std::size_t>& plan
   Eigen::MatrixXd normals(planes.size(), 3);
   for (std::size_t i = 0; i < planes.size(); ++i)
     normals.row(static_cast<Eigen::Index>(i)) = constraints[planes[i]].plane.normal.transpose();
-  Eigen::JacobiSVD<Eigen::MatrixXd> solver(normals, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  // Thin: a full U would be square in the planes, of which the hub of a fan may have thousands.
+  Eigen::JacobiSVD<Eigen::MatrixXd> solver(normals, Eigen::ComputeThinU | Eigen::ComputeThinV);
   solver.setThreshold(1e-6);
   Eigen::VectorXd heights(planes.size());
   // The second step takes what the first left by rounding.
