@@ -6,7 +6,6 @@
 #include <gtest/gtest.h>
 #include <record/result_reading.h>
 
-#include <algorithm>
 #include <cmath>
 #include <fstream>
 #include <limits>
@@ -90,29 +89,6 @@ TEST(ResultWriter, CompressesLargeDatasetsAlone) {
   EXPECT_EQ(result.layout("/small"), H5D_CONTIGUOUS);
   EXPECT_EQ(result.doubles("/local_update_time"), samples);
   EXPECT_LT(std::filesystem::file_size(directory / "a.h5"), samples.size() * sizeof(double) / 4);
-}
-
-TEST(ResultWriter, StoresAConstantOnce) {
-  const ScratchDirectory directory;
-  const std::size_t count = 100000;
-  const std::vector<std::int64_t> zeros(count, 0), sevens(5, 7);
-  const std::vector<double> unset(3 * count, NOT_SET);
-  std::vector<std::int64_t> almost(count, 3);
-  almost.back() = 4;
-  ResultWriter writer(directory / "a.h5");
-  writer.write({"/zeros", "1", "always 0"}, zeros, {count});
-  writer.write({"/sevens", "1", "always 7"}, sevens, {5});
-  writer.write({"/unset", "m", "never measured"}, unset, {count, 3});
-  writer.write({"/almost", "1", "3, and once 4"}, almost, {count});
-  writer.commit();
-  EXPECT_LT(std::filesystem::file_size(directory / "a.h5"), 10000u);
-  const OpenResult result(directory / "a.h5");
-  EXPECT_EQ(result.integers("/zeros"), zeros);
-  EXPECT_EQ(result.integers("/sevens"), sevens);
-  EXPECT_EQ(result.integers("/almost"), almost);
-  const std::vector<double> read = result.doubles("/unset");
-  ASSERT_EQ(read.size(), unset.size());
-  EXPECT_TRUE(std::all_of(read.begin(), read.end(), [](double value) { return std::isnan(value); }));
 }
 
 TEST(ResultWriter, GivesAttributesToGroupsDatasetsAndTheRoot) {

@@ -8,7 +8,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstring>
 #include <functional>
 #include <limits>
 #include <numeric>
@@ -40,13 +39,6 @@ std::vector<hsize_t> chunk_shape(const std::vector<hsize_t>& shape, std::size_t 
     while (extent > 1 && bytes() > LARGEST_CHUNK_BYTES) extent = (extent + 1) / 2;
   }
   return chunk;
-}
-
-/// Whether all of several values have the same bits.
-bool is_constant(const void* values, std::size_t count, std::size_t bytes) {
-  const char* const first = static_cast<const char*>(values);
-  // Every value equals the one before it.
-  return count > 1 && std::memcmp(first, first + bytes, (count - 1) * bytes) == 0;
 }
 
 void check_path(const std::string& path) {
@@ -108,15 +100,10 @@ class ResultWriter::Implementation {
       check(H5Pset_shuffle(creation.get()), action);
       check(H5Pset_deflate(creation.get(), DEFLATE_LEVEL), action);
     }
-    // A number that never changes is said once and takes no room.
-    const bool constant =
-        file_type != string_type_.get() && is_constant(values, count, H5Tget_size(memory_type));
-    if (constant) check(H5Pset_fill_value(creation.get(), memory_type, values), action);
     Hdf5Handle dataset = checked(H5Dcreate2(file_.get(), info.path.c_str(), file_type, space.get(),
                                             link_creation_.get(), creation.get(), H5P_DEFAULT),
                                  &H5Dclose, action);
-    if (count > 0 && !constant)
-      check(H5Dwrite(dataset.get(), memory_type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values), action);
+    if (count > 0) check(H5Dwrite(dataset.get(), memory_type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values), action);
     describe(dataset.get(), info, action);
     if (!dataset.close()) fail(action);  // compresses the last chunks
   }
