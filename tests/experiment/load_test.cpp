@@ -95,10 +95,15 @@ TEST(LoadExperiment, EveryMethodOptionIsRead) {
                       "/methods/1/literal_g3=true",
                       R"(/methods/-={"name":"certified","force_law":"linear","frame_coherence":false})"});
   EXPECT_EQ(experiment.methods[0].options["literal_g3"], true);
+  // What the file leaves out has its default.
   EXPECT_EQ(experiment.methods[1].options, nlohmann::json({{"visibility", "orthogonal"},
                                                            {"reduction", "loss-free"},
                                                            {"tracking_order", "triangle-index"},
-                                                           {"literal_g3", true}}));
+                                                           {"literal_g3", true},
+                                                           {"leaf_cones", "one-ring"},
+                                                           {"clamped_sigma", false},
+                                                           {"plain_cache", false},
+                                                           {"second_tracking", true}}));
   EXPECT_EQ(experiment.methods[2].options, nlohmann::json({{"frame_coherence", false}}));
 }
 
