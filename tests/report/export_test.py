@@ -122,10 +122,10 @@ class ExportTest(unittest.TestCase):
 
     def test_replaces_its_own_files_and_no_others(self):
         result, out, _ = self.run_and_export("again")
-        self.assertEqual(subprocess.run([PROGRAM, "-q", "export", result, "--out", out, "--frames", "2"], capture_output=True, check=False).returncode, 0)
+        self.assertEqual(subprocess.run([PROGRAM, "-q", "export", result, "--out", out, "--frames", "2"], cwd=ROOT, capture_output=True, check=False).returncode, 0)
         with open(os.path.join(out, "fixed_0.vtu"), "w", encoding="utf-8") as stream:
             stream.write("mine")
-        outcome = subprocess.run([PROGRAM, "-q", "export", result, "--out", out], capture_output=True, text=True, check=False)
+        outcome = subprocess.run([PROGRAM, "-q", "export", result, "--out", out], cwd=ROOT, capture_output=True, text=True, check=False)
         self.assertEqual(outcome.returncode, 2, outcome.stderr)
         with open(os.path.join(out, "fixed_0.vtu"), encoding="utf-8") as stream:
             self.assertEqual(stream.read(), "mine")
