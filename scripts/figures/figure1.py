@@ -31,19 +31,32 @@ def write_off(file, points, triangles):
         stream.writelines(f"3 {a} {b} {c}\n" for a, b, c in triangles)
 
 
-def query(program, folder, meshes, cutoff, pose, method):
-    """The set of one pose: what `lmdbench query --json` prints."""
+def query(program, folder, meshes, cutoff, poses, method):
+    """The set of each pose: what `lmdbench query --json` prints."""
     names = []
     for name, (points, triangles) in meshes.items():
         names.append(os.path.join(folder, f"{name}.off"))
         write_off(names[-1], points, triangles)
     command = [program, "query", "--moving", names[0], "--fixed", names[1], "--cutoff", repr(cutoff), "--method", method, "--poses", "-",
                "--json"]
-    outcome = subprocess.run(command, input=" ".join(repr(float(value)) for value in pose) + "\n", capture_output=True, text=True,
-                             check=False)
+    lines = "".join(" ".join(repr(float(value)) for value in pose) + "\n" for pose in poses)
+    outcome = subprocess.run(command, input=lines, capture_output=True, text=True, check=False)
     if outcome.returncode != 0:
         raise ResultError(outcome.stderr.strip())
-    return json.loads(outcome.stdout.splitlines()[0])["lmds"]
+    return [json.loads(line)["lmds"] for line in outcome.stdout.splitlines()]
+
+
+def chosen_poses(poses, time):
+    """The pose at the time; without one, poses over the whole path in the order of their times."""
+    if time is not None:
+        return poses[[np.argmin(np.abs(poses[:, 0] - time))]]
+    return poses[np.unique(np.linspace(0, len(poses) - 1, 101).astype(int))]
+
+
+def index_to_show(sets, times):
+    """The pose with LMDs that is nearest the middle of the path; None without one."""
+    found = [i for i, lmds in enumerate(sets) if lmds]
+    return min(found, key=lambda i: abs(times[i] - 0.5 * (times[0] + times[-1])), default=None)
 
 
 def draw(meshes, lmds, title):
@@ -76,7 +89,7 @@ def draw(meshes, lmds, title):
 def main(argv):
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("experiment", metavar="EXPERIMENT.json", help="an experiment on built meshes")
-    parser.add_argument("--time", type=float, default=None, metavar="SECONDS", help="pose of the path; the middle without it")
+    parser.add_argument("--time", type=float, default=None, metavar="SECONDS", help="pose of the path; without it the one nearest the middle that has LMDs")
     parser.add_argument("--method", default="certified")
     parser.add_argument("--program", default="build/release/lmdbench", metavar="FILE")
     parser.add_argument("--out", required=True, metavar="DIR", help="directory of figure1.svg and figure1.png")
@@ -91,17 +104,19 @@ def main(argv):
         points, triangles = read_off(os.path.join(folder, body["mesh"] + ".off"))
         meshes[role] = (scaled(points, body.get("diagonal_m")), triangles)
     poses = np.loadtxt(os.path.join(here, experiment["path"]["file"]))
-    at = 0.5 * poses[-1, 0] if arguments.time is None else arguments.time
-    pose = poses[np.argmin(np.abs(poses[:, 0] - at))]
+    poses = chosen_poses(poses, arguments.time)
     force = experiment["force"][0] if isinstance(experiment["force"], list) else experiment["force"]
     moving = meshes["moving"][0]
     cutoff = force.get("cutoff_m") or force["cutoff_diagonal"] * float(np.linalg.norm(moving.max(axis=0) - moving.min(axis=0)))
     os.makedirs(arguments.out, exist_ok=True)
-    lmds = query(arguments.program, arguments.out, meshes, cutoff, pose, arguments.method)
+    sets = query(arguments.program, arguments.out, meshes, cutoff, poses, arguments.method)
     for role in meshes:
         os.remove(os.path.join(arguments.out, f"{role}.off"))
-    if not lmds:
-        raise ResultError(f"{arguments.experiment}: no LMD within the cutoff at {pose[0]:g} s (remedy: another --time)")
+    shown = index_to_show(sets, poses[:, 0])
+    if shown is None:
+        when = "on the path" if arguments.time is None else f"at {poses[0, 0]:g} s"
+        raise ResultError(f"{arguments.experiment}: no LMD within the cutoff {when} (remedy: another {'experiment' if arguments.time is None else '--time'})")
+    pose, lmds = poses[shown], sets[shown]
     placed = [(moving @ rotation(*pose[4:]).T + pose[1:4], meshes["moving"][1]), meshes["fixed"]]
     title = f"{len(lmds)} LMD{'s' * (len(lmds) != 1)} of {arguments.method} within {1e3 * cutoff:.3g} mm, {experiment['name']} at {pose[0]:g} s"
     for file in style.save(draw(placed, lmds, title), arguments.out, "figure1"):

@@ -56,6 +56,13 @@ class Figure1(unittest.TestCase):
         self.assertTrue(self.read("pose").startswith("2.0 1.0"), "the pose nearest to the time")
         self.assertEqual(sorted(os.listdir(os.path.join(self.folder.name, "out"))), ["figure1.png", "figure1.svg"])
 
+    def test_without_a_time_the_pose_with_lmds_nearest_the_middle_is_shown(self):
+        times = [0.0, 1.0, 2.0, 3.0, 4.0]
+        self.assertEqual(figure1.index_to_show([[LMD], [], [], [LMD], [LMD]], times), 3)
+        self.assertIsNone(figure1.index_to_show([[]] * 5, times))
+        poses = np.arange(4000.0)[:, None]
+        self.assertEqual(figure1.chosen_poses(poses, None)[[0, -1], 0].tolist(), [0.0, 3999.0])
+
     def test_no_lmd_is_said_and_not_drawn(self):
         with self.assertRaisesRegex(ResultError, "no LMD within the cutoff at 2 s"):
             figure1.main(self.experiment([]))
