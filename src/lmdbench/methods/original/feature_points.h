@@ -29,7 +29,9 @@ template <std::size_t N>
 constexpr TriangleFeature part_of_feature_point(std::size_t index) {
   constexpr std::size_t PARTS = 7, MORE = more_edge_points(N);
   if (index < PARTS) return static_cast<TriangleFeature>(index);
-  if (index < PARTS + 3 * MORE) return static_cast<TriangleFeature>(3 + (index - PARTS) / MORE);
+  if constexpr (MORE > 0) {
+    if (index < PARTS + 3 * MORE) return static_cast<TriangleFeature>(3 + (index - PARTS) / MORE);
+  }
   return TriangleFeature::FACE;
 }
 
