@@ -6,6 +6,7 @@
 #include <Eigen/Geometry>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <support/signed_volume.h>
 
 #include <algorithm>
 #include <cmath>
@@ -13,15 +14,6 @@
 
 namespace lmdbench {
 namespace {
-
-double signed_volume(const TriangleMesh& mesh) {
-  double sum = 0.0;
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-    const Triangle corners = mesh.triangle(static_cast<std::int32_t>(t));
-    sum += corners[0].dot(corners[1].cross(corners[2])) / 6.0;
-  }
-  return sum;
-}
 
 struct NamedShape {
   std::string name;
@@ -41,7 +33,7 @@ TEST_P(ClosedShapeTest, IsClosedManifoldOrientedOutwards) {
             shape.euler);
   EXPECT_EQ(std::count(surface.edge_is_boundary.begin(), surface.edge_is_boundary.end(), true), 0);
   EXPECT_EQ(std::count(surface.edge_is_non_manifold.begin(), surface.edge_is_non_manifold.end(), true), 0);
-  EXPECT_GT(signed_volume(shape.mesh), 0.0);
+  EXPECT_GT(testing::signed_volume(shape.mesh), 0.0);
   for (const Vec3& normal : surface.face_normals) EXPECT_NEAR(normal.norm(), 1.0, 1e-12);
   EXPECT_LT(bounding_box_centre(shape.mesh).norm(), 0.3 * bounding_box_diagonal(shape.mesh));
 }
@@ -60,11 +52,11 @@ INSTANTIATE_TEST_SUITE_P(Shapes, ClosedShapeTest,
                          [](const auto& parameter) { return parameter.param.name; });
 
 TEST(ShapesTest, VolumesAreThoseOfTheSolids) {
-  EXPECT_NEAR(signed_volume(make_box({1, 2, 3}, 3)), 6.0, 1e-12);
-  EXPECT_NEAR(signed_volume(make_wedge(1.0, 2.0, 3.0)), 3.0, 1e-12);
-  EXPECT_NEAR(signed_volume(make_l_block(2.0)), 6.0, 1e-12);
-  EXPECT_NEAR(signed_volume(make_sphere(1.0, 4)), 4.0 / 3.0 * M_PI, 0.02);
-  EXPECT_NEAR(signed_volume(make_torus(1.0, 0.25, 128, 64)), 2.0 * M_PI * M_PI * 0.0625, 0.01);
+  EXPECT_NEAR(testing::signed_volume(make_box({1, 2, 3}, 3)), 6.0, 1e-12);
+  EXPECT_NEAR(testing::signed_volume(make_wedge(1.0, 2.0, 3.0)), 3.0, 1e-12);
+  EXPECT_NEAR(testing::signed_volume(make_l_block(2.0)), 6.0, 1e-12);
+  EXPECT_NEAR(testing::signed_volume(make_sphere(1.0, 4)), 4.0 / 3.0 * M_PI, 0.02);
+  EXPECT_NEAR(testing::signed_volume(make_torus(1.0, 0.25, 128, 64)), 2.0 * M_PI * M_PI * 0.0625, 0.01);
 }
 
 TEST(ShapesTest, UnequalShapeHasTheRatioItPromises) {

@@ -8,21 +8,13 @@
 #include <lmdbench/mesh/validity.h>
 
 #include <gtest/gtest.h>
+#include <support/signed_volume.h>
 
 #include <cmath>
 #include <numbers>
 
 namespace lmdbench {
 namespace {
-
-double volume_of(const TriangleMesh& mesh) {
-  double sixfold = 0.0;
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-    const Triangle corners = mesh.triangle(static_cast<std::int32_t>(t));
-    sixfold += corners[0].dot(corners[1].cross(corners[2]));
-  }
-  return sixfold / 6.0;
-}
 
 /// Area inside the outline's points.
 double area_of(const std::vector<Vec2>& points) {
@@ -52,11 +44,11 @@ TEST(Sleeve, IsClosedAndHasItsOutlinesVolume) {
   const TriangleMesh block = make_sleeve(square, round, choice);
   expect_solid(block, 1);
   EXPECT_EQ(block.triangles.size(), 4u * 120u * 5u);
-  EXPECT_NEAR(volume_of(block), 0.7 * (4.0 - area(round)), 1e-9);
+  EXPECT_NEAR(testing::signed_volume(block), 0.7 * (4.0 - area(round)), 1e-9);
   const TriangleMesh wheel = make_sleeve(gear, nullptr, choice);
   expect_solid(wheel, 0);
   EXPECT_EQ(wheel.triangles.size(), 2u * 120u * (3u + 2u * 2u - 1u));
-  EXPECT_NEAR(volume_of(wheel), 0.7 * area(gear), 1e-9);
+  EXPECT_NEAR(testing::signed_volume(wheel), 0.7 * area(gear), 1e-9);
   EXPECT_NEAR(area(square), 4.0, 1e-8) << "inradius 1";
   expect_solid(make_sleeve(polygon_outline(6, 1.0), thread_outline(0.6, 0.1, 0.2),
                            {.height = 1.0, .around = 48, .layers = 40, .rings = 1}),
