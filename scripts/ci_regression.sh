@@ -73,8 +73,8 @@ base="$(commit_of "${revisions[0]}")"
 candidate="$(commit_of "${revisions[1]:-HEAD}")"
 out="$(mkdir -p "$out" && cd "$out" && pwd)"
 
-# build_revision COMMIT: $out/tree/COMMIT/build/release/lmdbench. Every file by itself, which ccache serves best; all
-# worktrees share its hits, since paths below a worktree do not count.
+# build_revision COMMIT: $out/tree/COMMIT/build/release/lmdbench, compiled as users' programs are, but for precompiled headers,
+# which ccache keeps only with settings of the user's. All worktrees share its hits: paths below a worktree do not count.
 build_revision() {
   local tree="$out/tree/$1"
   [[ ! -x $tree/build/release/lmdbench ]] || return 0
