@@ -7,7 +7,7 @@
 
 namespace lmdbench::testing {
 
-double uniform(Random& random) {
+double uniform_coordinate(Random& random) {
   return std::ldexp(static_cast<double>(random() >> 11), -52) - 1.0;
 }
 
@@ -16,21 +16,21 @@ double log_uniform(Random& random, double low, double high) {
   std::frexp(high / low, &octaves);
   for (;;) {
     // Linear within an octave: near enough, and the same bits everywhere, which std::exp does not promise.
-    const double octave = 0.5 * (uniform(random) + 1.0) * octaves;
+    const double octave = 0.5 * (uniform_coordinate(random) + 1.0) * octaves;
     const double value = low * std::ldexp(1.0 + octave - std::floor(octave), static_cast<int>(octave));
     if (value <= high) return value;
   }
 }
 
 Vec3 random_point(Random& random) {
-  const double x = uniform(random);
-  const double y = uniform(random);
-  return {x, y, uniform(random)};
+  const double x = uniform_coordinate(random);
+  const double y = uniform_coordinate(random);
+  return {x, y, uniform_coordinate(random)};
 }
 
-Mat3 random_rotation(Random& random) {
+Mat3 random_rotation_matrix(Random& random) {
   for (;;) {
-    const double w = uniform(random);
+    const double w = uniform_coordinate(random);
     const Vec3 v = random_point(random);
     const double squared_length = w * w + v.squaredNorm();
     if (squared_length > 0.01 && squared_length <= 1.0) {
@@ -47,7 +47,7 @@ bool coin(Random& random) {
   return random_index(random, 2) == 1;
 }
 
-Vec3 random_direction(Random& random) {
+Vec3 random_unit_vector(Random& random) {
   for (;;) {
     const Vec3 v = random_point(random);
     if (v.norm() > 0.1 && v.norm() <= 1.0) return v.normalized();
@@ -62,7 +62,7 @@ Triangle random_triangle(Random& random) {
 
 /// A point inside (or on the border of) a triangle.
 Vec3 point_in(Random& random, const Triangle& t) {
-  double u = 0.5 * (uniform(random) + 1.0), v = 0.5 * (uniform(random) + 1.0);
+  double u = 0.5 * (uniform_coordinate(random) + 1.0), v = 0.5 * (uniform_coordinate(random) + 1.0);
   if (u + v > 1.0) {
     u = 1.0 - u;
     v = 1.0 - v;

@@ -13,7 +13,7 @@ namespace lmdbench::testing {
 using Random = std::mt19937_64;
 
 /// Uniform in [-1, 1).
-double uniform(Random& random);
+double uniform_coordinate(Random& random);
 /// Uniform in logarithm between two positive bounds, nearly.
 double log_uniform(Random& random, double low, double high);
 /// One of `count` numbers from 0.
@@ -23,9 +23,9 @@ bool coin(Random& random);
 /// Uniform in the cube [-1, 1)^3.
 Vec3 random_point(Random& random);
 /// Of unit length, uniform over all.
-Vec3 random_direction(Random& random);
+Vec3 random_unit_vector(Random& random);
 /// A rotation, uniform over all.
-Mat3 random_rotation(Random& random);
+Mat3 random_rotation_matrix(Random& random);
 /// Coordinates are integers from 0 to `extent`.
 Vec3 lattice_point(Random& random, int extent);
 /// The point with every coordinate moved by up to so many units in the last place.

@@ -23,7 +23,7 @@ TrianglePair uniform_pair(Random& random) {
 
 TrianglePair separated_pair(Random& random) {
   TrianglePair pair = uniform_pair(random);
-  const Vec3 offset = 6.0 * random_direction(random);
+  const Vec3 offset = 6.0 * random_unit_vector(random);
   for (Vec3& corner : pair.b) corner += offset;
   return pair;
 }
@@ -46,7 +46,7 @@ TrianglePair parallel_planes(Random& random) {
   }
   const Vec3 sideways = (coin(random) ? 2.0 : 0.5) * random_point(random);
   for (Vec3& corner : pair.b) corner += Vec3(sideways[0], sideways[1], 0.0);
-  return coin(random) ? transformed(pair, 1.0, random_rotation(random), Vec3::Zero()) : pair;
+  return coin(random) ? transformed(pair, 1.0, random_rotation_matrix(random), Vec3::Zero()) : pair;
 }
 
 TrianglePair coplanar(Random& random) {
@@ -63,7 +63,7 @@ TrianglePair coplanar(Random& random) {
 
 TrianglePair parallel_edges(Random& random) {
   TrianglePair pair = uniform_pair(random);
-  pair.b[1] = pair.b[0] + 2.0 * uniform(random) * (pair.a[1] - pair.a[0]);
+  pair.b[1] = pair.b[0] + 2.0 * uniform_coordinate(random) * (pair.a[1] - pair.a[0]);
   constexpr std::array<int, 4> STEPS{0, 1, 10, 100};
   pair.b[1] = nudged(random, pair.b[1], STEPS[random_index(random, 4)]);
   return pair;
@@ -71,7 +71,8 @@ TrianglePair parallel_edges(Random& random) {
 
 TrianglePair edge_parallel_to_face(Random& random) {
   TrianglePair pair = uniform_pair(random);
-  const Vec3 along = uniform(random) * (pair.a[1] - pair.a[0]) + uniform(random) * (pair.a[2] - pair.a[0]);
+  const Vec3 along = uniform_coordinate(random) * (pair.a[1] - pair.a[0]) +
+                     uniform_coordinate(random) * (pair.a[2] - pair.a[0]);
   pair.b[0] = point_in(random, pair.a) + log_uniform(random, 1e-6, 1.0) * unit_normal(pair.a);
   pair.b[1] = pair.b[0] + along;
   pair.b[2] = pair.b[0] + unit_normal(pair.a) + 0.5 * random_point(random);
@@ -85,7 +86,7 @@ TrianglePair corner_over_feature(Random& random) {
   const double gap = log_uniform(random, 1e-12, 1.0);
   Vec3 foot = point_in(random, pair.a);
   const int part = random_index(random, 3);
-  if (part == 1) foot = pair.a[0] + 0.5 * (uniform(random) + 1.0) * (pair.a[1] - pair.a[0]);
+  if (part == 1) foot = pair.a[0] + 0.5 * (uniform_coordinate(random) + 1.0) * (pair.a[1] - pair.a[0]);
   if (part == 2) foot = pair.a[0];
   pair.b[0] = foot + gap * normal;
   for (int i = 1; i < 3; ++i) {
@@ -99,15 +100,16 @@ TrianglePair corner_over_feature(Random& random) {
 TrianglePair crossing_edges(Random& random) {
   const double tangent_of_half = 0.5 * log_uniform(random, 1e-8, 1.8);
   const double gap = log_uniform(random, 1e-12, 1.0);
-  const double s = 0.4 * uniform(random), t = 0.4 * uniform(random);
+  const double s = 0.4 * uniform_coordinate(random), t = 0.4 * uniform_coordinate(random);
   const double norm = 1.0 + tangent_of_half * tangent_of_half;
   const Vec3 along((1.0 - tangent_of_half * tangent_of_half) / norm, 2.0 * tangent_of_half / norm, 0.0);
   TrianglePair pair;
-  pair.a = {Vec3(-1.0 - s, 0.0, 0.0), Vec3(1.0 - s, 0.0, 0.0), Vec3(uniform(random), uniform(random), -1.0)};
+  pair.a = {Vec3(-1.0 - s, 0.0, 0.0), Vec3(1.0 - s, 0.0, 0.0),
+            Vec3(uniform_coordinate(random), uniform_coordinate(random), -1.0)};
   pair.b[0] = -(1.0 + t) * along + Vec3(0, 0, gap);
   pair.b[1] = (1.0 - t) * along + Vec3(0, 0, gap);
-  pair.b[2] = Vec3(uniform(random), uniform(random), 1.0 + gap);
-  return transformed(pair, 1.0, random_rotation(random), random_point(random));
+  pair.b[2] = Vec3(uniform_coordinate(random), uniform_coordinate(random), 1.0 + gap);
+  return transformed(pair, 1.0, random_rotation_matrix(random), random_point(random));
 }
 
 TrianglePair touching_and_piercing(Random& random) {
@@ -137,14 +139,14 @@ TrianglePair needles_and_caps(Random& random) {
   TrianglePair pair = uniform_pair(random);
   for (Triangle* t : {&pair.a, &pair.b}) {
     const double thickness = log_uniform(random, 1e-8, 1e-2);
-    const double along = coin(random) ? 0.5 * (uniform(random) + 1.0) : 0.0;  // a cap or a needle
+    const double along = coin(random) ? 0.5 * (uniform_coordinate(random) + 1.0) : 0.0;  // a cap or a needle
     (*t)[2] = (*t)[0] + along * ((*t)[1] - (*t)[0]) + thickness * random_point(random);
     if (coin(random)) break;
   }
   if (coin(random)) {
     // Near contact, where the shape matters most.
     const Vec3 move = point_in(random, pair.a) - point_in(random, pair.b) +
-                      log_uniform(random, 1e-9, 0.1) * random_direction(random);
+                      log_uniform(random, 1e-9, 0.1) * random_unit_vector(random);
     for (Vec3& corner : pair.b) corner += move;
   }
   return any_order(random, pair);
@@ -180,7 +182,7 @@ TrianglePair any_scale(Random& random) {
 
 TrianglePair far_from_origin(Random& random) {
   TrianglePair pair = coin(random) ? uniform_pair(random) : corner_over_feature(random);
-  return transformed(pair, 1.0, Mat3::Identity(), log_uniform(random, 1e3, 1e6) * random_direction(random));
+  return transformed(pair, 1.0, Mat3::Identity(), log_uniform(random, 1e3, 1e6) * random_unit_vector(random));
 }
 
 TrianglePair unequal_sizes(Random& random) {
@@ -218,7 +220,7 @@ TrianglePair box_faces(Random& random) {
   pair.a = half_face(Vec3::Zero(), Vec3::Ones());
   const Vec3 low = coin(random) ? Vec3(0.25 * lattice_point(random, 12)) : Vec3(2.0 * random_point(random));
   pair.b = half_face(low, coin(random) ? Vec3::Ones().eval() : Vec3(0.5, 1.0, 2.0));
-  return coin(random) ? transformed(pair, 1.0, random_rotation(random), random_point(random)) : pair;
+  return coin(random) ? transformed(pair, 1.0, random_rotation_matrix(random), random_point(random)) : pair;
 }
 
 TrianglePair copies_of_one_triangle(Random& random) {
@@ -276,7 +278,7 @@ TrianglePair published_failures(Random& random) {
 /// One step of a motion: the second triangle of some other family, moved by 1e-16 to 1e-6.
 TrianglePair small_motions(Random& random) {
   TrianglePair pair = coin(random) ? parallel_edges(random) : box_faces(random);
-  const Vec3 move = log_uniform(random, 1e-16, 1e-6) * random_direction(random);
+  const Vec3 move = log_uniform(random, 1e-16, 1e-6) * random_unit_vector(random);
   for (Vec3& corner : pair.b) corner += move;
   return pair;
 }
@@ -284,18 +286,18 @@ TrianglePair small_motions(Random& random) {
 /// A structured pair under a rigid motion, which turns exact ties into rounding.
 TrianglePair rigid_motions(Random& random) {
   const TrianglePair pair = coin(random) ? integer_grid(random) : coplanar(random);
-  return transformed(pair, 1.0, random_rotation(random), 10.0 * random_point(random));
+  return transformed(pair, 1.0, random_rotation_matrix(random), 10.0 * random_point(random));
 }
 
 /// Triangles as they face each other across a gap between two meshes: well shaped, nearly parallel.
 TrianglePair facing_mesh_triangles(Random& random) {
   const Triangle regular{Vec3(1, 0, 0), Vec3(-0.5, std::sqrt(0.75), 0), Vec3(-0.5, -std::sqrt(0.75), 0)};
   const auto piece = [&](double height) {
-    const Eigen::Quaterniond about_z(uniform(random), 0.0, 0.0, uniform(random));
-    const Vec3 tilt = 0.15 * uniform(random) * random_direction(random);
+    const Eigen::Quaterniond about_z(uniform_coordinate(random), 0.0, 0.0, uniform_coordinate(random));
+    const Vec3 tilt = 0.15 * uniform_coordinate(random) * random_unit_vector(random);
     const Mat3 turn = (about_z.normalized() * Eigen::Quaterniond(1.0, tilt[0], tilt[1], tilt[2]).normalized())
                           .toRotationMatrix();
-    const Vec3 place(1.5 * uniform(random), 1.5 * uniform(random), height);
+    const Vec3 place(1.5 * uniform_coordinate(random), 1.5 * uniform_coordinate(random), height);
     Triangle t;
     for (int i = 0; i < 3; ++i) t[i] = turn * (regular[i] + 0.2 * random_point(random)) + place;
     return t;

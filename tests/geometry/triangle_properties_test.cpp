@@ -64,7 +64,7 @@ RC_GTEST_PROP(TriangleDistanceProperty, DoesNotChangeUnderRigidMotion, ()) {
   for (int pair_number = 0; pair_number < PAIRS_A_SEED; ++pair_number) {
     const TrianglePair pair = any_pair(random);
     const double size = testing::magnitude(pair);
-    const TrianglePair moved = testing::transformed(pair, 1.0, testing::random_rotation(random),
+    const TrianglePair moved = testing::transformed(pair, 1.0, testing::random_rotation_matrix(random),
                                                     size * 3.0 * testing::random_point(random));
     // The motion itself rounds every corner.
     const double bound = DIFFERENCE_BOUND * (size + testing::magnitude(moved));
