@@ -6,6 +6,10 @@
 
 namespace lmdbench {
 
+bool has_fcl() {
+  return false;
+}
+
 void require_fcl(const std::string& file, const std::string& place) {
   throw missing_part(PART_FCL, file, place, "the cross-check");
 }

@@ -56,6 +56,9 @@ struct ProbeShortcuts {
   bool reuse_repeated = true;  ///< A frame at the pose of the one before it has its answers.
 };
 
+/// Whether this build can cross-check (LMDBENCH_WITH_FCL).
+bool has_fcl();
+
 /// @param file,place where the cross-check is asked for
 /// @throws EnvironmentError in a build without FCL
 void require_fcl(const std::string& file, const std::string& place);

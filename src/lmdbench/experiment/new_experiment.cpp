@@ -4,6 +4,7 @@
 #include <lmdbench/base/error.h>
 #include <lmdbench/catalogue/manifest.h>
 #include <lmdbench/experiment/experiment.h>
+#include <lmdbench/experiment/fcl_probe.h>
 #include <lmdbench/experiment/new_experiment.h>
 #include <lmdbench/experiment/prepare.h>
 #include <lmdbench/motion/tum_file.h>
@@ -94,11 +95,15 @@ NewExperiment new_experiment(const std::string& moving, const std::string& fixed
                     {"search_latency_frames", open.driver.search_latency_frames},
                     {"repetitions", open.driver.repetitions}};
   json["device"] = open.device;
-  json["probes"] = {{"truth", {{"stride_frames", TRUTH_STRIDE}}}, {"fcl", {{"stride_frames", FCL_STRIDE}}}};
-  result.choices.push_back(
-      {"/probes", fmt::format("truth every {} frames, FCL every {}", TRUTH_STRIDE, FCL_STRIDE),
-       fmt::format("{} and {} of the path's {} frames", prepared.times.size() / TRUTH_STRIDE,
-                   prepared.times.size() / FCL_STRIDE, prepared.times.size())});
+  json["probes"]["truth"] = {{"stride_frames", TRUTH_STRIDE}};
+  result.choices.push_back({"/probes/truth", fmt::format("every {} frames", TRUTH_STRIDE),
+                            fmt::format("{} of the path's {} frames", prepared.times.size() / TRUTH_STRIDE,
+                                        prepared.times.size())});
+  json["probes"]["fcl"] = {{"stride_frames", has_fcl() ? FCL_STRIDE : 0}};
+  result.choices.push_back({"/probes/fcl", has_fcl() ? fmt::format("every {} frames", FCL_STRIDE) : "off",
+                            has_fcl() ? fmt::format("{} of the path's {} frames",
+                                                    prepared.times.size() / FCL_STRIDE, prepared.times.size())
+                                      : "this build has no FCL"});
   result.experiment_text = json.dump(2) + "\n";
 
   PathSpec spec = prepared.made_path->spec;
