@@ -4,6 +4,7 @@
 #include <lmdbench/experiment/scene_look.h>
 #include <lmdbench/snch/minimum_distance.h>
 
+#include <Eigen/Geometry>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
@@ -30,9 +31,19 @@ double winding_number(const Vec3& point, const TriangleMesh& mesh) {
   return angle / (4.0 * std::numbers::pi);
 }
 
-bool encloses(const SceneLook::Mesh& note, const TriangleMesh& mesh, const Vec3& point) {
-  return note.closed && std::abs(winding_number(point, mesh)) > 0.5;
-}
+/// A mesh and its box, outside of which nothing is inside the mesh.
+struct BoxedMesh {
+  const SceneLook::Mesh& note;
+  const TriangleMesh& mesh;
+  Eigen::AlignedBox3d box;
+
+  BoxedMesh(const SceneLook::Mesh& look, const TriangleMesh& triangles) : note(look), mesh(triangles) {
+    for (const Vec3& vertex : mesh.vertices) box.extend(vertex);
+  }
+  [[nodiscard]] bool encloses(const Vec3& point) const {
+    return note.closed && box.contains(point) && std::abs(winding_number(point, mesh)) > 0.5;
+  }
+};
 
 void look_at_sizes(SceneLook& look) {
   const auto by_diagonal = [](const SceneLook::Mesh& a, const SceneLook::Mesh& b) {
@@ -53,21 +64,20 @@ void look_at_sizes(SceneLook& look) {
 
 /// Distances do not tell inside from outside.
 void look_inside(SceneLook& look, const PreparedRun& prepared) {
-  const TriangleMesh& moving = prepared.scene().moving->surface().mesh;
+  const BoxedMesh moving(look.meshes.front(), prepared.scene().moving->surface().mesh);
   const std::vector<Pose>& poses = prepared.input.poses;
   const auto count = static_cast<std::int64_t>(poses.size());
   const std::int64_t samples = std::min(INSIDE_SAMPLES, count);
   for (std::size_t i = 0; i < prepared.scene().fixed.size(); ++i) {
-    const TriangleMesh& fixed = prepared.scene().fixed[i]->surface().mesh;
+    const BoxedMesh fixed(look.meshes[i + 1], prepared.scene().fixed[i]->surface().mesh);
     std::int64_t enclosed = 0, inside = 0, first_enclosed = -1, first_inside = -1;
     for (std::int64_t k = 0; k < samples; ++k) {
       const std::int64_t frame = samples == 1 ? 0 : k * (count - 1) / (samples - 1);
       const RigidTransform X_WM(poses[static_cast<std::size_t>(frame)]);
       const Pose& pose = poses[static_cast<std::size_t>(frame)];
-      const Vec3 fixed_M = pose.rotation.conjugate() * (fixed.vertices.front() - pose.translation);
-      if (encloses(look.meshes.front(), moving, fixed_M) && enclosed++ == 0) first_enclosed = frame;
-      if (encloses(look.meshes[i + 1], fixed, X_WM.point(moving.vertices.front())) && inside++ == 0)
-        first_inside = frame;
+      const Vec3 fixed_M = pose.rotation.conjugate() * (fixed.mesh.vertices.front() - pose.translation);
+      if (moving.encloses(fixed_M) && enclosed++ == 0) first_enclosed = frame;
+      if (fixed.encloses(X_WM.point(moving.mesh.vertices.front())) && inside++ == 0) first_inside = frame;
     }
     const std::string& name = look.meshes[i + 1].name;
     if (enclosed > 0)

@@ -32,30 +32,41 @@ struct Support {
   int size = 0;
 };
 
-/// Sphere through `points` with its centre in their affine hull; false where they are affinely dependent.
-bool circumsphere(const std::array<Vec3, 4>& points, int count, Sphere& sphere) {
-  const Vec3& origin = points[0];
-  if (count == 1) {
-    sphere = {origin, 0.0};
-    return true;
-  }
+/// Sphere through the first N + 1 of `points` with its centre in their affine hull; false where they are affinely
+/// dependent.
+template <int N>
+bool circumsphere(const std::array<Vec3, 4>& points, Sphere& sphere) {
   // centre - origin = sum of l_i e_i with 2 e_j . (centre - origin) = e_j . e_j for
   // every e_j = points[j] - origin.
-  const int n = count - 1;
-  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 3, 3> gram(n, n);
-  Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 3, 1> right(n);
-  for (int j = 0; j < n; ++j) {
+  const Vec3& origin = points[0];
+  Eigen::Matrix<double, N, N> gram;
+  Eigen::Matrix<double, N, 1> right;
+  for (int j = 0; j < N; ++j) {
     const Vec3 ej = points[j + 1] - origin;
-    for (int i = 0; i < n; ++i) gram(j, i) = 2.0 * ej.dot(points[i + 1] - origin);
+    for (int i = 0; i < N; ++i) gram(j, i) = 2.0 * ej.dot(points[i + 1] - origin);
     right(j) = ej.squaredNorm();
   }
-  const Eigen::FullPivLU<decltype(gram)> lu(gram);
+  const Eigen::FullPivLU<Eigen::Matrix<double, N, N>> lu(gram);
   if (!lu.isInvertible()) return false;
-  const Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 3, 1> l = lu.solve(right);
+  const Eigen::Matrix<double, N, 1> l = lu.solve(right);
   Vec3 offset = Vec3::Zero();
-  for (int i = 0; i < n; ++i) offset += l(i) * (points[i + 1] - origin);
+  for (int i = 0; i < N; ++i) offset += l(i) * (points[i + 1] - origin);
   sphere = {origin + offset, offset.norm()};
   return sphere.centre.allFinite() && std::isfinite(sphere.radius);
+}
+
+bool circumsphere(const std::array<Vec3, 4>& points, int count, Sphere& sphere) {
+  switch (count) {
+    case 1:
+      sphere = {points[0], 0.0};
+      return true;
+    case 2:
+      return circumsphere<1>(points, sphere);
+    case 3:
+      return circumsphere<2>(points, sphere);
+    default:
+      return circumsphere<3>(points, sphere);
+  }
 }
 
 bool contains_all(const Sphere& sphere, const Support& support) {
@@ -66,13 +77,13 @@ bool contains_all(const Sphere& sphere, const Support& support) {
   return true;
 }
 
-/// Replaces the support by the subset that carries its smallest sphere; false where
-/// rounding hides that subset.
+/// Replaces the support by the subset that carries its smallest sphere; false where rounding hides that subset. The point
+/// that came last was outside the sphere of the others, hence on the boundary of the new one: it is in every subset tried.
 bool smallest_sphere_of_support(Support& support, Sphere& sphere) {
   Sphere best;
   best.radius = std::numeric_limits<double>::infinity();
   Support best_support;
-  for (unsigned mask = 1; mask < (1U << support.size); ++mask) {
+  for (unsigned mask = 1U << (support.size - 1); mask < (1U << support.size); ++mask) {
     std::array<Vec3, 4> points;
     int count = 0;
     bool fits = true;

@@ -78,7 +78,10 @@ Cone node_cone(const Cone& merged_children, std::span<const std::int32_t> triang
 class Builder {
  public:
   Builder(const Surface& surface, LeafCones leaf_cones)
-      : surface_(surface), order_(surface.mesh.triangles.size()), centroids_(surface.mesh.triangles.size()) {
+      : surface_(surface),
+        order_(surface.mesh.triangles.size()),
+        centroids_(surface.mesh.triangles.size()),
+        gathered_for_(surface.mesh.vertices.size(), -1) {
     std::iota(order_.begin(), order_.end(), 0);
     std::vector<Vec3> normals;
     for (std::size_t t = 0; t < order_.size(); ++t) {
@@ -113,9 +116,7 @@ class Builder {
       const Cone right = build_node(static_cast<std::size_t>(first_child) + 1, middle, end);
       cone = node_cone(merge_cones(left, right), triangles, leaf_cones_, leaf_half_angles_);
     }
-    points_.clear();
-    for (const std::int32_t t : triangles)
-      for (const Vec3& corner : surface_.mesh.triangle(t)) points_.push_back(corner);
+    gather_corners(triangles, static_cast<std::int32_t>(index));
     const Sphere sphere = bounding_sphere(points_);
     hierarchy_.nodes[index] = {sphere.centre,
                                sphere.radius,
@@ -125,6 +126,18 @@ class Builder {
                                first_child,
                                triangles.size() == 1 ? triangles[0] : -1};
     return cone;
+  }
+
+  /// Leaves the corners of the triangles in points_, each vertex once: triangles share theirs with about five others.
+  void gather_corners(std::span<const std::int32_t> triangles, std::int32_t node) {
+    points_.clear();
+    for (const std::int32_t t : triangles)
+      for (const std::int32_t vertex : surface_.mesh.triangles[static_cast<std::size_t>(t)]) {
+        std::int32_t& last = gathered_for_[static_cast<std::size_t>(vertex)];
+        if (last == node) continue;
+        last = node;
+        points_.push_back(surface_.mesh.vertices[static_cast<std::size_t>(vertex)]);
+      }
   }
 
   /// Sorts the triangles into two halves along the longest side of their centroids' box and returns the size
@@ -151,6 +164,7 @@ class Builder {
   std::vector<Cone> leaf_cones_;
   std::vector<double> leaf_half_angles_;
   std::vector<Vec3> points_;
+  std::vector<std::int32_t> gathered_for_;  ///< Of each vertex, the node that gathered it last.
 };
 
 }  // namespace
