@@ -1,0 +1,128 @@
+#!/usr/bin/env python3
+# SPDX-FileCopyrightText: The lmdbench authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""What method `certified` costs over its tuned constants: each is changed in a worktree of its own, the program built, and
+instructions counted under callgrind on the first frames of recorded paths, less what the first frame alone costs; no load
+of the machine moves them. LMD sets must stay the same. Prints a Markdown table; * is the committed value. Meshes must be
+built.
+
+    python3 scripts/tuned_constants.py [--frames 600] [--only NAME]... [EXPERIMENT...]
+
+Exit codes: 0 done, 1 a set changed, 2 usage, 4 no build or no callgrind."""
+
+import argparse
+import os
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+
+ROOT = os.path.abspath(os.path.join(os.path.dirname(os.path.abspath(__file__)), ".."))
+TREE = os.path.join(ROOT, "build", "tuned", "tree")
+FORECAST = "src/lmdbench/methods/certified/coherence/motion_forecast.cpp"
+TRAVERSAL = "src/lmdbench/methods/certified/hierarchy/wide_traversal.h"
+# name: file, text around the value, values
+CONSTANTS = {
+    "opening weight": (TRAVERSAL, "({}F + node.sine[lane])", ("0.05", "0.1", "0.2", "0.4", "100.0")),
+    "LARGEST_HORIZON": (FORECAST, "LARGEST_HORIZON = {},", ("1.0", "2.0", "4.0", "8.0", "16.0")),
+    "HORIZON_CUTOFFS": (FORECAST, "HORIZON_CUTOFFS = {},", ("0.25", "0.5", "1.0", "2.0", "4.0")),
+    "HORIZON_TURN": (FORECAST, "HORIZON_TURN = {};", ("0.0025", "0.005", "0.01", "0.02", "0.04")),
+}
+SCENE = ("--set", '/methods=[{"name":"certified","force_law":"exponential"}]', "--set", "/driver/repetitions=1", "--set",
+         "/probes/truth/stride_frames=0", "--set", "/probes/fcl/stride_frames=0")
+
+
+def fail(message):
+    print(f"error: {message}", file=sys.stderr)
+    sys.exit(4)
+
+
+def run(command, **options):
+    done = subprocess.run(command, capture_output=True, text=True, check=False, stdin=subprocess.DEVNULL, **options)
+    if done.returncode != 0:
+        fail(f"{' '.join(command[:6])} ...: {(done.stderr or done.stdout)[-800:]}")
+    return done
+
+
+def build():
+    run(["cmake", "--preset", "release", "-DLMDBENCH_BUILD_TESTS=OFF", "-DLMDBENCH_BUILD_EXPERIMENTS=OFF",
+         "-DLMDBENCH_WITH_CGAL=OFF"], cwd=TREE)
+    run(["cmake", "--build", "--preset", "release", "--target", "lmdbench"], cwd=TREE)
+    return os.path.join(TREE, "build", "release", "lmdbench")
+
+
+def instructions(program, experiment, frames, folder):
+    """(instructions of so many frames, hash of their LMD sets and forces)"""
+    out = os.path.join(folder, "r.h5")
+    done = run(["valgrind", "--tool=callgrind", f"--callgrind-out-file={folder}/callgrind.out", program, "--quiet", "run",
+                experiment, *SCENE, "--set", f"/frames={frames}", "--out", out], env=os.environ | {"OPENSSL_ia32cap": ":~0x0"})
+    counted = re.search(r"Collected : (\d+)", done.stderr)
+    named = re.search(r"hash ([0-9a-f]{16})", done.stdout)
+    if not counted or not named:
+        fail("callgrind or the program said something unexpected")
+    os.remove(out)
+    return int(counted[1]), named[1]
+
+
+def costs(program, experiments, frames):
+    """Instructions a frame and the hash, of each experiment."""
+    with tempfile.TemporaryDirectory(prefix="tuned-") as folder:
+        rows = []
+        for experiment in experiments:
+            first, _ = instructions(program, experiment, 1, folder)
+            all_of_them, named = instructions(program, experiment, frames, folder)
+            rows.append(((all_of_them - first) / (frames - 1), named))
+        return rows
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("experiments", nargs="*", default=["experiments/bunny-hard.json", "experiments/armadillo-bunny.json"])
+    parser.add_argument("--frames", type=int, default=600)
+    parser.add_argument("--only", action="append", choices=list(CONSTANTS), help="this constant; may be given again")
+    arguments = parser.parse_args()
+    if arguments.frames < 2:
+        parser.error("--frames must be 2 or more")
+    if not shutil.which("valgrind"):
+        fail("there is no valgrind (remedy: apt-get install valgrind)")
+    experiments = [os.path.abspath(file) for file in arguments.experiments]
+    run(["git", "-C", ROOT, "worktree", "prune"])
+    if not os.path.exists(TREE):
+        run(["git", "-C", ROOT, "worktree", "add", "--quiet", "--detach", TREE])
+    try:
+        run(["git", "-C", TREE, "checkout", "--quiet", "--force", "--detach",
+             run(["git", "-C", ROOT, "rev-parse", "HEAD"]).stdout.strip()])
+        committed = costs(build(), experiments, arguments.frames)
+        names = [os.path.splitext(os.path.basename(file))[0] for file in experiments]
+        print(f"| constant | value | {' | '.join(f'{name}: instructions a frame (share)' for name in names)} |")
+        print("|---|---|" + "---|" * len(names), flush=True)
+        changed = False
+        for name in arguments.only or CONSTANTS:
+            file, pattern, values = CONSTANTS[name]
+            path = os.path.join(TREE, file)
+            with open(path, encoding="utf-8") as stream:
+                text = stream.read()
+            here = re.search(re.escape(pattern).replace(r"\{\}", r"([0-9.]+)"), text)
+            if not here:
+                fail(f"{file} has no '{pattern}' (remedy: mend the list in scripts/tuned_constants.py)")
+            for value in values:
+                same = float(value) == float(here[1])
+                rows = committed
+                if not same:
+                    with open(path, "w", encoding="utf-8") as stream:
+                        stream.write(text.replace(here[0], pattern.format(value)))
+                    rows = costs(build(), experiments, arguments.frames)
+                changed |= any(row[1] != old[1] for row, old in zip(rows, committed))
+                cells = " | ".join(f"{row[0]:.0f} ({row[0] / old[0]:.3f}){'' if row[1] == old[1] else ' OTHER SETS'}"
+                                   for row, old in zip(rows, committed))
+                print(f"| {name} | {value}{' *' if same else ''} | {cells} |", flush=True)
+            with open(path, "w", encoding="utf-8") as stream:
+                stream.write(text)
+    finally:
+        subprocess.run(["git", "-C", ROOT, "worktree", "remove", "--force", TREE], check=False, capture_output=True)
+    return 1 if changed else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
