@@ -66,7 +66,7 @@ figures() {
     "$PYTHON" scripts/figures/claims.py "$HARD" "$SOFT" --out "$FIGURES" >&2
 }
 
-page() { "$LMDBENCH" report "$HARD" "$SOFT" "$SWEEP" --out "$REPORT" --study results/reference/*.md >&2; }
+page() { "$LMDBENCH" report "$HARD" "$SOFT" "$SWEEP" --out "$REPORT" --paper "$FIGURES" --study results/reference/*.md >&2; }
 
 step "Packages" scripts/setup.sh
 PYTHON="$(find_python h5py jinja2 markdown matplotlib numpy PIL)"

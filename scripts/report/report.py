@@ -21,6 +21,7 @@ from claims_section import claims_of, evidence  # noqa: E402
 from lmdbench_results import Result, run_script, truth_of  # noqa: E402
 from page_data import page_colours, time_panels  # noqa: E402
 from page_figures import figures  # noqa: E402
+from paper_figures import paper_figures  # noqa: E402
 from scene_data import scene  # noqa: E402
 from studies import FIRST, studies as study_sections  # noqa: E402
 from sweep_results import Sweep, is_sweep  # noqa: E402
@@ -88,21 +89,22 @@ OMISSIONS = (
 )
 
 
-def navigation(entries, results, studies):
+def navigation(entries, results, studies, paper):
     """Every section of the page in its order; the tables that nobody looks for by name share one entry."""
     of_runs = [{"id": "frames", "title": "Frame by frame"}, {"id": "scene", "title": "In space"},
                {"id": "claims", "title": "The paper's claims"}] if results else []
+    of_paper = [{"id": "paper", "title": "Figures 1 to 6"}] if paper else []
     first = [entry for entry in studies if entry["name"] in FIRST]
     more = [{"id": "more", "title": "More tables"}] if len(first) < len(studies) else []
-    return [{"id": "answer", "title": "Answer"}, *entries, *of_runs, *first, *more, {"id": "omissions", "title": "Omissions"},
+    return [{"id": "answer", "title": "Answer"}, *entries, *of_runs, *of_paper, *first, *more, {"id": "omissions", "title": "Omissions"},
             {"id": "provenance", "title": "Provenance"}]
 
 
-def page(results, sweeps, scenes, study_files, folder):
+def page(results, sweeps, scenes, study_files, paper, folder):
     raw = markupsafe.Markup
     entries = [{**entry, "csv": raw(in_script(entry["csv"])), "html": raw(entry["html"])} for entry in figures(results, sweeps, folder)]
     studies = [{**entry, "html": raw(entry["html"])} for entry in study_sections(study_files)]
-    sections = navigation(entries, results, studies)
+    sections = navigation(entries, results, studies, paper)
     claims = claims_of(results) if results else {"problem": ""}
     linked = [(claim, evidence(claim.id, [*sections, *studies])) for claim in claims.get("claims", [])]
     data = {"results": [time_panels(result) for result in results], "scenes": scenes,
@@ -115,7 +117,7 @@ def page(results, sweeps, scenes, study_files, folder):
         title=" and ".join(result.experiment.get("title") or result.name for result in results)
         or " and ".join(sweep.title for sweep in sweeps),
         results=described, sections=sections, provenances=[*described, *map(sweep_provenance, sweeps)],
-        figures=entries, studies=studies, first_studies=FIRST, claims=claims, linked_claims=linked,
+        figures=entries, paper=paper, studies=studies, first_studies=FIRST, claims=claims, linked_claims=linked,
         omissions=OMISSIONS, style=raw(text_of(HERE, "page.css")),
         libraries={"script": raw(in_script("\n".join(library(*item) for item in LIBRARIES))),
                    "style": raw("\n".join(library(*item) for item in STYLES))},
@@ -130,6 +132,7 @@ def main(argv):
     parser.add_argument("--out", required=True, metavar="DIR", help="folder of index.html and of its figures")
     parser.add_argument("--scenes", metavar="DIR", help="folder with a scene for each result, 0, 1, ...; sweeps count")
     parser.add_argument("--study", nargs="*", default=[], metavar="FILE.md", help="tables of studies to show as well")
+    parser.add_argument("--paper", metavar="DIR", help="folder with the paper's Figures 1 to 6 (scripts/figures/figure1.py to figure6.py)")
     arguments = parser.parse_args(argv)
     sweeps = [Sweep(file) for file in arguments.results if is_sweep(file)]
     runs = [(i, file) for i, file in enumerate(arguments.results) if not is_sweep(file)]
@@ -138,7 +141,8 @@ def main(argv):
     scenes = [scene(result, folder) for result, folder in zip(results, folders)]
     os.makedirs(arguments.out, exist_ok=True)
     file = os.path.join(arguments.out, "index.html")
-    text = page(results, sweeps, scenes, arguments.study, arguments.out)
+    paper = paper_figures(arguments.paper) if arguments.paper else []
+    text = page(results, sweeps, scenes, arguments.study, paper, arguments.out)
     with open(file + ".part", "w", encoding="utf-8") as stream:
         stream.write(text)
     os.replace(file + ".part", file)

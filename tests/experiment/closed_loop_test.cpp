@@ -4,6 +4,7 @@
 #include <lmdbench/experiment/pose_source.h>
 #include <lmdbench/experiment/record_path.h>
 #include <lmdbench/experiment/run.h>
+#include <lmdbench/experiment/summary.h>
 #include <lmdbench/motion/tum_file.h>
 
 #include <experiment/committed.h>
@@ -186,6 +187,27 @@ TEST(ClosedLoop, RecordedPathReplaysTheForces) {
   EXPECT_EQ(thinned[85].time, all[595].time);
   EXPECT_EQ(thinned[85].pose.translation, all[595].pose.translation);
   EXPECT_THROW(record_path(wall({"/loop/kind=open"})), UsageError);
+}
+
+/// The hand means a path in contact; the device, which nothing presses, is pushed out of it.
+TEST(ClosedLoop, SummaryTellsThePathsContactAndTheDevices) {
+  const ScratchDirectory scratch;
+  const Experiment released = wall({"/loop/push_n=[0, 0, 0]"});
+  run_experiment_to_file(released, scratch / "wall.h5", {"lmdbench", "run"});
+  const OpenResult result(scratch / "wall.h5");
+  const auto contacts = [&](const std::string& dataset) {
+    const std::vector<double> flags = result.doubles(dataset);
+    return static_cast<double>(std::count(flags.begin(), flags.end(), 1.0));
+  };
+  EXPECT_EQ(result.doubles("/summary/frames_in_contact")[0], contacts("/scene/in_contact"));
+  EXPECT_EQ(result.doubles("/methods/certified/summary/frames_in_contact")[0],
+            contacts("/methods/certified/loop/in_contact"));
+  EXPECT_EQ(contacts("/scene/in_contact"), 600.0);
+  EXPECT_LT(contacts("/methods/certified/loop/in_contact"), 300.0);
+  EXPECT_GT(contacts("/methods/certified/loop/in_contact"), 0.0);
+  const std::string text = summary_text(summarise(released, run_experiment(released)));
+  EXPECT_NE(text.find("600 in contact"), std::string::npos) << text;
+  EXPECT_NE(text.find("its device was in contact in"), std::string::npos) << text;
 }
 
 TEST(ClosedLoop, ResultHoldsTheDevicesMotion) {

@@ -40,14 +40,26 @@ TEST(DirectionMemory, SamePairKeepsItsLastDirectionForAsLongAsItTouches) {
   }
 }
 
-TEST(DirectionMemory, AnotherPairBorrowsFromTheNearestWithinReach) {
+TEST(DirectionMemory, AnotherPairBorrowsFromTheNearestOfTheFrameBefore) {
   DirectionMemory memory(CUTOFF);
   LmdSet first{separated(1, Vec3(0, 0, 0), Vec3::UnitY()), separated(2, Vec3(0.05, 0, 0), Vec3::UnitZ())};
   memory.complete(first);
-  LmdSet next{touching(7, Vec3(0.04, 0, 0)), touching(8, Vec3(1, 0, 0))};
+  LmdSet next{touching(7, Vec3(0.02, 0, 0)), touching(8, Vec3(1, 0, 0))};
   EXPECT_EQ(memory.complete(next), 2);
-  EXPECT_EQ(next[0].direction, Vec3(Vec3::UnitZ()));
-  EXPECT_TRUE(next[1].direction.hasNaN()) << "nothing within the cutoff";
+  EXPECT_EQ(next[0].direction, Vec3(Vec3::UnitY()));
+  EXPECT_EQ(next[1].direction, Vec3(Vec3::UnitZ())) << "long faces cross far from where they met first";
+}
+
+TEST(DirectionMemory, AnOlderFrameLendsWithinReachOfTheCutoff) {
+  DirectionMemory memory(CUTOFF);
+  LmdSet first{separated(1, Vec3(0, 0, 0), Vec3::UnitY())};
+  memory.complete(first);
+  LmdSet none;
+  memory.complete(none);
+  LmdSet next{touching(7, Vec3(0.09, 0, 0)), touching(8, Vec3(0.11, 0, 0))};
+  memory.complete(next);
+  EXPECT_EQ(next[0].direction, Vec3(Vec3::UnitY()));
+  EXPECT_TRUE(next[1].direction.hasNaN()) << "beyond the cutoff";
 }
 
 TEST(DirectionMemory, OtherBodiesLendNothing) {

@@ -110,6 +110,40 @@ TEST(StabilitySearch, DeviceThatClipsFirstSaysSo) {
   EXPECT_NEAR(row.critical_stiffness_n_per_m, 7.9 / 0.01102, 0.01 * 7.9 / 0.01102);
 }
 
+TEST(StabilitySearch, DeviceThatClipsTheTorqueFirstSaysSo) {
+  // 0.188 N m at most, 50 mm beside the point held and 11 mm deep: 341 N/m, below the boundary and below the 8.5 N of the force.
+  // The hand's spring keeps the lever from rolling over the tip that it is pressed onto.
+  const StabilityRow row =
+      search_lever({"/device=phantom-premium-1.5-6dof", "/loop/push_n=[0, 0, 0]", "/force/cutoff_m=0.031",
+                    "/loop/friction_n=0", "/loop/resolution_m=0",
+                    R"(/loop/rotation/hand={"damping_n_m_s": 0.01, "stiffness_n_m": 1})"});
+  EXPECT_EQ(row.clean_until, "device_force");
+  const double torque_limit = 0.188 / (0.05 * 0.01102);
+  EXPECT_NEAR(row.critical_stiffness_n_per_m, torque_limit, 0.01 * torque_limit);
+  EXPECT_GT(row.exact_n_per_m, 1.5 * torque_limit);
+}
+
+/// What swings within the encoders' counts is clean without decay: neither does that end the search, nor is it the boundary.
+TEST(StabilitySearch, IsSharpWhereSwingsStayWithinTheCounts) {
+  for (const double resolution : {1e-5, 3e-5, 1e-4, 3e-4}) {
+    const std::string counts = fmt::format("/loop/resolution_m={}", resolution);
+    const StabilityRow row = search({counts});
+    const auto clean_at = [&](double stiffness) {
+      // F_max over the cutoff.
+      const Experiment experiment = load_experiment(
+          testing::WALL_FILE, {counts, fmt::format("/force/maximum_force_n={}", 0.02 * stiffness)});
+      const PreparedRun prepared = prepare(experiment);
+      const StabilityTrial trial =
+          try_stiffness(experiment, prepared.input, lockstep_methods(experiment, prepared).at(0), {});
+      EXPECT_NEAR(trial.stiffness_n_per_m, stiffness, 1e-6 * stiffness);
+      return trial.outcome.clean();
+    };
+    EXPECT_TRUE(clean_at(row.critical_stiffness_n_per_m)) << resolution;
+    EXPECT_FALSE(clean_at(1.0001 * row.critical_stiffness_n_per_m))
+        << resolution << " m: found " << row.critical_stiffness_n_per_m << " N/m";
+  }
+}
+
 TEST(StabilitySearch, PushIsCarriedOrThereIsNoCleanStiffness) {
   // 78.7 N/m over a reach of 20 mm carry 1.57 N: what is soft enough not to shake lets a push of 2 N through.
   const auto row = [](double push) {

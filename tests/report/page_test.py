@@ -26,7 +26,7 @@ ROOT = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..")
 FLAGS = ("--headless=new", "--no-sandbox", "--disable-quic", "--no-first-run", "--disable-background-networking",
          "--disable-component-update", "--disable-sync", "--use-angle=swiftshader", "--enable-unsafe-swiftshader",
          "--ignore-gpu-blocklist", "--force-prefers-reduced-motion")
-SECTIONS = ("answer", "work_precision", "figure7", "frames", "scene", "claims", "study-claims", "omissions", "provenance")
+SECTIONS = ("answer", "work_precision", "figure7", "frames", "scene", "claims", "paper", "study-claims", "omissions", "provenance")
 PROGRAM = None
 
 
@@ -50,7 +50,10 @@ class Page(unittest.TestCase):
         subprocess.run([PROGRAM, "-q", "run", "experiments/shapes.json", "--out", result, "--set", "/frames=600", "--set", "/record/lmds=true",
                         "--set", "/record/polylines={\"stride_frames\": 10}"], **run)
         subprocess.run([PROGRAM, "-q", "run", "experiments/shapes.json", "--out", closed, "--set", "/frames=600", "--set", "/loop={\"kind\": \"closed\"}"], **run)
-        subprocess.run([PROGRAM, "-q", "report", result, closed, "--out", out, "--study", "results/reference/claims.md"], **run)
+        for number in (2, 6):
+            subprocess.run([sys.executable, f"scripts/figures/figure{number}.py", "experiments/shapes.json", "--program", PROGRAM, "--out", cls.folder.name,
+                            *(["--level", "4"] if number == 2 else [])], **run)
+        subprocess.run([PROGRAM, "-q", "report", result, closed, "--out", out, "--paper", cls.folder.name, "--study", "results/reference/claims.md"], **run)
         cls.page = os.path.join(out, "index.html")
         cls.browser = open_browser()
         cls.addClassCleanup(cls.browser.quit)
@@ -73,6 +76,10 @@ class Page(unittest.TestCase):
         for section in SECTIONS:
             self.assertEqual(len(self.browser.find_elements(By.ID, section)), 1, section)
         self.assertIn("leaves the least force error", self.browser.find_element(By.CSS_SELECTOR, "#answer .lead").text)
+
+    def test_draws_the_papers_figures(self):
+        widths = self.browser.execute_script("return Array.from(document.querySelectorAll('#paper img'), (image) => [image.complete, image.naturalWidth])")
+        self.assertEqual(widths, [[True, 1000]] * 2)
 
     def test_plots_zoom_together(self):
         ranges = "return page.plots[0].map((plot) => plot.xAxisRange())"

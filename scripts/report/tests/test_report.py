@@ -225,12 +225,30 @@ class Page(unittest.TestCase):
         self.assertLess(text.index('id="study-scaling"'), text.index('id="study-ledger"'))
         self.assertLess(text.index('id="study-ledger"'), text.index('id="more"'))
         self.assertLess(text.index('id="more"'), text.index('id="study-a-table"'))
-        data = text.split('alt="lines" src="data:image/png;base64,', 1)[1].split('"', 1)[0]
+        data = text.split('alt="lines" src="data:image/webp;base64,', 1)[1].split('"', 1)[0]
         with Image.open(io.BytesIO(base64.b64decode(data))) as picture:
             self.assertEqual(picture.size, (1500, 15))
-            self.assertEqual(picture.convert("RGB").getpixel((700, 7)), (0x33, 0x66, 0x99))
+            np.testing.assert_allclose(picture.convert("RGB").getpixel((700, 7)), (0x33, 0x66, 0x99), atol=4)
         self.assertNotIn('href="other.md"', text)
         self.assertIn('href="https://example.org"', text)
+
+    def test_shows_those_of_the_papers_figures_that_are_there(self):
+        folder = os.path.join(self.folder.name, "figures")
+        os.mkdir(folder)
+        with self.assertRaisesRegex(ResultError, "none of figure1.png to figure6.png.*remedy"):
+            self.made("--paper", folder)
+        for name, colour in (("figure2", "#336699"), ("figure6", "#993366"), ("figure8", "#000000")):
+            Image.new("RGB", (2000, 40), colour).save(os.path.join(folder, f"{name}.png"))
+        text, _ = self.made("--paper", folder)
+        section = text.split('<section id="paper">', 1)[1].split("</section>", 1)[0]
+        self.assertEqual(re.findall(r'<figure class="drawing" id="([^"]+)"', section), ["figure2", "figure6"])
+        self.assertRegex(section, r'alt="Figure 2: A normal cone[^"]*"')
+        for data, colour in zip(re.findall(r'src="data:image/webp;base64,([^"]+)"', section), ((0x33, 0x66, 0x99), (0x99, 0x33, 0x66)), strict=True):
+            with Image.open(io.BytesIO(base64.b64decode(data))) as picture:
+                self.assertEqual(picture.size, (1000, 20))
+                np.testing.assert_allclose(picture.convert("RGB").getpixel((500, 10)), colour, atol=4)
+        self.assertIn('<a href="#paper">Figures 1 to 6</a>', text)
+        self.assertNotIn('id="paper"', self.made()[0])
 
     def test_claims_link_to_sections_that_are_there(self):
         text, _ = self.made()

@@ -22,6 +22,9 @@ void add_report_command(CLI::App& app) {
   command->add_option("--out,-o", request->out, "folder of index.html and of its figures")->required();
   command->add_option("--study", request->studies,
                       "Markdown tables to show as well, such as results/reference/*.md");
+  command->add_option(
+      "--paper", request->paper,
+      "folder with the paper's Figures 1 to 6, as scripts/figures/figure1.py to figure6.py draw them");
   command->callback([request] {
     const auto page = write_report(*request, [](const std::string& step) { spdlog::info("{}", step); });
     fmt::print("{}\n", page.string());

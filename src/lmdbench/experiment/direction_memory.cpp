@@ -2,18 +2,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/experiment/direction_memory.h>
 
+#include <limits>
 #include <utility>
 
 namespace lmdbench {
 
 std::int64_t DirectionMemory::complete(LmdSet& lmds) {
   std::int64_t without_direction = 0;
+  const double reach = is_older_ ? cutoff_ : std::numeric_limits<double>::infinity();
   LmdSet known;
   for (Lmd& lmd : lmds) {
     // A method may have carried the direction along itself; distance 0 tells that it is not the frame's own.
     if (!(lmd.distance > 0.0)) ++without_direction;
     if (lmd.direction.hasNaN()) {
-      double nearest_squared = cutoff_ * cutoff_;
+      double nearest_squared = reach * reach;
       for (const Lmd& earlier : last_) {
         if (earlier.fixed_body != lmd.fixed_body) continue;
         if (same_feature_pair(earlier, lmd)) {
@@ -29,6 +31,7 @@ std::int64_t DirectionMemory::complete(LmdSet& lmds) {
     }
     if (!lmd.direction.hasNaN()) known.push_back(lmd);
   }
+  is_older_ = known.empty();
   if (!known.empty()) last_ = std::move(known);
   return without_direction;
 }

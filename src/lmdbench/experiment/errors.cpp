@@ -39,6 +39,8 @@ void summarise_counts(MethodSummary& summary, const MethodRecord& record, const 
     if (frames.in_contact[static_cast<std::size_t>(search.frame)])
       candidates.push_back(static_cast<double>(search.candidates));
   }
+  summary.frames_in_contact =
+      static_cast<double>(std::count(frames.in_contact.begin(), frames.in_contact.end(), true));
   summary.frames_touching = static_cast<double>(touching);
   summary.lmd_count_median = median(counts);
   summary.lmd_count_p99 = quantile(counts, P99);

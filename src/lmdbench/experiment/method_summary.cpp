@@ -10,6 +10,8 @@ namespace {
 using M = MethodSummary;
 
 constexpr std::array NUMBERS = {
+    SummaryNumber{"frames_in_contact", "1", "frames in contact, at the poses that the method saw",
+                  &M::frames_in_contact},
     SummaryNumber{"frames_touching", "1", "frames with an LMD at distance 0", &M::frames_touching},
     SummaryNumber{"lmd_count_median", "1", "LMDs in a frame in contact, median", &M::lmd_count_median},
     SummaryNumber{"lmd_count_p99", "1", "LMDs in a frame in contact, 99th percentile", &M::lmd_count_p99},

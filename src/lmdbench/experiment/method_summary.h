@@ -19,6 +19,7 @@ struct MethodSummary {
   std::string entry;    ///< The label without the profile.
   std::string profile;  ///< Name of its force profile; empty for one alone.
 
+  double frames_in_contact = UNSET;
   double frames_touching = UNSET;
   double lmd_count_median = UNSET;
   double lmd_count_p99 = UNSET;

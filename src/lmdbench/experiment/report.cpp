@@ -78,6 +78,7 @@ fs::path write_report(const ReportRequest& request, const std::function<void(con
   }
   const fs::path out = fs::absolute(request.out);
   argv.insert(argv.end(), {"--out", out.string(), "--scenes", scenes.path().string()});
+  if (!request.paper.empty()) argv.insert(argv.end(), {"--paper", fs::absolute(request.paper).string()});
   if (!request.studies.empty()) argv.emplace_back("--study");
   for (const fs::path& study : request.studies) argv.push_back(fs::absolute(study).string());
 

@@ -14,6 +14,7 @@ struct ReportRequest {
   std::vector<std::filesystem::path> results;  ///< Result files, in the order of the page.
   std::filesystem::path out;  ///< Folder of index.html and of its figures; made where it is missing.
   std::vector<std::filesystem::path> studies;  ///< Markdown tables to show as well.
+  std::filesystem::path paper;  ///< Folder with the paper's Figures 1 to 6; empty: the page goes without.
 };
 
 /// Writes `out`/index.html, one file that needs no network, and every figure as SVG and PNG beside it. The page itself is

@@ -21,6 +21,9 @@ namespace {
 constexpr double CLIPPED_GROWTH = 1.0;
 /// Growth that stands for a contact too soft to carry the push: the critical stiffness lies above.
 constexpr double SINKING_GROWTH = -1.0;
+/// Growth that stands for a clean swing that neither grows nor decays, as all within the encoders' counts are: of exactly 0 a
+/// root finder would think that it is the boundary.
+constexpr double CALM_GROWTH = -1.0;
 
 /// A search on one method.
 class Search {
@@ -94,7 +97,8 @@ class Search {
       worst_ = scale;
       broken_by_ = trial.clipped ? "device_force" : to_string(trial.outcome.fastest);
     }
-    return trial.clipped ? CLIPPED_GROWTH : trial.outcome.growth;
+    if (trial.clipped) return CLIPPED_GROWTH;
+    return trial.outcome.growth == 0.0 ? CALM_GROWTH : trial.outcome.growth;
   }
 
   void refine(double low, double high, double growth_low, double growth_high) {

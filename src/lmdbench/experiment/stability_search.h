@@ -39,7 +39,7 @@ struct StabilityRow {
   double exact_n_per_m = UNSET;
   double bound_n_per_m = UNSET;  ///< The sufficient bound b / (T/2 + t_d).
   /// What ends the clean range: "amplitude", "energy" or "force_above_30_hz", whichever grows fastest just above it;
-  /// "device_force" where the device clips the resting force first; "nothing" where the search found no end,
+  /// "device_force" where the device clips the resting force or torque first; "nothing" where the search found no end,
   /// "never" where no stiffness was clean (or none that carries the push), "no_contact" where the first pose, or all
   /// that the push can reach, has no force and stiffness.
   std::string clean_until;

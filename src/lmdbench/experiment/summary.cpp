@@ -62,8 +62,11 @@ std::string rendered_text(const MethodSummary& m) {
   return text + "\n";
 }
 
-std::string method_text(const MethodSummary& m, bool probed) {
-  std::string text = fmt::format("{} (hash {})\n", m.label, m.result_hash);
+std::string method_text(const MethodSummary& m, bool probed, bool closed_loop) {
+  std::string text = fmt::format("{} (hash {}){}\n", m.label, m.result_hash,
+                                 closed_loop ? fmt::format("; its device was in contact in {} frames",
+                                                           shown(m.frames_in_contact, 1, "", "{:.0f}{}"))
+                                             : "");
   text += fmt::format("  LMDs   {} in the median frame in contact, {} at most",
                       shown(m.lmd_count_median, 1, ""), shown(m.lmd_count_maximum, 1, ""));
   if (!std::isnan(m.candidates_median))
@@ -200,8 +203,8 @@ RunSummary summarise(const Experiment& experiment, const RunResult& result) {
   RunSummary summary;
   summary.name = experiment.name;
   summary.frames = static_cast<std::int64_t>(result.prepared.times.size());
-  const std::vector<bool>& in_contact = result.track_of(0).in_contact;
-  summary.frames_in_contact = std::count(in_contact.begin(), in_contact.end(), true);
+  summary.closed_loop = experiment.loop.closed;
+  summary.frames_in_contact = std::count(result.in_contact.begin(), result.in_contact.end(), true);
   summary.frames_probed = static_cast<std::int64_t>(result.track_of(0).truth.size());
   summarise_truth(summary, result);
   summary.measured_repetitions = std::max<std::int64_t>(experiment.driver.repetitions - 1, 1);
@@ -242,13 +245,15 @@ RunSummary summarise(const Experiment& experiment, const RunResult& result) {
 }
 
 std::string summary_text(const RunSummary& summary) {
-  std::string text = fmt::format(
-      "{}: {} frames, {} in contact (within the cutoff of {:.4g} mm), {} against truth, {}\n", summary.name,
-      summary.frames, summary.frames_in_contact, summary.cutoff_m * 1e3, summary.frames_probed,
-      summary.measured_repetitions == 1
-          ? std::string("1 measured repetition")
-          : fmt::format("{} measured repetitions", summary.measured_repetitions));
-  for (const MethodSummary& method : summary.methods) text += method_text(method, summary.frames_probed > 0);
+  std::string text =
+      fmt::format("{}: {} frames, {} in contact (within the cutoff of {:.4g} mm{}), {} against truth, {}\n",
+                  summary.name, summary.frames, summary.frames_in_contact, summary.cutoff_m * 1e3,
+                  summary.closed_loop ? " on the path that the hand means" : "", summary.frames_probed,
+                  summary.measured_repetitions == 1
+                      ? std::string("1 measured repetition")
+                      : fmt::format("{} measured repetitions", summary.measured_repetitions));
+  for (const MethodSummary& method : summary.methods)
+    text += method_text(method, summary.frames_probed > 0, summary.closed_loop);
   if (!summary.profiles.empty()) text += profile_table(summary);
   if (summary.fcl_frames > 0) {
     text += fmt::format("FCL: {} frames, {} separated; exact minimum distance agrees within {:g} in {}\n",

@@ -26,7 +26,9 @@ struct ProfileDifference {
 /// The numbers of a run. Times leave the warm-up out and are never shown without the errors beside them.
 struct RunSummary {
   std::string name;
+  bool closed_loop = false;
   std::int64_t frames = 0;
+  /// Of the path; in a closed loop that is the one that the hand means, and each method tells those of its device.
   std::int64_t frames_in_contact = 0;
   std::int64_t frames_probed = 0;  ///< 0: no truth, errors are not measured.
   std::int64_t measured_repetitions = 0;
