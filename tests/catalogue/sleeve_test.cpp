@@ -66,6 +66,30 @@ TEST(Sleeve, HasTheFlatRegionsOfItsSides) {
   EXPECT_EQ(regions(polygon_outline(6, 0.37), circle_outline(0.1), 30), 6 + 30 + 2);
 }
 
+TEST(Sleeve, DoesNotFoldTheEndsOfAGear) {
+  // A face that folds back into its own plane would fall into regions between which contacts are torn.
+  for (const int teeth : {10, 20, 30}) {
+    const Outline gear = gear_outline(teeth, 0.1, 0.002);
+    const SleeveChoice choice{.height = 0.2, .around = 8 * teeth, .layers = 1, .rings = 3};
+    for (const Outline& bore : {Outline(), circle_outline(0.02 * teeth, gear)}) {
+      const TriangleMesh mesh = make_sleeve(gear, bore, choice);
+      const double radius = 0.05 * teeth;
+      double area = 0.0, least = 1.0;
+      for (std::int32_t t = 0; t < static_cast<std::int32_t>(mesh.triangles.size()); ++t) {
+        const Triangle triangle = mesh.triangle(t);
+        const Vec3 normal = (triangle[1] - triangle[0]).cross(triangle[2] - triangle[0]);
+        if (triangle[0].z() != triangle[1].z() || triangle[0].z() != triangle[2].z()) continue;
+        const double outward = triangle[0].z() > 0.0 ? normal.z() : -normal.z();
+        area += 0.5 * outward;
+        least = std::min(least, outward);
+      }
+      EXPECT_GT(least, 1e-7 * radius * radius) << teeth;
+      const double bored = bore ? area_of(bore(choice.around, 0.0)) : 0.0;
+      EXPECT_NEAR(area, 2.0 * (area_of(gear(choice.around, 0.0)) - bored), 1e-12) << teeth;
+    }
+  }
+}
+
 TEST(Sleeve, GearsOfOneModuleMeshWithoutCutting) {
   // Rolled by some angle, the flanks of two involute gears touch along the line of action, and never cross: points of
   // one outline that are inside the other one are so by no more than the outline's chords are off.

@@ -31,7 +31,8 @@ TriangleMesh holed_plate() {
 }
 
 TriangleMesh gear() {
-  return make_sleeve(gear_outline(10, 0.1, 0.002), circle_outline(0.2), {.height = 0.2, .around = 80});
+  const Outline teeth = gear_outline(10, 0.1, 0.002);
+  return make_sleeve(teeth, circle_outline(0.2, teeth), {.height = 0.2, .around = 80});
 }
 
 struct Pair {

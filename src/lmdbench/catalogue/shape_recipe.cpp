@@ -114,7 +114,8 @@ Outline Recipe::outline(const char* key, int around) {
   };
   Outline result;
   if (kind == "circle") {
-    result = circle_outline(own.length("radius"));
+    const double radius = own.length("radius");
+    result = circle_outline(radius, json.contains("under") ? own.outline("under", around) : Outline());
   } else if (kind == "polygon") {
     const int sides = own.integer("sides", 3, 1000);
     must_divide(sides);

@@ -15,6 +15,8 @@ namespace {
 
 constexpr double PI = std::numbers::pi;
 constexpr double PRESSURE_ANGLE = PI / 9.0;
+/// Part of the gap between two teeth at the base circle by which a flank leans outwards down to the root.
+constexpr double FLANK_LEAN = 0.05;
 
 Vec2 direction(int i, int n) {
   const auto [x, y] = circle_point(i, n);
@@ -43,9 +45,13 @@ double involute(double angle) {
 
 }  // namespace
 
-Outline circle_outline(double radius) {
-  return [radius](int count, double) {
+Outline circle_outline(double radius, const Outline& under) {
+  return [radius, under](int count, double height) {
     std::vector<Vec2> points;
+    if (under) {
+      for (const Vec2& p : under(count, height)) points.push_back(radius / p.norm() * p);
+      return points;
+    }
     for (int i = 0; i < count; ++i) points.push_back(radius * direction(i, count));
     return points;
   };
@@ -80,8 +86,9 @@ Outline gear_outline(int teeth, double module, double backlash) {
     const double base = pitch_radius * std::cos(PRESSURE_ANGLE), root = pitch_radius - 1.25 * module;
     const double tip = pitch_radius + module;
     const auto half_width = [&](double r) {
-      const double at_pitch = 0.5 * PI / teeth - 0.5 * backlash / pitch_radius;
-      return at_pitch + involute(PRESSURE_ANGLE) - (r > base ? involute(std::acos(base / r)) : 0.0);
+      const double at_base = 0.5 * PI / teeth - 0.5 * backlash / pitch_radius + involute(PRESSURE_ANGLE);
+      if (r > base) return at_base - involute(std::acos(base / r));
+      return at_base + FLANK_LEAN * (PI / teeth - at_base) * (base - r) / (base - root);
     };
     std::vector<Vec2> points;
     for (int tooth = 0; tooth < teeth; ++tooth) {

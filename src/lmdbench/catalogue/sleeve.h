@@ -16,13 +16,15 @@ namespace lmdbench {
 /// height. Every ray from the axis meets the outline once.
 using Outline = std::function<std::vector<Vec2>(int count, double height)>;
 
-Outline circle_outline(double radius);
+/// @param under where given, the points lie on the rays of that outline's points, so that a strip between the two does
+///   not fold, however uneven its angles are
+Outline circle_outline(double radius, const Outline& under = nullptr);
 
 /// Regular polygon; its first side is square to the x axis, at the distance `inradius`. Counts are multiples of `sides`.
 Outline polygon_outline(int sides, double inradius);
 
 /// Spur gear with involute flanks: pressure angle 20 degrees, addendum 1 and dedendum 1.25 modules, a tooth on the x
-/// axis. Two of one module mesh at a distance of axes of half the module times the sum of teeth; `backlash` is taken
+/// axis. Below the base circle the flanks lean outwards a little, so that no ray from the axis runs along them. Two of one module mesh at a distance of axes of half the module times the sum of teeth; `backlash` is taken
 /// off the width of each tooth at the pitch circle. Counts are multiples of 2 `teeth`, half of it for each flank.
 Outline gear_outline(int teeth, double module, double backlash);
 

@@ -1,12 +1,15 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/geometry/convex_polygon.h>
+#include <lmdbench/geometry/segment_distance.h>
+#include <lmdbench/geometry/tolerance.h>
 #include <lmdbench/lmd/first_order.h>
 #include <lmdbench/lmd/flat_pieces.h>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <tuple>
 
 namespace lmdbench {
 
@@ -25,6 +28,30 @@ Plane placed(const Plane& plane, const RigidTransform& X) {
 
 double parallel_tolerance(const Surface& moving, const Surface& fixed) {
   return moving.mesh.planar_tolerance + fixed.mesh.planar_tolerance;
+}
+
+ParallelRule ParallelRule::of(const Surface& moving, const FlatRegions& moving_regions, const Surface& fixed,
+                              const FlatRegions& fixed_regions) {
+  const auto flat_to = [](const Surface& surface, const FlatRegions& regions) {
+    return std::max(surface.mesh.planar_tolerance, FLATNESS * regions.extent);
+  };
+  const bool is_exact = parallel_tolerance(moving, fixed) == 0.0;
+  return {flat_to(moving, moving_regions) + flat_to(fixed, fixed_regions),
+          is_exact ? LARGEST_EXACT_TILT : LARGEST_PARALLEL_TILT,
+          coincidence_length(moving_regions.extent + fixed_regions.extent), is_exact};
+}
+
+bool ParallelRule::drifts_sideways(const Vec3& u, const Vec3& v) const {
+  const double length_u = u.norm(), length_v = v.norm();
+  return is_exact && u.cross(v).norm() / std::max(length_u, length_v) > allowance;
+}
+
+bool ParallelRule::is_speck(const ConvexPolygon& polygon, double area) const {
+  double longest = 0.0;
+  for (std::size_t k = 0; k < polygon.corners.size(); ++k)
+    longest =
+        std::max(longest, (polygon.corners[(k + 1) % polygon.corners.size()] - polygon.corners[k]).norm());
+  return !(area > least_width * longest);
 }
 
 Vec3 contact_direction(const Vec3& normal_moving, const Vec3& normal_fixed, const Surface& moving,
@@ -57,6 +84,12 @@ struct FlatPieces::Side {
   std::int32_t edge(std::size_t side) const {
     return surface.adjacency.triangle_edges[static_cast<std::size_t>(triangle)][side];
   }
+  /// From end to end of a straight edge, in the world.
+  Vec3 whole(std::int32_t straight_edge) const {
+    const auto& ends = regions.straight_edges[static_cast<std::size_t>(straight_edge)].ends;
+    return X_WS.direction(surface.mesh.vertices[static_cast<std::size_t>(ends[1])] -
+                          surface.mesh.vertices[static_cast<std::size_t>(ends[0])]);
+  }
   /// Straight edge of a side that this triangle is the first on, or -1.
   std::int32_t straight(std::size_t side) const {
     if (surface.adjacency.edge_triangles[edge(side)].front() != triangle) return -1;
@@ -66,14 +99,17 @@ struct FlatPieces::Side {
 
 FlatPieces::FlatPieces(const Scene& scene) : scene_(scene) {
   moving_ = &scene.moving->prepared<FlatRegions>();
-  for (const auto& body : scene.fixed) fixed_.push_back(&body->prepared<FlatRegions>());
+  for (const auto& body : scene.fixed) {
+    fixed_.push_back(&body->prepared<FlatRegions>());
+    rules_.push_back(ParallelRule::of(scene.moving->surface(), *moving_, body->surface(), *fixed_.back()));
+  }
 }
 
 void FlatPieces::offer(const RigidTransform& X_WM, std::int32_t body, std::int32_t t_moving,
                        std::int32_t t_fixed) {
   static const RigidTransform identity;
   const auto b = static_cast<std::size_t>(body);
-  if (!(parallel_tolerance(scene_.moving->surface(), scene_.fixed[b]->surface()) > 0.0)) return;
+  X_WM_ = X_WM;
   const Side moving(scene_.moving->surface(), *moving_, X_WM, t_moving, true);
   const Side fixed(scene_.fixed[b]->surface(), *fixed_[b], identity, t_fixed, false);
   if (moving.region() < 0 || fixed.region() < 0) return;
@@ -101,16 +137,18 @@ void FlatPieces::add(const Side& moving, const Side& fixed, std::int32_t body, c
 
 void FlatPieces::offer_faces(const Side& moving, const Side& fixed, std::int32_t body) {
   const Plane plane_m = moving.plane(), plane_f = fixed.plane();
-  if ((plane_m.normal + plane_f.normal).norm() > LARGEST_PARALLEL_TILT) return;
+  const ParallelRule& rule = rules_[static_cast<std::size_t>(body)];
+  if ((plane_m.normal + plane_f.normal).norm() > rule.largest_tilt) return;
   const Vec3 n = contact_direction(plane_m.normal, plane_f.normal, moving.surface, fixed.surface);
   const PlanarFrame frame(fixed.corners[0], n);
   const ConvexPolygon a(frame, moving.corners), b(frame, fixed.corners);
   const ConvexPolygon overlap = a.cut_by(b);
   const AreaAndCentroid whole = overlap.measure();
-  if (!(whole.area > 0.0)) return;
+  if (rule.is_speck(overlap, whole.area)) return;
   Piece piece{{body, 2, {FeatureKind::FACE, moving.region()}, {FeatureKind::FACE, fixed.region()}},
               std::numeric_limits<double>::infinity(),
               -std::numeric_limits<double>::infinity(),
+              {},
               {}};
   for (const Vec2& corner : overlap.corners) {
     const Vec3 x = frame.lifted(corner);
@@ -134,7 +172,8 @@ void FlatPieces::offer_edge_face(const Side& of_edge, std::size_t side, const Si
   const Vec3 u = x1 - x0;
   const double length = u.norm();
   const Plane plane = of_face.plane();
-  if (!(length > 0.0) || std::abs(u.dot(plane.normal)) > LARGEST_PARALLEL_TILT * length) return;
+  const ParallelRule& rule = rules_[static_cast<std::size_t>(body)];
+  if (!(length > 0.0) || std::abs(u.dot(plane.normal)) > rule.largest_tilt * length) return;
   // From the edge to the face, square to the edge.
   const Vec3 n = -(plane.normal - u.dot(plane.normal) / (length * length) * u).normalized();
   const PlanarFrame frame(of_face.corners[0], n);
@@ -151,13 +190,13 @@ void FlatPieces::offer_edge_face(const Side& of_edge, std::size_t side, const Si
   Piece piece{{body, 1, forward ? straight : region, forward ? region : straight},
               std::min(d0, d1),
               std::max(d0, d1),
-              {}};
-  piece.minimum.measure = (part.end - part.begin) * length;
+              {},
+              {part.begin, part.end, x0, u, n, plane}};
   Lmd& lmd = piece.minimum.lmd;
-  (forward ? lmd.point_moving : lmd.point_fixed) = middle;
-  (forward ? lmd.point_fixed : lmd.point_moving) = middle + d * n;
   lmd.feature_moving = forward ? edge : face;
   lmd.feature_fixed = forward ? face : edge;
+  (forward ? lmd.point_moving : lmd.point_fixed) = middle;
+  (forward ? lmd.point_fixed : lmd.point_moving) = middle + d * n;
   add(forward ? of_edge : of_face, forward ? of_face : of_edge, body, piece);
 }
 
@@ -168,7 +207,10 @@ void FlatPieces::offer_edges(const Side& moving, std::size_t side_moving, const 
   const Vec3& b0 = fixed.corners[side_fixed];
   const Vec3 v = fixed.corners[(side_fixed + 1) % 3] - b0;
   const double length_u = u.norm(), length_v = v.norm();
-  if (!(length_u > 0.0 && length_v > 0.0) || u.cross(v).norm() > LARGEST_PARALLEL_TILT * length_u * length_v)
+  const ParallelRule& rule = rules_[static_cast<std::size_t>(body)];
+  if (!(length_u > 0.0 && length_v > 0.0) || u.cross(v).norm() > rule.largest_tilt * length_u * length_v ||
+      rule.drifts_sideways(moving.whole(moving.straight(side_moving)),
+                           fixed.whole(fixed.straight(side_fixed))))
     return;
   const double sense = u.dot(v) > 0.0 ? 1.0 : -1.0;
   const Vec3 w = (u / length_u + sense / length_v * v).normalized();
@@ -197,6 +239,7 @@ void FlatPieces::offer_edges(const Side& moving, std::size_t side_moving, const 
                {FeatureKind::EDGE, fixed.straight(side_fixed)}},
               std::min({d0, d1, d.norm()}),
               std::max({d0, d1, d.norm()}),
+              {},
               {}};
   piece.minimum.measure = end - begin;
   piece.minimum.lmd.point_moving = p;
@@ -206,22 +249,100 @@ void FlatPieces::offer_edges(const Side& moving, std::size_t side_moving, const 
   add(moving, fixed, body, piece);
 }
 
-void FlatPieces::append_parallel(std::vector<LocalMinimum>& minima) {
+FlatPieces::Place FlatPieces::place_of(const LocalMinimum& minimum) const {
+  const Lmd& lmd = minimum.lmd;
+  const auto b = static_cast<std::size_t>(lmd.fixed_body);
+  return {lmd.fixed_body, minimum.dimension,
+          moving_->flat_feature_of(scene_.moving->surface(), lmd.feature_moving),
+          fixed_[b]->flat_feature_of(scene_.fixed[b]->surface(), lmd.feature_fixed)};
+}
+
+/// Whether a point of the region's plane lies on its border: an edge along it is over the border's edge, not the region.
+bool FlatPieces::is_along_border(const Place& place, const OverFace& over, const Vec3& x) const {
+  static const RigidTransform identity;
+  const auto b = static_cast<std::size_t>(place.body);
+  const bool over_moving = place.moving.kind == FeatureKind::FACE;
+  const TriangleMesh& mesh = (over_moving ? *scene_.moving : *scene_.fixed[b]).surface().mesh;
+  const RigidTransform& X_WS = over_moving ? X_WM_ : identity;
+  const Vec3 foot = x + along(over.plane, over.n, x) * over.n;
+  const std::int32_t region = (over_moving ? place.moving : place.fixed).index;
+  const auto& straight_edges = (over_moving ? *moving_ : *fixed_[b]).straight_edges;
+  return std::any_of(straight_edges.begin(), straight_edges.end(), [&](const StraightEdge& edge) {
+    if (edge.regions[0] != region && edge.regions[1] != region) return false;
+    const auto end = [&](std::size_t k) {
+      return X_WS.point(mesh.vertices[static_cast<std::size_t>(edge.ends[k])]);
+    };
+    return (point_segment_distance(foot, {end(0), end(1)}).point - foot).norm() <= rules_[b].least_width;
+  });
+}
+
+/// Appends what the pieces of an edge over a region cover, each part once.
+void FlatPieces::append_over_face(std::span<Piece> pieces, std::vector<LocalMinimum>& minima) const {
+  const auto edge_of = [](const Piece& piece) {
+    const Lmd& lmd = piece.minimum.lmd;
+    return lmd.feature_moving.kind == FeatureKind::EDGE ? lmd.feature_moving.index : lmd.feature_fixed.index;
+  };
+  std::stable_sort(pieces.begin(), pieces.end(), [&](const Piece& a, const Piece& b) {
+    return std::tuple(edge_of(a), a.over.begin) < std::tuple(edge_of(b), b.over.begin);
+  });
+  std::int32_t edge = -1;
+  double reached = 0.0;
+  for (const Piece& piece : pieces) {
+    if (edge_of(piece) != edge) reached = 0.0;
+    edge = edge_of(piece);
+    const OverFace& over = piece.over;
+    const double begin = std::max(over.begin, reached), end = over.end;
+    if (!(end > begin)) continue;
+    reached = end;
+    const Vec3 middle = over.x0 + 0.5 * (begin + end) * over.u;
+    if (is_along_border(piece.place, over, middle)) continue;
+    LocalMinimum& minimum = minima.emplace_back(piece.minimum);
+    Lmd& lmd = minimum.lmd;
+    minimum.measure = (end - begin) * over.u.norm();
+    lmd.distance = along(over.plane, over.n, middle);
+    const Vec3 foot = middle + lmd.distance * over.n;
+    const bool of_moving = lmd.feature_moving.kind == FeatureKind::EDGE;
+    lmd.point_moving = of_moving ? middle : foot;
+    lmd.point_fixed = of_moving ? foot : middle;
+  }
+}
+
+void FlatPieces::append_parallel(std::vector<LocalMinimum>& minima, std::size_t first) {
+  if (pieces_.empty()) return;
   std::stable_sort(pieces_.begin(), pieces_.end(),
                    [](const Piece& a, const Piece& b) { return a.place < b.place; });
+  std::vector<std::span<Piece>> over_faces;
+  const std::size_t before = minima.size();
   for (std::size_t begin = 0; begin < pieces_.size();) {
     std::size_t end = begin;
+    const Place& place = pieces_[begin].place;
     double least = std::numeric_limits<double>::infinity(), greatest = -least;
-    for (; end < pieces_.size() && pieces_[end].place == pieces_[begin].place; ++end) {
+    for (; end < pieces_.size() && pieces_[end].place == place; ++end) {
       least = std::min(least, pieces_[end].least_distance);
       greatest = std::max(greatest, pieces_[end].greatest_distance);
     }
-    const auto& fixed = scene_.fixed[static_cast<std::size_t>(pieces_[begin].place.body)]->surface();
     // Faces that cross have no distance: their triangles say so.
-    if (least > 0.0 && greatest - least <= parallel_tolerance(scene_.moving->surface(), fixed))
-      for (std::size_t i = begin; i < end; ++i) minima.push_back(pieces_[i].minimum);
+    if (least > 0.0 && greatest - least <= rules_[static_cast<std::size_t>(place.body)].allowance) {
+      if (place.moving.kind != place.fixed.kind)
+        over_faces.push_back(std::span(pieces_).subspan(begin, end - begin));
+      else
+        for (std::size_t i = begin; i < end; ++i) minima.push_back(pieces_[i].minimum);
+    }
     begin = end;
   }
+  if (over_faces.empty()) return;
+  const auto has_place = [&](const LocalMinimum& minimum) {
+    if (minimum.dimension != 1 || minimum.lmd.intersecting) return false;
+    const Place place = place_of(minimum);
+    const auto found =
+        std::lower_bound(over_faces.begin(), over_faces.end(), place,
+                         [](const std::span<Piece>& a, const Place& b) { return a.front().place < b; });
+    return found != over_faces.end() && found->front().place == place;
+  };
+  const auto from = minima.begin() + static_cast<std::ptrdiff_t>(first);
+  minima.erase(std::remove_if(from, minima.begin() + static_cast<std::ptrdiff_t>(before), has_place),
+               minima.begin() + static_cast<std::ptrdiff_t>(before));
+  for (const std::span<Piece>& pieces : over_faces) append_over_face(pieces, minima);
 }
 
 }  // namespace lmdbench

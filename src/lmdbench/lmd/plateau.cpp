@@ -119,16 +119,6 @@ void join_connected(const Scene& scene, const RigidTransform& X_WM, std::span<co
   }
 }
 
-/// The flat feature that a piece's feature is part of: a region, or a straight edge; `index` counts those.
-FeatureId flat_feature(const Surface& surface, const FlatRegions& regions, const FeatureId& feature) {
-  const auto i = static_cast<std::size_t>(feature.index);
-  if (feature.kind == FeatureKind::FACE) return {FeatureKind::FACE, regions.region_of_triangle[i]};
-  if (feature.kind == FeatureKind::VERTEX) return {};
-  if (regions.straight_of_edge[i] >= 0) return {FeatureKind::EDGE, regions.straight_of_edge[i]};
-  const auto triangle = static_cast<std::size_t>(surface.adjacency.edge_triangles[feature.index].front());
-  return {FeatureKind::FACE, regions.region_of_triangle[triangle]};
-}
-
 /// The face or edge that names a point of a flat feature, and a triangle with it.
 std::pair<FeatureId, std::int32_t> name_at(const Body& body, const FeatureId& flat, const Vec3& p_S) {
   const Surface& surface = body.surface();
@@ -150,8 +140,8 @@ void name_plateau(const Scene& scene, const RigidTransform& X_WM, std::span<cons
   for (const std::size_t i : plateau) {
     if (minima[i].dimension != dimension) continue;
     const auto pair = std::pair(
-        flat_feature(moving.surface(), moving.prepared<FlatRegions>(), minima[i].lmd.feature_moving),
-        flat_feature(fixed.surface(), fixed.prepared<FlatRegions>(), minima[i].lmd.feature_fixed));
+        moving.prepared<FlatRegions>().flat_feature_of(moving.surface(), minima[i].lmd.feature_moving),
+        fixed.prepared<FlatRegions>().flat_feature_of(fixed.surface(), minima[i].lmd.feature_fixed));
     // A triangle without area is on no flat feature.
     if (pair.first.index < 0 || pair.second.index < 0) continue;
     if (!first || pair < *first) first = pair;

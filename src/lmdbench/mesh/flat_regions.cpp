@@ -187,6 +187,15 @@ FlatRegions FlatRegions::of(const Surface& surface) {
   return regions;
 }
 
+FeatureId FlatRegions::flat_feature_of(const Surface& surface, const FeatureId& feature) const {
+  const auto i = static_cast<std::size_t>(feature.index);
+  if (feature.kind == FeatureKind::FACE) return {FeatureKind::FACE, region_of_triangle[i]};
+  if (feature.kind == FeatureKind::VERTEX) return {};
+  if (straight_of_edge[i] >= 0) return {FeatureKind::EDGE, straight_of_edge[i]};
+  const auto triangle = static_cast<std::size_t>(surface.adjacency.edge_triangles[feature.index].front());
+  return {FeatureKind::FACE, region_of_triangle[triangle]};
+}
+
 std::int32_t FlatRegions::face_at(const Surface& surface, std::int32_t region, const Vec3& p_S) const {
   const double tolerance = NAMING_TOLERANCE * extent;
   const auto triangles = region_triangles[region];

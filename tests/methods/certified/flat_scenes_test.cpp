@@ -1,5 +1,7 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/mesh/flat_regions.h>
+#include <lmdbench/mesh/flatten.h>
 #include <lmdbench/methods/certified/certified.h>
 #include <lmdbench/methods/registry.h>
 
@@ -177,6 +179,17 @@ TEST(FlatScenes, ARidgeOverTheNotchOfAnLHasAContactOnEitherArm) {
   expect_contacts_at(scene, {}, {middle(0.5, 1.0), middle(-0.5, 0.0)});
 }
 
+TEST(FlatScenes, ARidgeOverALineBetweenTrianglesCountsOnce) {
+  // Four squares of two triangles each: the ridge runs over the diagonal of the first and across that of the last.
+  TriangleMesh squares;
+  for (const double y : {0.0, 1.0, 2.0})
+    for (const double x : {0.0, 1.0, 2.0}) squares.vertices.emplace_back(x, y, 0.0);
+  squares.triangles = {{0, 1, 4}, {0, 4, 3}, {1, 2, 5}, {1, 5, 4},
+                       {3, 4, 7}, {3, 7, 6}, {4, 5, 7}, {5, 8, 7}};
+  const Scene scene = make_scene(ridge_from_above({0.25, 0.25, 0.01}, {1.75, 1.75, 0.01}), squares, 0.02);
+  expect_contacts_at(scene, {}, {{1.0, 1.0, 0.0}});
+}
+
 TEST(FlatScenes, ARidgeAcrossTwoRidgesThatMeetHasTwoContacts) {
   // Two ridges of one height from the corner 0, with slopes on both sides; another ridge crosses both.
   TriangleMesh corner;
@@ -185,6 +198,52 @@ TEST(FlatScenes, ARidgeAcrossTwoRidgesThatMeetHasTwoContacts) {
   corner.triangles = {{0, 1, 3}, {0, 3, 2}, {0, 5, 4}, {0, 4, 1}, {0, 2, 6}, {0, 6, 5}};
   const Scene scene = make_scene(ridge_from_above({1.5, -1.0, 0.01}, {-1.0, 1.5, 0.01}), corner, 0.02);
   expect_contacts_at(scene, {}, {{0.5, 0.0, 0.0}, {0.0, 0.5, 0.0}});
+}
+
+/// Two squares side by side, the right one with a vertex in the middle of the common side: what is open there is closed
+/// by a triangle without area, as programs for design do. No region goes through such a triangle.
+TriangleMesh squares_with_a_seam() {
+  TriangleMesh mesh;
+  mesh.vertices = {{-0.2, -0.2, 0}, {0, -0.2, 0},  {0, 0.2, 0}, {-0.2, 0.2, 0},
+                   {0.2, -0.2, 0},  {0.2, 0.2, 0}, {0, 0.05, 0}};
+  mesh.triangles = {{0, 1, 2}, {0, 2, 3}, {1, 4, 6}, {6, 4, 5}, {6, 5, 2}, {2, 1, 6}};
+  return mesh;
+}
+
+TEST(FlatScenes, AFaceInSeveralRegionsIsOneContact) {
+  // A box stands on the seam; its middle is that of the contact.
+  std::mt19937_64 random(8);
+  std::size_t split = 0;
+  for (int i = 0; i < 60; ++i) {
+    const int kind = i % 3;  // as made, turned, rounded
+    TriangleMesh seam = squares_with_a_seam(), box = make_box({0.1, 0.08, 0.1}, 2);
+    const Pose X_FD = kind == 0 ? Pose{} : testing::pose_of_seed(random());
+    const Pose X_MD = kind == 0 ? Pose{} : testing::pose_of_seed(random());
+    seam = testing::placed(std::move(seam), X_FD);
+    box = testing::placed(std::move(box), X_MD);
+    if (kind == 2) {
+      for (TriangleMesh* mesh : {&seam, &box}) {
+        *mesh = testing::rounded_to_floats(std::move(*mesh));
+        flatten(*mesh);
+      }
+    }
+    const Scene scene = make_scene(box, seam, 0.02);
+    split += scene.fixed[0]->prepared<FlatRegions>().region_count() > 1;
+    Pose X_DB;
+    X_DB.translation = Vec3(0.03 * (uniform(random) - 0.5), 0.2 * (uniform(random) - 0.5), 0.06);
+    X_DB.rotation = Eigen::AngleAxisd(2.0 * std::numbers::pi * uniform(random), Vec3::UnitZ());
+    const Pose pose = X_FD * X_DB * X_MD.inverse();
+    const Vec3 middle = RigidTransform(X_FD).point({X_DB.translation.x(), X_DB.translation.y(), 0.0});
+    for (const char* method : {"exhaustive", "certified"}) {
+      LmdSet set;
+      WorkCounters counters;
+      make_method(method, scene)->search(pose, set, counters);
+      SCOPED_TRACE(fmt::format("{} kind {}, {}\n{}", method, kind, text(pose), text(set)));
+      ASSERT_EQ(set.size(), 1u);
+      EXPECT_LT((set[0].point_fixed - middle).norm(), kind == 2 ? 1e-6 : 1e-12);
+    }
+  }
+  EXPECT_GT(split, 30u);
 }
 
 TEST(FlatScenes, AFaceTiltedByLessThanATolerancesIsStillOneContactAPlace) {

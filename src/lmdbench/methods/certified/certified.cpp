@@ -148,7 +148,8 @@ Certified::Certified(Scene scene, const CertifiedOptions& options, WideKernel ke
       hierarchy_moving_(hierarchy_of(*scene_.moving, joins_flat_)),
       flat_moving_(&scene_.moving->prepared<FlatMesh>()),
       coherent_(options.frame_coherence),
-      kernel_(kernel) {
+      kernel_(kernel),
+      flat_pieces_(scene_) {
   double extent = hierarchy_moving_.radius;
   for (const auto& body : scene_.fixed) {
     hierarchies_fixed_.push_back(&hierarchy_of(*body, joins_flat_));
@@ -183,6 +184,7 @@ Certificate Certified::decide(const Frame& frame, const WidePair& candidate, dou
   const FeatureId on_moving = candidate.a.feature_id(), on_fixed = candidate.b.feature_id();
   const PairAnswer answer = frame.filter(on_moving, on_fixed, lever_arm);
   if (answer.verdict == PairVerdict::NO_LMD) return answer.certificate;
+  if (frame.is_flat) flat_candidates_.push_back(candidate);
   if (!frame.is_flat || !decide_flat(frame, on_moving, on_fixed, counters))
     settle(frame, on_moving, on_fixed, answer, counters);
   return {};
@@ -213,8 +215,9 @@ void Certified::settle(const Frame& frame, const FeatureId& on_moving, const Fea
     }
   }
   // Close to a tie, or the exact test sees the pair otherwise: leave nothing to the closed form.
+  const bool has_vertex = on_moving.kind == FeatureKind::VERTEX || on_fixed.kind == FeatureKind::VERTEX;
   for (const std::int32_t t_moving : triangles_moving)
-    for (const std::int32_t t_fixed : triangles_fixed) pending_.push_back({t_moving, t_fixed});
+    for (const std::int32_t t_fixed : triangles_fixed) pending_.push_back({{t_moving, t_fixed}, has_vertex});
 }
 
 /// Pairs of faces that are looked at together, in vectors.
@@ -298,12 +301,21 @@ void Certified::decide_touching(const Frame& frame, WorkCounters& counters, Plan
   decide_not_crossing();
 }
 
-void Certified::decide_pending(const Frame& frame, WorkCounters& counters) {
+/// @param first of minima_ that are this body's
+void Certified::decide_pending(const Frame& frame, std::size_t first, WorkCounters& counters) {
   std::sort(pending_.begin(), pending_.end());
-  pending_.erase(std::unique(pending_.begin(), pending_.end()), pending_.end());
+  pending_.erase(
+      std::unique(pending_.begin(), pending_.end(),
+                  [](const PendingPair& a, const PendingPair& b) { return a.triangles == b.triangles; }),
+      pending_.end());
+  flat_pieces_.clear();
   LocalMinimum minimum;
-  for (const TrianglePair& pair : pending_)
-    if (evaluate(frame, pair, minimum, counters)) minima_.push_back(minimum);
+  for (const PendingPair& pair : pending_) {
+    if (evaluate(frame, pair.triangles, minimum, counters)) minima_.push_back(minimum);
+    if (!pair.has_vertex && minimum.lmd.distance <= scene_.cutoff)
+      flat_pieces_.offer(frame.filter.X_WM, frame.body, pair.triangles.moving, pair.triangles.fixed);
+  }
+  flat_pieces_.append_parallel(minima_, first);
   pending_.clear();
 }
 
@@ -393,7 +405,11 @@ void Certified::search(const Pose& X_WM, LmdSet& lmds, WorkCounters& counters) {
                       tolerance,
                       joins_flat_ && (tolerance > 0.0 || flat_moving.mesh.joins_features ||
                                       flat_fixed.mesh.joins_features)};
-    if (frame.is_flat) contacts_.start(body, scene_.cutoff, touch, coordinates, tolerance);
+    if (frame.is_flat)
+      contacts_.start(
+          body, scene_.cutoff, touch, coordinates, tolerance,
+          ParallelRule::of(filter.moving, *flat_moving.mesh.regions, filter.fixed, *flat_fixed.mesh.regions));
+    flat_candidates_.clear();
     const std::size_t first = minima_.size();
     const WideQuery query(moving, fixed, transform, scene_.cutoff, touch);
     WideCounters work;
@@ -416,6 +432,7 @@ void Certified::search(const Pose& X_WM, LmdSet& lmds, WorkCounters& counters) {
         front.for_each_due(moving, motion_, longest, decide_pair, [&](const WidePair& pair, bool touches) {
           return !touches && (ranks == 1 || rank_of(pair) == rank);
         });
+      settle_touching_contacts(frame, first, counters);
       front.for_each_due_touching(
           [&](std::uint32_t leaf, const WidePair& pair) { touching_.emplace_back(pair, leaf); });
       decide_touching(frame, counters, [&](std::uint32_t leaf, Certificate certificate) {
@@ -438,12 +455,12 @@ void Certified::search(const Pose& X_WM, LmdSet& lmds, WorkCounters& counters) {
       for (int rank = 1; rank < ranks; ++rank)
         for (const WidePair& pair : scratch_.lmd_pairs)
           if (rank_of(pair) == rank) decide_pair(pair, false, 1.0);
+      settle_touching_contacts(frame, first, counters);
       for (const WidePair& pair : scratch_.touch_pairs) touching_.emplace_back(pair, 0u);
       decide_touching(frame, counters, [](std::uint32_t, const Certificate&) {});
     }
-    decide_pending(frame, counters);
+    decide_pending(frame, first, counters);
     if (frame.is_flat) {
-      contacts_.doubt_touching_contacts();
       in_doubt_ = in_doubt_ || contacts_.is_in_doubt();
       take_contacts(frame, first);
     }

@@ -15,6 +15,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -39,8 +40,9 @@ const MethodDescription& certified_method();
 /// Flat contact: a region of faces in one plane and a line of edges are one feature each (flat_mesh.h), so
 /// that tessellation costs nothing. Two of them are parallel, and their sets of minimisers are found whole
 /// from the outlines (flat_contacts.h); or they have one candidate point, and the faces or edges there decide
-/// as above; or rounding decides, and then all their triangle pairs are evaluated. Where a tilt of less than 1e-8 decides, in a
-/// scene without a planar tolerance, the whole frame is searched by single faces and edges.
+/// as above; or rounding decides, or contacts of several of them touch, and then all their triangle pairs are evaluated.
+/// Where a tilt of less than 1e-8 decides, in a scene without a planar tolerance, the whole frame is searched by single
+/// faces and edges.
 ///
 /// Deep contact: triangles that cross are looked at in vectors (triangle_contact_batch.h); a frame's work there is
 /// proportional to the length of the curve in which the meshes intersect.
@@ -101,6 +103,12 @@ class Certified : public Method {
     std::int32_t moving, fixed;
     auto operator<=>(const TrianglePair&) const = default;
   };
+  /// A pair that its triangles decide.
+  struct PendingPair {
+    TrianglePair triangles;
+    bool has_vertex = true;  ///< Of a vertex and something: no piece of a parallel contact.
+    auto operator<=>(const PendingPair&) const = default;
+  };
 
   /// A fixed body in a frame.
   struct Frame {
@@ -120,7 +128,7 @@ class Certified : public Method {
   struct TouchBatch;
   template <class Plan>
   void decide_touching(const Frame& frame, WorkCounters& counters, Plan&& plan);
-  void decide_pending(const Frame& frame, WorkCounters& counters);
+  void decide_pending(const Frame& frame, std::size_t first, WorkCounters& counters);
   bool evaluate(const Frame& frame, const TrianglePair& pair, LocalMinimum& minimum, WorkCounters& counters);
 
   // certified_flat.cpp
@@ -133,10 +141,13 @@ class Certified : public Method {
   void decide_single(const Frame& frame, const FeatureId& on_moving, const FeatureId& on_fixed,
                      WorkCounters& counters);
   void expand_faces(const Frame& frame, std::int32_t region_moving, std::int32_t region_fixed);
+  void find_faces_near(const FlatSide& side, std::int32_t region, const FlatSide& other,
+                       std::span<const std::int32_t> vertices, double reach);
   void expand_edge_face(const Frame& frame, const FlatSide& of_edge, std::int32_t straight,
                         const FlatSide& of_face, std::int32_t region);
   void expand_edges(const Frame& frame, std::int32_t straight_moving, std::int32_t straight_fixed);
   Certificate decide_touching_flat(const Frame& frame, const WidePair& candidate, WorkCounters& counters);
+  void settle_touching_contacts(const Frame& frame, std::size_t first, WorkCounters& counters);
   void take_contacts(const Frame& frame, std::size_t first);
 
   void report(const RigidTransform& X_WM, double coordinates, LmdSet& lmds);
@@ -151,15 +162,18 @@ class Certified : public Method {
   WideKernel kernel_;
   double touch_ = 0.0;
   WideScratch scratch_;
-  std::vector<TrianglePair> pending_;
+  std::vector<PendingPair> pending_;
+  FlatPieces flat_pieces_;  ///< Parallel contacts that are left to their triangles.
   std::vector<LocalMinimum> minima_;
   std::vector<Intersection> crossings_;            ///< Of triangles that clearly cross.
   std::vector<CrossingPair> touching_pairs_;       ///< Others that share a point.
   bool in_doubt_ = false;                          ///< The last frame was searched by single features.
   FlatContacts contacts_;                          ///< Of one fixed body.
+  std::vector<WidePair> flat_candidates_;          ///< What the filter left, where contacts_ is asked.
   LmdSet plateaus_;                                ///< The contacts of all.
   std::unique_ptr<Certified> by_single_features_;  ///< Made when the first frame needs it.
-  std::vector<std::int32_t> single_, corners_;
+  std::vector<std::int32_t> single_, corners_, near_;
+  std::vector<Vec3> points_;
   /// Pairs of faces that may touch, and their places in the traversal that is kept.
   std::vector<std::pair<WidePair, std::uint32_t>> touching_;
 

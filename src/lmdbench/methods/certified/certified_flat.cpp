@@ -211,13 +211,28 @@ void Certified::decide_single(const Frame& frame, const FeatureId& on_moving, co
 }
 
 void Certified::expand_faces(const Frame& frame, std::int32_t region_moving, std::int32_t region_fixed) {
-  for (const std::int32_t t_moving : frame.flat_moving.mesh.regions->region_triangles[region_moving]) {
+  const double reach = 4.0 * frame.filter.touch;
+  corners_.clear();
+  frame.flat_fixed.mesh.append_corners(
+      frame.filter.fixed, {FeatureKind::FACE, frame.flat_fixed.mesh.lead_of_region(region_fixed)}, corners_);
+  find_faces_near(frame.flat_moving, region_moving, frame.flat_fixed, corners_, reach);
+  for (const std::int32_t t_moving : near_) {
     const Triangle a = frame.filter.X_WM.triangle(frame.filter.moving.mesh.triangle(t_moving));
-    for_each_face_near(frame.flat_fixed, region_fixed, a, 4.0 * frame.filter.touch,
-                       [&](std::int32_t t_fixed) {
-                         pending_.push_back({t_moving, t_fixed});
-                       });
+    for_each_face_near(frame.flat_fixed, region_fixed, a, reach, [&](std::int32_t t_fixed) {
+      pending_.push_back({{t_moving, t_fixed}, false});
+    });
   }
+}
+
+/// Leaves in near_ the faces of a region near the box of some vertices of the other mesh, ascending.
+void Certified::find_faces_near(const FlatSide& side, std::int32_t region, const FlatSide& other,
+                                std::span<const std::int32_t> vertices, double reach) {
+  points_.clear();
+  for (const std::int32_t v : vertices) points_.push_back(other.vertex(v));
+  near_.clear();
+  for_each_face_near(side, region, points_, reach, [&](std::int32_t t) { near_.push_back(t); });
+  std::sort(near_.begin(), near_.end());
+  near_.erase(std::unique(near_.begin(), near_.end()), near_.end());
 }
 
 void Certified::expand_edge_face(const Frame& frame, const FlatSide& of_edge, std::int32_t straight,
@@ -227,7 +242,7 @@ void Certified::expand_edge_face(const Frame& frame, const FlatSide& of_edge, st
     const std::array<Vec3, 2> points{of_edge.vertex(ends[0]), of_edge.vertex(ends[1])};
     for (const std::int32_t t : of_edge.surface.adjacency.edge_triangles[e])
       for_each_face_near(of_face, region, points, 4.0 * frame.filter.touch, [&](std::int32_t face) {
-        pending_.push_back(of_edge.is_moving ? TrianglePair{t, face} : TrianglePair{face, t});
+        pending_.push_back({of_edge.is_moving ? TrianglePair{t, face} : TrianglePair{face, t}, false});
       });
   }
 }
@@ -239,7 +254,7 @@ void Certified::expand_edges(const Frame& frame, std::int32_t straight_moving, s
       if (answer.verdict == PairVerdict::NO_LMD) continue;
       for (const std::int32_t t_moving : frame.filter.moving.adjacency.edge_triangles[i])
         for (const std::int32_t t_fixed : frame.filter.fixed.adjacency.edge_triangles[j])
-          pending_.push_back({t_moving, t_fixed});
+          pending_.push_back({{t_moving, t_fixed}, false});
     }
 }
 
@@ -272,10 +287,13 @@ Certificate Certified::decide_touching_flat(const Frame& frame, const WidePair& 
     LocalMinimum minimum;
     if (evaluate(frame, {t_moving, t_fixed}, minimum, counters)) minima_.push_back(minimum);
   };
-  // Of the moving region only the triangles that reach the other one's plane.
-  const auto triangles = region_m >= 0 ? frame.flat_moving.mesh.regions->region_triangles[region_m]
-                                       : std::span<const std::int32_t>(&on_moving.index, 1);
-  for (const std::int32_t t_moving : triangles) {
+  // Of the moving region only the triangles near the other feature's box, and of those what reaches its plane: the end of a
+  // gear has thousands, of which a tooth that passes through its plane meets a few. (corners_ are the fixed feature's.)
+  if (region_m >= 0)
+    find_faces_near(frame.flat_moving, region_m, frame.flat_fixed, corners_, margin);
+  else
+    near_.assign(1, on_moving.index);
+  for (const std::int32_t t_moving : near_) {
     const Triangle a = frame.filter.X_WM.triangle(frame.filter.moving.mesh.triangle(t_moving));
     if (region_f < 0) {
       decide_triangles(t_moving, on_fixed.index);
@@ -291,6 +309,18 @@ Certificate Certified::decide_touching_flat(const Frame& frame, const WidePair& 
     for (const std::int32_t t_fixed : single_) decide_triangles(t_moving, t_fixed);
   }
   return {};
+}
+
+/// Decides all candidates again, with the contacts that touch left to their triangles.
+/// @param first of minima_ that are this body's
+void Certified::settle_touching_contacts(const Frame& frame, std::size_t first, WorkCounters& counters) {
+  while (frame.is_flat && contacts_.leave_touching_contacts()) {
+    minima_.resize(first);
+    pending_.clear();
+    std::vector<WidePair> candidates;
+    candidates.swap(flat_candidates_);
+    for (const WidePair& candidate : candidates) decide(frame, candidate, 1.0, counters);
+  }
 }
 
 /// Leaves out the minima of this body that are part of its contacts, and adds those.

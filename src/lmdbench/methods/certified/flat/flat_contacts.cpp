@@ -1,9 +1,7 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/geometry/segment_distance.h>
-#include <lmdbench/geometry/tolerance.h>
 #include <lmdbench/lmd/first_order.h>
-#include <lmdbench/lmd/flat_pieces.h>
 #include <lmdbench/lmd/plateau.h>
 #include <lmdbench/methods/certified/flat/flat_contacts.h>
 
@@ -19,12 +17,14 @@ namespace {
 
 /// Tilt beyond which the first-order test of no piece of a plateau passes (PLATEAU_PIECE_TOLERANCE and the
 /// rounding beside it), with room; but see `acceptable_tilt`.
-constexpr double CLEAR_TILT = 1e-8;
+constexpr double CLEAR_TILT = LARGEST_EXACT_TILT;
 /// What rounding grants the first-order test of a direction, times the coordinates over its length: 8 epsilon on either
 /// mesh, between which the direction may share a tilt, with room.
 constexpr double ROUNDED_TILT = 20.0 * std::numeric_limits<double>::epsilon();
-/// Contacts whose directions differ by more are never one set of minimisers.
-constexpr double DIRECTION_DOUBT = 1e-6;
+/// Contacts are one set of minimisers to the definition only where they differ by less than this, relative to the
+/// coordinates, in their heights and gaps (minimiser_set.h and plateau.cpp grant 1e-9, and 2e-9 of a distance in the
+/// plane, which is up to 3.5 coordinates), and by the planar tolerance.
+constexpr double ONE_SET = 1e-8;
 /// How far, relative to the coordinates, a minimum that a triangle pair found may be from the contact that it
 /// is a part of.
 constexpr double TOUCHING = 1e-9;
@@ -59,30 +59,24 @@ bool is_inside(const ConvexPolygon& polygon, const Vec2& x, double tolerance) {
   return true;
 }
 
-bool is_speck(const ConvexPolygon& polygon, double area, double width) {
-  double longest = 0.0;
-  for (std::size_t k = 0; k < polygon.corners.size(); ++k)
-    longest =
-        std::max(longest, (polygon.corners[(k + 1) % polygon.corners.size()] - polygon.corners[k]).norm());
-  return !(area > width * longest);
-}
-
 bool is_segment(const FlatContacts::Contact& contact) {
   return contact.flat_moving.kind == FeatureKind::EDGE || contact.flat_fixed.kind == FeatureKind::EDGE;
 }
 
 }  // namespace
 
-void FlatContacts::start(std::int32_t body, double cutoff, double touch, double coordinates,
-                         double tolerance) {
+void FlatContacts::start(std::int32_t body, double cutoff, double touch, double coordinates, double tolerance,
+                         const ParallelRule& rule) {
   body_ = body;
   cutoff_ = cutoff;
   touch_ = touch;
   coordinates_ = coordinates;
   tolerance_ = tolerance;
+  rule_ = rule;
   in_doubt_ = false;
   contacts_.clear();
   unsure_.clear();
+  left_.clear();
   pieces_.clear();
   frames_.clear();
 }
@@ -90,13 +84,12 @@ void FlatContacts::start(std::int32_t body, double cutoff, double touch, double 
 FlatVerdict FlatContacts::judge(const Range& distances, double tilt) {
   // Faces that are in touch or cross have no direction: their triangles tell.
   if (distances.greatest < 0.0) return FlatVerdict::NONE;
-  const bool is_exact = tolerance_ == 0.0;
-  if (is_exact && tilt > acceptable_tilt(distances.least)) return FlatVerdict::NONE;
+  if (rule_.is_exact && tilt > acceptable_tilt(distances.least)) return FlatVerdict::NONE;
   if (distances.least <= 2.0 * touch_)
-    return is_exact && distances.greatest > 4.0 * touch_ ? doubt() : FlatVerdict::UNSURE;
-  if (distances.greatest - distances.least <= std::max(tolerance_, coincidence_length(coordinates_)))
+    return rule_.is_exact && distances.greatest > 4.0 * touch_ ? doubt() : FlatVerdict::UNSURE;
+  if (tilt <= rule_.largest_tilt && distances.greatest - distances.least <= rule_.allowance)
     return FlatVerdict::FOUND;
-  return is_exact || tilt <= CLEAR_TILT ? doubt() : FlatVerdict::NONE;
+  return rule_.is_exact || tilt <= CLEAR_TILT ? doubt() : FlatVerdict::NONE;
 }
 
 double FlatContacts::acceptable_tilt(double distance) const {
@@ -104,22 +97,22 @@ double FlatContacts::acceptable_tilt(double distance) const {
 }
 
 double FlatContacts::largest_tilt() const {
-  return tolerance_ > 0.0 ? LARGEST_PARALLEL_TILT : acceptable_tilt(touch_);
+  return rule_.is_exact ? acceptable_tilt(touch_) : rule_.largest_tilt;
 }
 
 std::span<const ConvexPolygon> FlatContacts::pieces_of(const Contact& contact) const {
   return std::span(pieces_).subspan(contact.first, contact.count);
 }
 
-bool FlatContacts::do_touch(std::size_t one, std::size_t other) const {
+bool FlatContacts::do_touch(std::size_t one, std::size_t other, double gap) const {
   const Contact &a = contacts_[one], &b = contacts_[other];
   if (is_segment(a) && is_segment(b))
-    return segment_distance({a.end0, a.end1}, {b.end0, b.end1}).squared_distance <= touch_ * touch_;
-  if (is_segment(b)) return do_touch(other, one);
+    return segment_distance({a.end0, a.end1}, {b.end0, b.end1}).squared_distance <= gap * gap;
+  if (is_segment(b)) return do_touch(other, one, gap);
   const PlanarFrame& frame = frames_[other];
   if (is_segment(a)) {
     const Vec2 begin = frame.flat(a.end0), end = frame.flat(a.end1);
-    const Vec2 longer = (1.0 + touch_ / (end - begin).norm()) * (end - begin);
+    const Vec2 longer = (1.0 + gap / (end - begin).norm()) * (end - begin);
     return std::ranges::any_of(pieces_of(b), [&](const ConvexPolygon& piece) {
       const SegmentPart part = piece.part_of(end - longer, begin + longer);
       return part.end > part.begin;
@@ -128,22 +121,35 @@ bool FlatContacts::do_touch(std::size_t one, std::size_t other) const {
   return std::ranges::any_of(pieces_of(a), [&](ConvexPolygon own) {
     for (Vec2& corner : own.corners) corner = frame.flat(frames_[one].lifted(corner));
     return std::ranges::any_of(pieces_of(b),
-                               [&](const ConvexPolygon& piece) { return touch(own, piece, touch_); });
+                               [&](const ConvexPolygon& piece) { return touch(own, piece, gap); });
   });
 }
 
-void FlatContacts::doubt_touching_contacts() {
-  if (tolerance_ > 0.0) return;
-  for (std::size_t i = 0; i < contacts_.size(); ++i) {
-    for (std::size_t j = 0; j < i && !in_doubt_; ++j) {
-      const Contact &a = contacts_[i], &b = contacts_[j];
-      // The parts of one pair of flat features are known to be apart.
-      if (a.flat_moving == b.flat_moving && a.flat_fixed == b.flat_fixed) continue;
-      const double distance = std::max(a.lmd.distance, b.lmd.distance);
-      in_doubt_ = std::abs(a.lmd.distance - b.lmd.distance) <= PLATEAU_TOLERANCE * distance + touch_ &&
-                  (a.lmd.direction - b.lmd.direction).norm() <= DIRECTION_DOUBT && do_touch(i, j);
-    }
-  }
+bool FlatContacts::are_one_set(std::size_t one, std::size_t other) const {
+  const Contact &a = contacts_[one], &b = contacts_[other];
+  // The parts of one pair of flat features are known to be apart.
+  if (a.flat_moving == b.flat_moving && a.flat_fixed == b.flat_fixed) return false;
+  const double gap = tolerance_ + ONE_SET * coordinates_;
+  const Vec3 difference = a.lmd.distance * a.lmd.direction - b.lmd.distance * b.lmd.direction;
+  return difference.norm() <= PLATEAU_TOLERANCE * std::max(a.lmd.distance, b.lmd.distance) + gap &&
+         do_touch(one, other, gap);
+}
+
+bool FlatContacts::leave_touching_contacts() {
+  const std::size_t known = left_.size();
+  std::vector<bool> touches(contacts_.size(), false);
+  for (std::size_t i = 0; i < contacts_.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j)
+      if (!(touches[i] && touches[j]) && are_one_set(i, j)) touches[i] = touches[j] = true;
+  for (std::size_t i = 0; i < contacts_.size(); ++i)
+    if (touches[i] && !is_left(contacts_[i].flat_moving, contacts_[i].flat_fixed))
+      left_.push_back({contacts_[i].flat_moving, contacts_[i].flat_fixed});
+  if (left_.size() == known) return false;
+  contacts_.clear();
+  pieces_.clear();
+  frames_.clear();
+  unsure_ = left_;
+  return true;
 }
 
 void FlatContacts::collect_pieces(const FlatSide& side, std::int32_t region, const PlanarFrame& frame_W,
@@ -169,6 +175,8 @@ void FlatContacts::collect_pieces(const FlatSide& side, std::int32_t region, con
 
 FlatVerdict FlatContacts::add_faces(const FlatSide& moving, std::int32_t region_moving, const FlatSide& fixed,
                                     std::int32_t region_fixed) {
+  if (is_left({FeatureKind::FACE, region_moving}, {FeatureKind::FACE, region_fixed}))
+    return FlatVerdict::UNSURE;
   const Plane plane_m = moving.plane(region_moving), plane_f = fixed.plane(region_fixed);
   const double tilt = (plane_m.normal + plane_f.normal).norm();
   if (tilt > largest_tilt()) return FlatVerdict::NONE;
@@ -176,14 +184,13 @@ FlatVerdict FlatContacts::add_faces(const FlatSide& moving, std::int32_t region_
   const PlanarFrame frame(plane_f.point, n);
   collect_pieces(moving, region_moving, frame, of_moving_);
   collect_pieces(fixed, region_fixed, frame, of_fixed_);
-  const double width = coincidence_length(coordinates_);
   overlaps_.clear();
   Range distances{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
   for (const ConvexPolygon& a : of_moving_) {
     for (const ConvexPolygon& b : of_fixed_) {
       if (!touch(a, b, 0.0)) continue;
       ConvexPolygon overlap = a.cut_by(b);
-      if (is_speck(overlap, overlap.measure().area, width)) continue;
+      if (rule_.is_speck(overlap, overlap.measure().area)) continue;
       for (const Vec2& corner : overlap.corners) {
         const Vec3 x = frame.lifted(corner);
         distances.add(along(plane_f, n, x) - along(plane_m, n, x));
@@ -232,6 +239,10 @@ FlatVerdict FlatContacts::add_faces(const FlatSide& moving, std::int32_t region_
 
 FlatVerdict FlatContacts::add_edge_face(const FlatSide& of_edge, std::int32_t straight,
                                         const FlatSide& of_face, std::int32_t region) {
+  const FeatureId edge{FeatureKind::EDGE, straight}, face{FeatureKind::FACE, region};
+  const FeatureId& flat_moving = of_edge.is_moving ? edge : face;
+  const FeatureId& flat_fixed = of_edge.is_moving ? face : edge;
+  if (is_left(flat_moving, flat_fixed)) return FlatVerdict::UNSURE;
   const auto& ends = of_edge.mesh.regions->straight_edges[static_cast<std::size_t>(straight)].ends;
   const Vec3 x0 = of_edge.vertex(ends[0]), u = of_edge.vertex(ends[1]) - x0;
   const double length = u.norm();
@@ -241,7 +252,7 @@ FlatVerdict FlatContacts::add_edge_face(const FlatSide& of_edge, std::int32_t st
   const Vec3 n = -(plane.normal - u.dot(plane.normal) / (length * length) * u).normalized();
   const PlanarFrame frame(plane.point, n);
   collect_pieces(of_face, region, frame, of_fixed_);
-  const double width = coincidence_length(coordinates_);
+  const double width = rule_.least_width;
   struct Part {
     double begin, end;
     int covers;  ///< 2 inside a piece; 1 along a side: inside the region where
@@ -275,9 +286,6 @@ FlatVerdict FlatContacts::add_edge_face(const FlatSide& of_edge, std::int32_t st
   }
   if (parts.empty() || distances.least > cutoff_) return FlatVerdict::NONE;
   const FlatVerdict verdict = judge(distances, tilt);
-  const FeatureId edge{FeatureKind::EDGE, straight}, face{FeatureKind::FACE, region};
-  const FeatureId& flat_moving = of_edge.is_moving ? edge : face;
-  const FeatureId& flat_fixed = of_edge.is_moving ? face : edge;
   if (verdict == FlatVerdict::NONE) return verdict;
   const FeatureId lead_face{FeatureKind::FACE, of_face.mesh.lead_of_region(region)};
   if (verdict == FlatVerdict::UNSURE || (of_edge.is_moving ? is_on_unsure(of_edge, lead, of_face, lead_face)
@@ -302,6 +310,8 @@ FlatVerdict FlatContacts::add_edge_face(const FlatSide& of_edge, std::int32_t st
 
 FlatVerdict FlatContacts::add_edges(const FlatSide& moving, std::int32_t straight_moving,
                                     const FlatSide& fixed, std::int32_t straight_fixed) {
+  if (is_left({FeatureKind::EDGE, straight_moving}, {FeatureKind::EDGE, straight_fixed}))
+    return FlatVerdict::UNSURE;
   const auto& ends_m = moving.mesh.regions->straight_edges[static_cast<std::size_t>(straight_moving)].ends;
   const auto& ends_f = fixed.mesh.regions->straight_edges[static_cast<std::size_t>(straight_fixed)].ends;
   const Vec3 a0 = moving.vertex(ends_m[0]), u = moving.vertex(ends_m[1]) - a0;
@@ -309,7 +319,7 @@ FlatVerdict FlatContacts::add_edges(const FlatSide& moving, std::int32_t straigh
   const double length_u = u.norm(), length_v = v.norm();
   const double tilt = u.cross(v).norm() / (length_u * length_v);
   if (!(tilt <= largest_tilt())) return FlatVerdict::NONE;
-  if (tolerance_ == 0.0 && tilt > CLEAR_TILT &&
+  if (rule_.is_exact && tilt > CLEAR_TILT &&
       tilt > acceptable_tilt(std::sqrt(segment_distance({a0, a0 + u}, {b0, b0 + v}).squared_distance)))
     return FlatVerdict::NONE;
   const double sense = u.dot(v) > 0.0 ? 1.0 : -1.0;
@@ -318,10 +328,8 @@ FlatVerdict FlatContacts::add_edges(const FlatSide& moving, std::int32_t straigh
   const double begin = std::max(0.0, std::min(begin_b, end_b));
   const double end = std::min(end_a, std::max(begin_b, end_b));
   // Where they face each other in a point or less, their ends answer.
-  if (!(end - begin > coincidence_length(coordinates_))) return FlatVerdict::UNSURE;
-  // Edges that cross at a tiny angle drift apart sideways long before their distance tells.
-  if (tolerance_ == 0.0 && tilt * std::min(length_u, length_v) > coincidence_length(coordinates_))
-    return doubt();
+  if (!(end - begin > rule_.least_width)) return FlatVerdict::UNSURE;
+  if (rule_.drifts_sideways(u, v)) return doubt();
   const auto on_moving = [&](double s) { return Vec3(a0 + s / end_a * u); };
   const auto on_fixed = [&](double s) { return Vec3(b0 + (s - begin_b) / (end_b - begin_b) * v); };
   const double middle = 0.5 * (begin + end);

@@ -4,6 +4,7 @@
 
 #include <lmdbench/geometry/convex_polygon.h>
 #include <lmdbench/geometry/pose.h>
+#include <lmdbench/lmd/flat_pieces.h>
 #include <lmdbench/lmd/lmd.h>
 #include <lmdbench/methods/certified/flat/flat_mesh.h>
 
@@ -46,8 +47,7 @@ enum class FlatVerdict : std::uint8_t {
 /// - a straight edge over a region: the parts of the edge inside the outline;
 /// - two straight edges: the part of the line that they share.
 ///
-/// Features are parallel when their distance varies over the set by no more than rounding (what the exact
-/// triangle distance takes as parallel), or than the planar tolerance of rounded meshes. Between rounding and
+/// Features are parallel when their distance varies over the set by no more than `ParallelRule` allows. Between that and
 /// `acceptable_tilt` the definition's own tolerances decide triangle by triangle: UNSURE.
 class FlatContacts {
  public:
@@ -62,14 +62,18 @@ class FlatContacts {
   };
 
   /// @param coordinates largest coordinate of the two meshes in the world
-  void start(std::int32_t body, double cutoff, double touch, double coordinates, double tolerance);
+  /// @param tolerance parallel_tolerance of the meshes
+  void start(std::int32_t body, double cutoff, double touch, double coordinates, double tolerance,
+             const ParallelRule& rule);
   const std::vector<Contact>& contacts() const { return contacts_; }
   /// Whether some features are tilted by more than rounding and less than `acceptable_tilt`, without a planar tolerance: then
   /// which pieces a plateau has is known only triangle by triangle, for all features alike.
   bool is_in_doubt() const { return in_doubt_; }
-  /// To be called when all contacts are found: leaves in doubt what belongs to one set of minimisers, such as ridges that
-  /// meet in a corner at one height.
-  void doubt_touching_contacts();
+  /// To be called when all contacts are found. Contacts of different flat features that touch at one height are one set
+  /// of minimisers to the definition: ridges that meet in a corner, the halves of a face that rounding left in two
+  /// regions. Leaves them to their triangles, for good until `start`.
+  /// @returns whether there are any; then all contacts are forgotten, and everything is to be decided again
+  bool leave_touching_contacts();
 
   FlatVerdict add_faces(const FlatSide& moving, std::int32_t region_moving, const FlatSide& fixed,
                         std::int32_t region_fixed);
@@ -107,7 +111,11 @@ class FlatContacts {
   /// Beyond it nothing is parallel, at whatever distance.
   double largest_tilt() const;
   std::span<const ConvexPolygon> pieces_of(const Contact& contact) const;
-  bool do_touch(std::size_t one, std::size_t other) const;
+  bool do_touch(std::size_t one, std::size_t other, double gap) const;
+  bool are_one_set(std::size_t one, std::size_t other) const;
+  bool is_left(const FeatureId& flat_moving, const FeatureId& flat_fixed) const {
+    return std::find(left_.begin(), left_.end(), std::pair(flat_moving, flat_fixed)) != left_.end();
+  }
   FlatVerdict doubt() {
     in_doubt_ = in_doubt_ || tolerance_ == 0.0;
     return FlatVerdict::UNSURE;
@@ -126,11 +134,13 @@ class FlatContacts {
 
   std::int32_t body_ = 0;
   double cutoff_ = 0.0, touch_ = 0.0, coordinates_ = 0.0, tolerance_ = 0.0;
+  ParallelRule rule_{};
   bool in_doubt_ = false;
   std::vector<Contact> contacts_;
   std::vector<std::pair<FeatureId, FeatureId>> unsure_;
-  std::vector<ConvexPolygon> pieces_;  ///< In frames_ of their contact.
-  std::vector<PlanarFrame> frames_;    ///< One a contact; of a segment it is not used.
+  std::vector<std::pair<FeatureId, FeatureId>> left_;  ///< Of contacts that touch others.
+  std::vector<ConvexPolygon> pieces_;                  ///< In frames_ of their contact.
+  std::vector<PlanarFrame> frames_;                    ///< One a contact; of a segment it is not used.
   std::vector<ConvexPolygon> of_moving_, of_fixed_, overlaps_;
   std::vector<std::size_t> group_;
 };
