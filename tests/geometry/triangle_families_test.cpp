@@ -64,7 +64,7 @@ TEST_P(TriangleFamilies, AreRightAtEveryScaleAndPlace) {
     pair = testing::transformed(pair, scale, Mat3::Identity(), Vec3::Zero());
     ASSERT_NO_FATAL_FAILURE(expect_right(pair)) << "pair " << i << " scaled";
     const Vec3 place = testing::log_uniform(random, 1.0, 1e6) * testing::random_point(random);
-    pair = testing::transformed(pair, 1.0, testing::random_rotation(random), place);
+    pair = testing::transformed(pair, 1.0, testing::random_rotation_matrix(random), place);
     ASSERT_NO_FATAL_FAILURE(expect_right(pair)) << "pair " << i << " moved";
   }
 }

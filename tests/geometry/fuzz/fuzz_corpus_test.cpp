@@ -47,7 +47,7 @@ TEST(FuzzCheck, KeepsEveryPromiseForRandomBits) {
       number = kind == 0   ? std::bit_cast<double>(random())
                : kind == 1 ? std::numeric_limits<double>::denorm_min() * random_index(random, 9)
                : kind == 2 ? 0.0
-               : kind < 5  ? numbers[0] * uniform(random)
+               : kind < 5  ? numbers[0] * uniform_coordinate(random)
                            : static_cast<double>(random_index(random, 5) - 2);
       if (random_index(random, 50) == 0) number = std::nextafter(number, 0.0);
       if (&number == numbers.data() && kind >= 3) number = log_uniform(random, 1e-300, 1e300);
