@@ -26,6 +26,14 @@ TEST(FlatRegions, ABoxHasSixFacesTwelveEdgesAndEightCorners) {
       EXPECT_EQ(regions.region_count(), 6);
       EXPECT_EQ(regions.straight_edges.size(), 12u);
       EXPECT_EQ(static_cast<std::ptrdiff_t>(surface.mesh.vertices.size()) - inner_vertices(regions), 8);
+      for (std::int32_t r = 0; r < 6; ++r) {
+        const auto border = regions.straight_edges_of_region[r];
+        EXPECT_EQ(border.size(), 4u);
+        for (const std::int32_t s : border) {
+          const auto& sides = regions.straight_edges[static_cast<std::size_t>(s)].regions;
+          EXPECT_TRUE(sides[0] == r || sides[1] == r);
+        }
+      }
       for (std::int32_t s = 0; s < 12; ++s) {
         const StraightEdge& straight = regions.straight_edges[static_cast<std::size_t>(s)];
         EXPECT_EQ(regions.edges_of_straight[s].size(), static_cast<std::size_t>(cells));

@@ -122,6 +122,29 @@ TEST(RoundedFaces, ParallelEdgesAreOneContact) {
   }
 }
 
+// A face that is all but parallel to a plate rests on one of its edges. Where that edge crosses the plate's border is a tie,
+// which brings the triangles there: over them alone the edge is parallel to the plate.
+TEST(RoundedFaces, AnEdgeAcrossABorderIsJudgedAsAWhole) {
+  for (std::uint64_t seed = 0; seed < 10; ++seed)
+    for (const double along : {-1.6e-6, 8e-7, 1.6e-6})
+      for (const double across : {-4e-9, 1e-9, 4e-9, 1e-7, 2e-6}) {
+        SCOPED_TRACE(::testing::Message() << "seed " << seed << ", tilts " << along << ", " << across);
+        const Pair pair(make_box(Vec3(1.6, 0.4, 0.4), 6), make_box(Vec3(1.0, 1.0, 0.2), 12), 0.02, seed);
+        Pose X_DA;
+        X_DA.rotation = Eigen::AngleAxisd(along, Vec3::UnitY()) * Eigen::AngleAxisd(across, Vec3::UnitX()) *
+                        Eigen::AngleAxisd(0.002 * static_cast<double>(seed), Vec3::UnitZ());
+        X_DA.translation = Vec3(0.0, 0.0, 0.302);
+        const Pose X_WM = pair.X_WD * X_DA * pair.X_DM;
+        const LmdSet truth = answer("exhaustive", pair.rounded, X_WM);
+        const LmdSet found = answer("certified", pair.rounded, X_WM);
+        ASSERT_EQ(found.size(), truth.size());
+        for (std::size_t i = 0; i < truth.size(); ++i) {
+          EXPECT_NEAR(found[i].distance, truth[i].distance, 1e-9);
+          EXPECT_LT((found[i].point_fixed - truth[i].point_fixed).norm(), 1e-9);
+        }
+      }
+}
+
 TEST(RoundedFaces, ATiltThatIsMeantIsNoPlateau) {
   std::mt19937_64 random(1);
   const Pair pair(make_box(Vec3(1.0, 1.0, 0.1), 3), make_box(Vec3(3.0, 3.0, 0.1), 3), 0.02, 1);

@@ -266,11 +266,12 @@ bool FlatPieces::is_along_border(const Place& place, const OverFace& over, const
   const RigidTransform& X_WS = over_moving ? X_WM_ : identity;
   const Vec3 foot = x + along(over.plane, over.n, x) * over.n;
   const std::int32_t region = (over_moving ? place.moving : place.fixed).index;
-  const auto& straight_edges = (over_moving ? *moving_ : *fixed_[b]).straight_edges;
-  return std::any_of(straight_edges.begin(), straight_edges.end(), [&](const StraightEdge& edge) {
-    if (edge.regions[0] != region && edge.regions[1] != region) return false;
+  const FlatRegions& regions = over_moving ? *moving_ : *fixed_[b];
+  const auto border = regions.straight_edges_of_region[region];
+  return std::any_of(border.begin(), border.end(), [&](std::int32_t straight) {
+    const auto& ends = regions.straight_edges[static_cast<std::size_t>(straight)].ends;
     const auto end = [&](std::size_t k) {
-      return X_WS.point(mesh.vertices[static_cast<std::size_t>(edge.ends[k])]);
+      return X_WS.point(mesh.vertices[static_cast<std::size_t>(ends[k])]);
     };
     return (point_segment_distance(foot, {end(0), end(1)}).point - foot).norm() <= rules_[b].least_width;
   });

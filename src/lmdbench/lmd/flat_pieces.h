@@ -69,6 +69,13 @@ class FlatPieces {
   void clear() { pieces_.clear(); }
   /// Looks at two triangles within the cutoff, and at those of their edges that they are the first on.
   void offer(const RigidTransform& X_WM, std::int32_t body, std::int32_t t_moving, std::int32_t t_fixed);
+  /// Forgets the pieces of flat features of which not all was offered: whether those are parallel cannot be known here.
+  /// @param is_whole of a region or straight edge of the moving mesh and one of the fixed mesh
+  template <class IsWhole>
+  void keep_whole(IsWhole&& is_whole) {
+    std::erase_if(pieces_,
+                  [&](const Piece& piece) { return !is_whole(piece.place.moving, piece.place.fixed); });
+  }
   /// Appends the pieces of flat features that are parallel. Segments that triangle pairs gave there go: an edge over
   /// the line between two triangles of a region has one with the line, and would be counted twice.
   /// @param first of `minima` that may go

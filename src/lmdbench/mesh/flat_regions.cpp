@@ -41,6 +41,7 @@ class StraightEdgeFinder {
     for (std::int32_t e = 0; e < edge_count; ++e)
       if (regions_.straight_of_edge[static_cast<std::size_t>(e)] == UNKNOWN) join_from(e, rows);
     regions_.edges_of_straight = CsrRows(static_cast<std::int32_t>(regions_.straight_edges.size()), rows);
+    list_borders();
     mark_inner_vertices();
   }
 
@@ -132,6 +133,16 @@ class StraightEdgeFinder {
       regions_.straight_of_edge[static_cast<std::size_t>(e)] = index;
       rows.emplace_back(index, e);
     }
+  }
+
+  void list_borders() {
+    std::vector<std::pair<std::int32_t, std::int32_t>> rows;
+    for (std::size_t s = 0; s < regions_.straight_edges.size(); ++s) {
+      const auto& [first, second] = regions_.straight_edges[s].regions;
+      if (first >= 0) rows.emplace_back(first, static_cast<std::int32_t>(s));
+      if (second >= 0 && second != first) rows.emplace_back(second, static_cast<std::int32_t>(s));
+    }
+    regions_.straight_edges_of_region = CsrRows(regions_.region_count(), rows);
   }
 
   void mark_inner_vertices() {

@@ -29,6 +29,7 @@ struct FlatRegions {
   std::vector<StraightEdge> straight_edges;      ///< #S
   std::vector<std::int32_t> straight_of_edge;    ///< #E; -1 for an edge inside a region.
   CsrRows edges_of_straight;                     ///< #S rows of edges, from the first end to the second.
+  CsrRows straight_edges_of_region;              ///< #R rows: the border of each.
   double extent = 0.0;                           ///< Largest coordinate of the mesh.
   std::vector<bool> vertex_is_inside;            ///< #V; of a region or of a straight edge.
 

@@ -315,6 +315,14 @@ void Certified::decide_pending(const Frame& frame, std::size_t first, WorkCounte
     if (!pair.has_vertex && minimum.lmd.distance <= scene_.cutoff)
       flat_pieces_.offer(frame.filter.X_WM, frame.body, pair.triangles.moving, pair.triangles.fixed);
   }
+  if (joins_flat_) {
+    // A tie of two edges brings triangles of the faces beside them, a corner of what may be a large place: what lies over
+    // that corner can look parallel where the whole place is not.
+    flat_pieces_.keep_whole([&](const FeatureId& flat_moving, const FeatureId& flat_fixed) {
+      return (frame.flat_moving.mesh.is_single(flat_moving) && frame.flat_fixed.mesh.is_single(flat_fixed)) ||
+             contacts_.is_left_to_triangles(flat_moving, flat_fixed);
+    });
+  }
   flat_pieces_.append_parallel(minima_, first);
   pending_.clear();
 }

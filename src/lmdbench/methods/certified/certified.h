@@ -172,7 +172,7 @@ class Certified : public Method {
   std::vector<WidePair> flat_candidates_;          ///< What the filter left, where contacts_ is asked.
   LmdSet plateaus_;                                ///< The contacts of all.
   std::unique_ptr<Certified> by_single_features_;  ///< Made when the first frame needs it.
-  std::vector<std::int32_t> single_, corners_, near_;
+  std::vector<std::int32_t> single_, corners_, fixed_corners_, near_;
   std::vector<Vec3> points_;
   /// Pairs of faces that may touch, and their places in the traversal that is kept.
   std::vector<std::pair<WidePair, std::uint32_t>> touching_;

@@ -21,6 +21,8 @@ namespace {
 /// they cross in one place.
 constexpr double NEARLY_PARALLEL_SINE = 1e-4;
 constexpr double CROSSING_SINE = 1e-8;
+/// A feature with more times the corners of the other one is not held against the other's plane.
+constexpr std::size_t FEW_CORNERS = 4;
 
 std::int32_t region_of(const FlatSide& side, const FeatureId& face) {
   return side.mesh.regions->region_of_triangle[static_cast<std::size_t>(face.index)];
@@ -264,17 +266,19 @@ Certificate Certified::decide_touching_flat(const Frame& frame, const WidePair& 
   const std::int32_t region_m = region_of(frame.flat_moving, on_moving);
   const std::int32_t region_f = region_of(frame.flat_fixed, on_fixed);
   const double margin = 2.0 * frame.filter.touch;
-  // A triangle without area has no plane and separates nothing.
   corners_.clear();
   frame.flat_moving.mesh.append_corners(frame.filter.moving, on_moving, corners_);
-  if (region_f >= 0) {
+  fixed_corners_.clear();
+  frame.flat_fixed.mesh.append_corners(frame.filter.fixed, on_fixed, fixed_corners_);
+  // The end of a gear has hundreds of corners, and each of its teeth is tested against it in every frame: only the feature
+  // of fewer corners is held against the other's plane. A triangle without area has no plane and separates nothing.
+  const std::size_t count_m = corners_.size(), count_f = fixed_corners_.size();
+  if (region_f >= 0 && count_m <= FEW_CORNERS * count_f) {
     const ClearGap gap = gap_to(frame.flat_fixed.plane(region_f), frame.flat_moving, corners_);
     if (gap.gap > margin) return {gap.gap - margin, gap.axis};
   }
-  corners_.clear();
-  frame.flat_fixed.mesh.append_corners(frame.filter.fixed, on_fixed, corners_);
-  if (region_m >= 0) {
-    const ClearGap gap = gap_to(frame.flat_moving.plane(region_m), frame.flat_fixed, corners_);
+  if (region_m >= 0 && count_f <= FEW_CORNERS * count_m) {
+    const ClearGap gap = gap_to(frame.flat_moving.plane(region_m), frame.flat_fixed, fixed_corners_);
     if (gap.gap > margin) return {gap.gap - margin, -gap.axis};
   }
   const auto decide_triangles = [&](std::int32_t t_moving, std::int32_t t_fixed) {
@@ -287,26 +291,34 @@ Certificate Certified::decide_touching_flat(const Frame& frame, const WidePair& 
     LocalMinimum minimum;
     if (evaluate(frame, {t_moving, t_fixed}, minimum, counters)) minima_.push_back(minimum);
   };
-  // Of the moving region only the triangles near the other feature's box, and of those what reaches its plane: the end of a
-  // gear has thousands, of which a tooth that passes through its plane meets a few. (corners_ are the fixed feature's.)
-  if (region_m >= 0)
-    find_faces_near(frame.flat_moving, region_m, frame.flat_fixed, corners_, margin);
+  // Of the feature of more corners only the triangles near the other one's box, and of those what reaches its plane: a tooth
+  // that passes through the plane of a gear's end meets a few of its thousands.
+  const bool moving_is_large = count_m > count_f;
+  const FlatSide& large = moving_is_large ? frame.flat_moving : frame.flat_fixed;
+  const FlatSide& small = moving_is_large ? frame.flat_fixed : frame.flat_moving;
+  const std::int32_t region_large = moving_is_large ? region_m : region_f;
+  const std::int32_t region_small = moving_is_large ? region_f : region_m;
+  const std::int32_t of_large = moving_is_large ? on_moving.index : on_fixed.index;
+  const std::int32_t of_small = moving_is_large ? on_fixed.index : on_moving.index;
+  if (region_large >= 0)
+    find_faces_near(large, region_large, small, moving_is_large ? fixed_corners_ : corners_, margin);
   else
-    near_.assign(1, on_moving.index);
-  for (const std::int32_t t_moving : near_) {
-    const Triangle a = frame.filter.X_WM.triangle(frame.filter.moving.mesh.triangle(t_moving));
-    if (region_f < 0) {
-      decide_triangles(t_moving, on_fixed.index);
-      continue;
-    }
-    const Plane plane = frame.flat_fixed.plane(region_f);
-    const double h0 = plane.height(a[0]), h1 = plane.height(a[1]), h2 = plane.height(a[2]);
-    if (std::min({h0, h1, h2}) > margin || std::max({h0, h1, h2}) < -margin) continue;
+    near_.assign(1, of_large);
+  for (const std::int32_t t_large : near_) {
     single_.clear();
-    for_each_face_near(frame.flat_fixed, region_f, a, margin, [&](std::int32_t t) { single_.push_back(t); });
-    std::sort(single_.begin(), single_.end());
-    single_.erase(std::unique(single_.begin(), single_.end()), single_.end());
-    for (const std::int32_t t_fixed : single_) decide_triangles(t_moving, t_fixed);
+    if (region_small < 0) {
+      single_.push_back(of_small);
+    } else {
+      const Triangle t = large.X_WS.triangle(large.surface.mesh.triangle(t_large));
+      const Plane plane = small.plane(region_small);
+      const double h0 = plane.height(t[0]), h1 = plane.height(t[1]), h2 = plane.height(t[2]);
+      if (std::min({h0, h1, h2}) > margin || std::max({h0, h1, h2}) < -margin) continue;
+      for_each_face_near(small, region_small, t, margin, [&](std::int32_t near) { single_.push_back(near); });
+      std::sort(single_.begin(), single_.end());
+      single_.erase(std::unique(single_.begin(), single_.end()), single_.end());
+    }
+    for (const std::int32_t t_small : single_)
+      decide_triangles(moving_is_large ? t_large : t_small, moving_is_large ? t_small : t_large);
   }
   return {};
 }

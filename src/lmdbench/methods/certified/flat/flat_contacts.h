@@ -87,6 +87,10 @@ class FlatContacts {
   void leave(const FeatureId& flat_moving, const FeatureId& flat_fixed) {
     unsure_.push_back({flat_moving, flat_fixed});
   }
+  /// Whether all triangles of a pair of flat features are to decide.
+  bool is_left_to_triangles(const FeatureId& flat_moving, const FeatureId& flat_fixed) const {
+    return std::find(unsure_.begin(), unsure_.end(), std::pair(flat_moving, flat_fixed)) != unsure_.end();
+  }
   /// Whether a minimum of two features of the meshes is a part of a contact that was found.
   /// @param p_W, q_W its points
   bool contains(const FlatSide& moving, const FeatureId& on_moving, const FlatSide& fixed,

@@ -43,6 +43,11 @@ bool FlatMesh::is_joined(const FeatureId& feature) const {
   return region >= 0 && shapes.of_region(region) != nullptr;
 }
 
+bool FlatMesh::is_single(const FeatureId& flat) const {
+  return flat.kind == FeatureKind::FACE ? shapes.of_region(flat.index) == nullptr
+                                        : regions->edges_of_straight[flat.index].size() == 1;
+}
+
 void FlatMesh::append_corners(const Surface& surface, const FeatureId& feature,
                               std::vector<std::int32_t>& corners) const {
   if (!is_joined(feature)) {

@@ -27,6 +27,8 @@ struct FlatMesh {
   bool is_feature(const FeatureId& feature) const;
   /// Whether it is the lead of several.
   bool is_joined(const FeatureId& feature) const;
+  /// Whether a region or straight edge (`index` counts those) is a single triangle or edge.
+  bool is_single(const FeatureId& flat) const;
   /// Vertices that bound the feature: of a region its corners, of a straight edge its ends.
   void append_corners(const Surface& surface, const FeatureId& feature,
                       std::vector<std::int32_t>& corners) const;
