@@ -28,8 +28,8 @@ constexpr double LEAST = 1e-30;
 /// What a test has let through is kept until its plan ends: over motions of more cutoffs than this, too much
 /// of it would be kept for nothing.
 constexpr double PLAN_CUTOFFS = 8.0;
-/// A horizon saves repeated tests, but keeps more of them: the best of a few tried on recorded
-/// paths. Frames, cutoffs, radians.
+/// A horizon saves repeated tests, but keeps more of them: scripts/tuned_constants.py sweeps all three over recorded paths.
+/// Frames, cutoffs, radians.
 constexpr double LARGEST_HORIZON = 4.0, HORIZON_CUTOFFS = 1.0, HORIZON_TURN = 0.01;
 /// Relative rounding of the quantities below, generously, and of what is computed
 /// from them in single precision.

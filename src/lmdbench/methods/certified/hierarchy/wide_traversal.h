@@ -53,8 +53,8 @@ struct WideOpening {
   std::uint32_t node;  ///< The opened child's node.
 };
 
-/// What opening a child narrows: its size, and more so the wider its cone is. The weight is the best of a few
-/// tried on scans (size alone needs a tenth more tests).
+/// What opening a child narrows: its size, and more so the wider its cone is. The weight is
+/// swept by scripts/tuned_constants.py.
 inline float opening_gain(const WideNode& node, std::uint32_t lane) {
   return node.radius[lane] * (0.2F + node.sine[lane]);
 }
