@@ -47,7 +47,7 @@ def run(command, **options):
 
 def build():
     run(["cmake", "--preset", "release", "-DLMDBENCH_BUILD_TESTS=OFF", "-DLMDBENCH_BUILD_EXPERIMENTS=OFF",
-         "-DLMDBENCH_WITH_CGAL=OFF"], cwd=TREE)
+         "-DLMDBENCH_WITH_CGAL=OFF", "-DLMDBENCH_WARNINGS_AS_ERRORS=ON"], cwd=TREE)  # as test.sh: its objects are in the cache
     run(["cmake", "--build", "--preset", "release", "--target", "lmdbench"], cwd=TREE)
     return os.path.join(TREE, "build", "release", "lmdbench")
 
