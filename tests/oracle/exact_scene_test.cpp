@@ -116,12 +116,15 @@ TEST_P(ExactTruth, HasEveryExactLmd) {
   EXPECT_GT(judged, 0) << "nothing was judged";
 }
 
+/// All but those of meshes rounded to floats: the exact judge takes coordinates at their word, and to the letter a contact of
+/// rounded faces is a point, not the plateau of the planar tolerance. Those are compared with the truth as it is defined for
+/// them (FlatScenesOfTheStudy, RoundedFaces).
 std::vector<SampledScene> extreme_scenes() {
   std::vector<SampledScene> scenes;
   const std::filesystem::path folder = LMDBENCH_SOURCE_DIR "/experiments/extreme";
   const char* frames = std::getenv("LMDBENCH_ORACLE_FRAMES");
   for (const auto& entry : std::filesystem::directory_iterator(folder))
-    if (entry.path().extension() == ".json")
+    if (entry.path().extension() == ".json" && !entry.path().stem().string().ends_with("-floats"))
       scenes.push_back({"extreme/" + entry.path().filename().string(), frames ? std::atoi(frames) : 20});
   std::sort(scenes.begin(), scenes.end(),
             [](const SampledScene& a, const SampledScene& b) { return a.file < b.file; });

@@ -21,7 +21,8 @@ namespace {
 /// they cross in one place.
 constexpr double NEARLY_PARALLEL_SINE = 1e-4;
 constexpr double CROSSING_SINE = 1e-8;
-/// A feature with more times the corners of the other one is not held against the other's plane.
+/// A feature with more times the corners of the other one is not held against the other's plane
+/// (scripts/tuned_constants.py --only FEW_CORNERS experiments/extreme/gears.json).
 constexpr std::size_t FEW_CORNERS = 4;
 
 std::int32_t region_of(const FlatSide& side, const FeatureId& face) {
