@@ -2,7 +2,7 @@
 # SPDX-FileCopyrightText: The lmdbench authors
 # SPDX-License-Identifier: BSD-3-Clause
 """What method `certified` costs over its tuned constants: each is changed in a worktree of its own, the program built, and
-instructions counted under callgrind on the first frames of recorded paths, less what the first frame alone costs; no load
+instructions counted under callgrind on the first frames of recorded paths, less what the first 32 alone cost; no load
 of the machine moves them. LMD sets must stay the same. Prints a Markdown table; * is the committed value. Meshes must be
 built.
 
@@ -31,6 +31,7 @@ CONSTANTS = {
     "FEW_CORNERS": (FLAT, "FEW_CORNERS = {};", ("1", "4", "16", "1000000")),  # experiments/extreme/gears.json moves it
     "HORIZON_TURN": (FORECAST, "HORIZON_TURN = {};", ("0.0025", "0.005", "0.01", "0.02", "0.04")),
 }
+FIRST = 32  # as many frames as the program looks at before a run (INSIDE_SAMPLES): from there on a frame costs its search
 SCENE = ("--set", '/methods=[{"name":"certified","force_law":"exponential"}]', "--set", "/driver/repetitions=1", "--set",
          "/probes/truth/stride_frames=0", "--set", "/probes/fcl/stride_frames=0")
 
@@ -72,9 +73,9 @@ def costs(program, experiments, frames):
     with tempfile.TemporaryDirectory(prefix="tuned-") as folder:
         rows = []
         for experiment in experiments:
-            first, _ = instructions(program, experiment, 1, folder)
+            first, _ = instructions(program, experiment, FIRST, folder)
             all_of_them, named = instructions(program, experiment, frames, folder)
-            rows.append(((all_of_them - first) / (frames - 1), named))
+            rows.append(((all_of_them - first) / (frames - FIRST), named))
         return rows
 
 
@@ -84,8 +85,8 @@ def main():
     parser.add_argument("--frames", type=int, default=600)
     parser.add_argument("--only", action="append", choices=list(CONSTANTS), help="this constant; may be given again")
     arguments = parser.parse_args()
-    if arguments.frames < 2:
-        parser.error("--frames must be 2 or more")
+    if arguments.frames <= FIRST:
+        parser.error(f"--frames must be more than {FIRST}")
     if not shutil.which("valgrind"):
         fail("there is no valgrind (remedy: apt-get install valgrind)")
     experiments = [os.path.abspath(file) for file in arguments.experiments]
