@@ -2,11 +2,10 @@
 # SPDX-FileCopyrightText: The lmdbench authors
 # SPDX-License-Identifier: BSD-3-Clause
 """What method `certified` costs over its tuned constants: each is changed in a worktree of its own, the program built, and
-instructions counted under callgrind on the first frames of recorded paths, less what the first 32 alone cost; no load
-of the machine moves them. LMD sets must stay the same. Prints a Markdown table; * is the committed value. Meshes must be
-built.
+instructions of its searches counted under callgrind along the first frames of recorded paths; no load of the machine
+moves them. LMD sets must stay the same. Prints a Markdown table; * is the committed value. Meshes must be built.
 
-    python3 scripts/tuned_constants.py [--frames 600] [--only NAME]... [EXPERIMENT...]
+    python3 scripts/tuned_constants.py [--frames 3000] [--only NAME]... [EXPERIMENT...]
 
 Exit codes: 0 done, 1 a set changed, 2 usage, 4 no build or no callgrind."""
 
@@ -31,7 +30,6 @@ CONSTANTS = {
     "FEW_CORNERS": (FLAT, "FEW_CORNERS = {};", ("1", "4", "16", "1000000")),  # experiments/extreme/gears.json moves it
     "HORIZON_TURN": (FORECAST, "HORIZON_TURN = {};", ("0.0025", "0.005", "0.01", "0.02", "0.04")),
 }
-FIRST = 32  # as many frames as the program looks at before a run (INSIDE_SAMPLES): from there on a frame costs its search
 SCENE = ("--set", '/methods=[{"name":"certified","force_law":"exponential"}]', "--set", "/driver/repetitions=1", "--set",
          "/probes/truth/stride_frames=0", "--set", "/probes/fcl/stride_frames=0")
 
@@ -58,8 +56,9 @@ def build():
 def instructions(program, experiment, frames, folder):
     """(instructions of so many frames, hash of their LMD sets and forces)"""
     out = os.path.join(folder, "r.h5")
-    done = run(["valgrind", "--tool=callgrind", f"--callgrind-out-file={folder}/callgrind.out", program, "--quiet", "run",
-                experiment, *SCENE, "--set", f"/frames={frames}", "--out", out], env=os.environ | {"OPENSSL_ia32cap": ":~0x0"})
+    done = run(["valgrind", "--tool=callgrind", "--toggle-collect=lmdbench::Certified::search*",
+                f"--callgrind-out-file={folder}/callgrind.out", program, "--quiet", "run", experiment,
+                *SCENE, "--set", f"/frames={frames}", "--out", out], env=os.environ | {"OPENSSL_ia32cap": ":~0x0"})
     counted = re.search(r"Collected : (\d+)", done.stderr)
     named = re.search(r"hash ([0-9a-f]{16})", done.stdout)
     if not counted or not named:
@@ -73,20 +72,19 @@ def costs(program, experiments, frames):
     with tempfile.TemporaryDirectory(prefix="tuned-") as folder:
         rows = []
         for experiment in experiments:
-            first, _ = instructions(program, experiment, FIRST, folder)
-            all_of_them, named = instructions(program, experiment, frames, folder)
-            rows.append(((all_of_them - first) / (frames - FIRST), named))
+            count, named = instructions(program, experiment, frames, folder)
+            rows.append((count / frames, named))
         return rows
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("experiments", nargs="*", default=["experiments/bunny-hard.json", "experiments/armadillo-bunny.json"])
-    parser.add_argument("--frames", type=int, default=600)
+    parser.add_argument("--frames", type=int, default=3000)
     parser.add_argument("--only", action="append", choices=list(CONSTANTS), help="this constant; may be given again")
     arguments = parser.parse_args()
-    if arguments.frames <= FIRST:
-        parser.error(f"--frames must be more than {FIRST}")
+    if arguments.frames < 1:
+        parser.error("--frames must be 1 or more")
     if not shutil.which("valgrind"):
         fail("there is no valgrind (remedy: apt-get install valgrind)")
     experiments = [os.path.abspath(file) for file in arguments.experiments]
