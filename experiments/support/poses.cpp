@@ -2,43 +2,34 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/motion/interpolate.h>
 #include <lmdbench/motion/tum_file.h>
-#include <lmdbench/snch/minimum_distance.h>
+#include <lmdbench/snch/first_approach.h>
 
 #include <support/poses.h>
 
+#include <cmath>
 #include <stdexcept>
 #include <string>
 
 namespace lmdbench::experiments {
 namespace {
 
-/// A step shrinks what is left at least by the share that the motion has along the nearest direction; a line
-/// that needs more steps than this slides along the surface.
-constexpr int MAXIMUM_STEPS = 2000;
-
 /// Haptic frames a second.
 constexpr double FRAME_RATE_HZ = 1000.0;
 
 Pose grazing_pose(const Body& moving, const Body& fixed, double gap, Random& random) {
-  const TriangleMesh& moving_mesh = moving.surface().mesh;
-  const TriangleMesh& fixed_mesh = fixed.surface().mesh;
   Pose X_WM;
   X_WM.rotation = random.rotation();
-  const Vec3 towards_W = random.direction();
-  const double apart =
-      0.5 * (bounding_box_diagonal(moving_mesh) + bounding_box_diagonal(fixed_mesh)) + 2.0 * gap;
-  const Vec3 centre_W = bounding_box_centre(fixed_mesh) - apart * towards_W;
-  X_WM.translation = centre_W - X_WM.rotation * bounding_box_centre(moving_mesh);
-  for (int i = 0; i < MAXIMUM_STEPS; ++i) {
-    const double left = nearest_pair(moving.surface(), moving.prepared<Hierarchy>(), fixed.surface(),
-                                     fixed.prepared<Hierarchy>(), X_WM)
-                            .distance -
-                        gap;
-    if (left <= GAP_TOLERANCE * gap) return X_WM;
-    X_WM.translation += left * towards_W;
-  }
-  throw std::runtime_error("no grazing pose between " + moving.name() + " and " + fixed.name() +
-                           ": the approach line passes without coming near");
+  const Vec3 from_W = -random.direction();
+  X_WM.translation =
+      bounding_box_centre(fixed.surface().mesh) - X_WM.rotation * bounding_box_centre(moving.surface().mesh);
+  const double reach = first_approach(moving.surface(), moving.prepared<Hierarchy>(), fixed.surface(),
+                                      fixed.prepared<Hierarchy>(), X_WM, from_W, gap, GAP_TOLERANCE)
+                           .reach;
+  if (!std::isfinite(reach))
+    throw std::runtime_error("no grazing pose between " + moving.name() + " and " + fixed.name() +
+                             ": the approach line passes without coming near");
+  X_WM.translation += reach * from_W;
+  return X_WM;
 }
 
 }  // namespace

@@ -15,8 +15,7 @@
 namespace lmdbench::experiments {
 
 /// Poses X_WM at which the moving body is `gap` away from the fixed one: a random orientation, approached
-/// along a random line through both centres by conservative advancement (each step is the distance that is
-/// left, so nothing is jumped over). The first pose depends on the seed alone, not on how many follow.
+/// along a random line through both centres from outside. The first pose depends on the seed alone, not on how many follow.
 /// @param gap wanted minimum distance [m], positive; reached to within `GAP_TOLERANCE` of itself
 /// @throws std::runtime_error when a line misses the fixed body (bodies with a hole through the centre)
 std::vector<Pose> grazing_poses(const Body& moving, const Body& fixed, double gap, std::size_t count,
@@ -27,7 +26,7 @@ std::vector<Pose> grazing_poses(const Body& moving, const Body& fixed, double ga
 /// @throws InputError when the file cannot be read; std::runtime_error when the path has not that many frames
 std::vector<Pose> path_poses(const std::filesystem::path& file, std::size_t first, std::size_t count);
 
-/// Relative to the gap: far below what any method resolves, reached in some dozens of steps.
+/// Relative to the gap: far below what any method resolves.
 inline constexpr double GAP_TOLERANCE = 1e-6;
 
 }  // namespace lmdbench::experiments

@@ -177,7 +177,7 @@ class Surroundings(unittest.TestCase):
         path.write_text(texts[path.suffix])
         return path
 
-    def own_experiment(self):
+    def own_experiment(self, repetitions=30):
         """An experiment whose mesh and path are files of the test."""
         mesh = self.small_mesh("mesh.off")
         shutil.copy(SOURCE / "paths" / "shapes.tum", self.folder / "path.tum")
@@ -185,7 +185,7 @@ class Surroundings(unittest.TestCase):
         experiment["moving"]["mesh"] = "./mesh.off"
         experiment["mesh_folder"] = str(SOURCE / "meshes")
         experiment["path"]["file"] = "path.tum"
-        experiment["driver"]["repetitions"] = 30
+        experiment["driver"]["repetitions"] = repetitions
         (self.folder / "own.json").write_text(json.dumps(experiment))
         return mesh, self.folder / "path.tum"
 
@@ -403,7 +403,7 @@ class Surroundings(unittest.TestCase):
 
     def test_damaged_parts(self):
         part = self.folder / "r.h5.part"
-        self.own_experiment()
+        self.own_experiment(repetitions=6)
         process = subprocess.Popen([PROGRAM, "run", "own.json", "--out", "r.h5", "-q"], cwd=self.folder,
                                    stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
         self.wait_for_frames(process, part)

@@ -6,7 +6,7 @@
 #include <lmdbench/geometry/pose.h>
 #include <lmdbench/lmd/scene.h>
 #include <lmdbench/mesh/surface.h>
-#include <lmdbench/snch/minimum_distance.h>
+#include <lmdbench/snch/first_approach.h>
 
 #include <cmath>
 #include <cstdint>
@@ -53,27 +53,18 @@ inline Eigen::Quaterniond random_rotation(std::mt19937_64& random) {
           std::sqrt(u) * std::cos(b)};
 }
 
-/// A pose of random orientation whose distance to the scene's first fixed body is `gap`, reached
-/// from outside by conservative advancement: distance is 1-Lipschitz in translation, so steps of
-/// distance minus gap never overshoot.
+/// A pose of random orientation whose distance to the scene's first fixed body is `gap`, reached from outside.
 inline Pose grazing_pose(const Scene& scene, double gap, std::mt19937_64& random) {
   const Body& moving = *scene.moving;
   const Body& fixed = *scene.fixed[0];
   Pose pose;
   pose.rotation = random_rotation(random);
-  const Vec3 inward = random_direction(random);
-  const double reach =
-      2.0 * (bounding_box_diagonal(moving.surface().mesh) + bounding_box_diagonal(fixed.surface().mesh)) +
-      gap;
-  pose.translation = -reach * inward;
-  for (int step = 0; step < 200; ++step) {
-    const double distance = nearest_pair(moving.surface(), moving.prepared<Hierarchy>(), fixed.surface(),
-                                         fixed.prepared<Hierarchy>(), pose)
-                                .distance;
-    if (distance - gap <= 1e-9 * gap) break;
-    pose.translation += (distance - gap) * inward;
-    if (pose.translation.dot(inward) > reach) return grazing_pose(scene, gap, random);  // flew past
-  }
+  const Vec3 outward = -random_direction(random);
+  const double reach = first_approach(moving.surface(), moving.prepared<Hierarchy>(), fixed.surface(),
+                                      fixed.prepared<Hierarchy>(), pose, outward, gap, 1e-9)
+                           .reach;
+  if (!std::isfinite(reach)) return grazing_pose(scene, gap, random);  // The line passes without coming near.
+  pose.translation = reach * outward;
   return pose;
 }
 

@@ -2,10 +2,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/catalogue/shapes.h>
 #include <lmdbench/mesh/surface.h>
-#include <lmdbench/snch/minimum_distance.h>
+#include <lmdbench/snch/first_approach.h>
 
 #include <fmt/format.h>
 #include <study/completeness/far_scenes.h>
+#include <support/poses.h>
 #include <support/random.h>
 
 #include <array>
@@ -71,20 +72,18 @@ Eigen::Quaterniond random_rotation(bool parallel, Random& random) {
   return Eigen::Quaterniond(tilt).normalized();
 }
 
-/// A pose at about the gap from the fixed body; near the origin and of size 1.
+/// A pose at the gap from the fixed body; near the origin and of size 1.
 Pose near_pose(const Body& moving, const Body& fixed, double gap, bool parallel, Random& random) {
   Pose pose;
   pose.rotation = random_rotation(parallel, random);
-  const Vec3 way = parallel ? Vec3::UnitZ() : random.direction();
-  pose.translation = (2.0 + gap) * way;
-  // Distance is 1-Lipschitz in translation: a few steps of what is left come near enough.
-  for (int step = 0; step < 6; ++step)
-    pose.translation -= (nearest_pair(moving.surface(), moving.prepared<Hierarchy>(), fixed.surface(),
-                                      fixed.prepared<Hierarchy>(), pose)
-                             .distance -
-                         gap) *
-                        way;
-  return pose;
+  for (Vec3 way = parallel ? Vec3::UnitZ() : random.direction();; way = random.direction()) {
+    const double reach =
+        first_approach(moving.surface(), moving.prepared<Hierarchy>(), fixed.surface(),
+                       fixed.prepared<Hierarchy>(), pose, way, gap, experiments::GAP_TOLERANCE)
+            .reach;
+    pose.translation = reach * way;
+    if (std::isfinite(reach)) return pose;  // Another way where a line passes through a hole.
+  }
 }
 
 /// Unrelated poses, or a slow drift from one of them.

@@ -3,6 +3,7 @@
 #include <lmdbench/lmd/first_order.h>
 #include <lmdbench/methods/exhaustive/exhaustive.h>
 #include <lmdbench/methods/registry.h>
+#include <lmdbench/snch/minimum_distance.h>
 
 #include <gtest/gtest.h>
 #include <support/scenes.h>
