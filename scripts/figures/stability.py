@@ -34,7 +34,6 @@ LEVERS = [
 LEVER_DELAYS_FRAMES = [0, 1, 5, 20]
 
 SCENES = ["box", "wedge", "peg", "bunny"]
-HARD_ONLY = ["bunny"]  # a soft contact of two bunnies has hundreds of candidates: many minutes a search
 SCENE_DELAYS_FRAMES = [0, 5]
 
 
@@ -110,8 +109,6 @@ def scene_rows(searches, folder):
         with open(file, encoding="utf-8") as stream:
             profiles = json.load(stream)["force"]
         for profile in profiles:
-            if profile["name"] == "soft" and scene in HARD_ONLY:
-                continue
             for delay in SCENE_DELAYS_FRAMES:
                 for row in searches.rows(file, {"/loop/delay_frames": delay, "/force": [profile]}):
                     yield scene, row["profile"], row

@@ -186,8 +186,21 @@ TEST(FlatScenes, ARidgeOverALineBetweenTrianglesCountsOnce) {
     for (const double x : {0.0, 1.0, 2.0}) squares.vertices.emplace_back(x, y, 0.0);
   squares.triangles = {{0, 1, 4}, {0, 4, 3}, {1, 2, 5}, {1, 5, 4},
                        {3, 4, 7}, {3, 7, 6}, {4, 5, 7}, {5, 8, 7}};
-  const Scene scene = make_scene(ridge_from_above({0.25, 0.25, 0.01}, {1.75, 1.75, 0.01}), squares, 0.02);
-  expect_contacts_at(scene, {}, {{1.0, 1.0, 0.0}});
+  // Slopes on both sides, or a sheet that stands on its edge: seen along the contact, a sheet has no area at all.
+  TriangleMesh sheet;
+  sheet.vertices = {{0.25, 0.25, 0.01}, {1.75, 1.75, 0.01}, {0.25, 0.25, 0.5}, {1.75, 1.75, 0.5}};
+  sheet.triangles = {{0, 1, 2}, {1, 3, 2}};
+  for (const TriangleMesh& above : {ridge_from_above(sheet.vertices[0], sheet.vertices[1]), sheet}) {
+    for (const double angle : {0.0, 0.3, 1.1, 2.3}) {
+      const Mat3 turn = Eigen::AngleAxisd(angle, Vec3::UnitZ()).toRotationMatrix();
+      TriangleMesh turned_above = above, turned_squares = squares;
+      for (TriangleMesh* mesh : {&turned_above, &turned_squares})
+        for (Vec3& p : mesh->vertices) p = turn * p;
+      SCOPED_TRACE(angle);
+      expect_contacts_at(make_scene(turned_above, turned_squares, 0.02), {}, {turn * Vec3(1.0, 1.0, 0.0)});
+      expect_contacts_at(make_scene(turned_squares, turned_above, 0.02), {}, {turn * Vec3(1.0, 1.0, 0.01)});
+    }
+  }
 }
 
 TEST(FlatScenes, ARidgeAcrossTwoRidgesThatMeetHasTwoContacts) {
