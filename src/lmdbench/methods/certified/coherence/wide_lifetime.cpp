@@ -183,7 +183,7 @@ void batch_on_target(const WideHierarchy& a, const WideHierarchy& b, const WideQ
     const WideKeptPair& pair = pairs[due[i]];
     const bool open_a = pair.open_a;
     const WideNode& node = (open_a ? a : b).nodes[pair.node];
-    const WideProbe probe = make_probe_vector(pair.child, open_a ? query.b_in_a : query.a_in_b);
+    const WideProbe probe = make_probe(pair.child, open_a ? query.b_in_a : query.a_in_b);
     const KindBits kinds = kind_bits(node);
     // What can only touch matters for faces alone.
     const bool may_touch = !pair.child.ref.is_feature() || pair.child.ref.is_face();

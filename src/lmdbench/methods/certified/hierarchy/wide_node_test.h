@@ -105,13 +105,15 @@ struct WideChild {
 
 /// The child as probe, moved by `X`.
 inline WideProbe make_probe(const WideChild& child, const WideTransform& X) {
-  WideProbe probe{};
-  for (int i = 0; i < 3; ++i) {
-    probe.centre[i] = X.columns[0][i] * child.centre[0] + X.columns[1][i] * child.centre[1] +
-                      X.columns[2][i] * child.centre[2] + X.translation[i];
-    probe.axis[i] =
-        X.columns[0][i] * child.axis[0] + X.columns[1][i] * child.axis[1] + X.columns[2][i] * child.axis[2];
-  }
+  using Row = Eigen::Array4f;
+  const auto row = [](const float* x) { return Eigen::Map<const Row, Eigen::Aligned16>(x); };
+  WideProbe probe;
+  Eigen::Map<Row, Eigen::Aligned16>(probe.centre) = row(X.columns[0]) * child.centre[0] +
+                                                    row(X.columns[1]) * child.centre[1] +
+                                                    row(X.columns[2]) * child.centre[2] + row(X.translation);
+  Eigen::Map<Row, Eigen::Aligned16>(probe.axis) = row(X.columns[0]) * child.axis[0] +
+                                                  row(X.columns[1]) * child.axis[1] +
+                                                  row(X.columns[2]) * child.axis[2];
   probe.radius = child.radius;
   probe.thickness = child.thickness;
   probe.cosine = child.cosine;

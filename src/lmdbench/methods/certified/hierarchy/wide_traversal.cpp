@@ -118,7 +118,7 @@ void descend(const WideHierarchy& a, const WideHierarchy& b, const WideQuery& qu
     }
     const WideOpening opening = openings[next % LOOK_AHEAD];
     const bool open_a = opening.open_a;
-    const WideProbe probe = make_probe_vector(open_a ? WideChild(home_b, lane_b) : WideChild(home_a, lane_a),
+    const WideProbe probe = make_probe(open_a ? WideChild(home_b, lane_b) : WideChild(home_a, lane_a),
                                               open_a ? query.b_in_a : query.a_in_b);
     const WideRef probe_ref = open_a ? ref_b : ref_a;
     const WideNode& node = (open_a ? nodes_a : nodes_b)[opening.node];

@@ -46,31 +46,6 @@ HWY_INLINE KindBits kind_bits(const WideNode& node) {
   return bits;
 }
 
-/// make_probe with vectors, the same operations in the same order.
-HWY_INLINE WideProbe make_probe_vector(const WideChild& child, const WideTransform& X) {
-  const hn::CappedTag<float, 4> f;
-  WideProbe probe;
-  for (std::size_t row = 0; row < 4; row += hn::Lanes(f)) {
-    const auto column0 = hn::Load(f, X.columns[0] + row);
-    const auto column1 = hn::Load(f, X.columns[1] + row);
-    const auto column2 = hn::Load(f, X.columns[2] + row);
-    const auto centre = hn::Add(hn::Add(hn::Add(hn::Mul(column0, hn::Set(f, child.centre[0])),
-                                                hn::Mul(column1, hn::Set(f, child.centre[1]))),
-                                        hn::Mul(column2, hn::Set(f, child.centre[2]))),
-                                hn::Load(f, X.translation + row));
-    const auto axis = hn::Add(
-        hn::Add(hn::Mul(column0, hn::Set(f, child.axis[0])), hn::Mul(column1, hn::Set(f, child.axis[1]))),
-        hn::Mul(column2, hn::Set(f, child.axis[2])));
-    hn::Store(centre, f, probe.centre + row);
-    hn::Store(axis, f, probe.axis + row);
-  }
-  probe.radius = child.radius;
-  probe.thickness = child.thickness;
-  probe.cosine = child.cosine;
-  probe.sine = child.sine;
-  return probe;
-}
-
 /// Some lanes of a node beside a probe: the quantities of wide_node_test.h that every test of them needs.
 template <class Lanes>
 struct LaneBounds {
