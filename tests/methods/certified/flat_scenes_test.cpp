@@ -330,6 +330,26 @@ TEST(FlatScenes, TiltedBoxesThatNearlyTouch) {
   EXPECT_GT(boxes.found(), 100u);
 }
 
+/// The same of two faces that overlap in two places, of which one is within the touch distance and the other need not be.
+TEST(FlatScenes, TiltedBlocksThatNearlyTouchInOneOfTwoPlaces) {
+  std::mt19937_64 random(10);
+  const TriangleMesh block = make_l_block(0.1);
+  FlatComparison blocks(make_scene(block, make_l_block(0.13), 0.02));
+  const Eigen::Quaterniond turn(0.93280356198851988, 0.0, -0.36038523102581421, 0.0);
+  for (int i = 0; i < near_touch_poses(); ++i) {
+    const double tilt = std::pow(10.0, -11.0 + 5.0 * uniform(random));
+    Vec3 axis = random_direction(random);
+    axis.y() = 0.0;
+    Pose pose{Vec3(0.068, 0.0, 0.0007), Eigen::AngleAxisd(tilt, axis.normalized()) * turn};
+    double highest = -1.0;
+    for (const Vec3& vertex : block.vertices) highest = std::max(highest, (pose.rotation * vertex).y());
+    pose.translation.y() =
+        -0.065 - highest + tilt * 0.1 * uniform(random) - std::pow(10.0, -13.0 + 5.0 * uniform(random));
+    blocks.check(pose);
+  }
+  EXPECT_GT(blocks.found(), 150u);
+}
+
 TEST(FlatScenes, BoxesThatRockAndSlide) {
   FlatComparison boxes(make_scene(make_box({0.1, 0.1, 0.1}, 3), make_box({0.3, 0.3, 0.1}, 4), 0.03));
   for (int i = 0; i < 150; ++i) {
