@@ -169,7 +169,7 @@ contact by {load} N while the hand trembles, {seeds} tremors a point. Stiffness 
 the same F_max. Age: a search starts every so many frames and its set arrives as many later; `certified` and `nearest` search in
 every frame. Shakes: contact lost after it had settled, or more than a tenth of the load above 30 Hz. Through: the meshes touch, so
 the stiffness did not carry the load. Clean: neither. Intervals are 95 % (Wilson's for shares, Student's for means). The exact boundary of one linear contact with
-this hand is 12,932 N/m.
+this hand is 12,932 N/m. The energy balance of every run closes, at worst to {balance:.0e} of the energy moved.
 
 ![share of clean runs over stiffness and age](stability-map.png)
 
@@ -215,6 +215,7 @@ def main(argv):
     with open(os.path.join(options.out, "stability-map.md"), "w", encoding="ascii") as file:
         file.write(TEXT.format(runs=sum(len(runs) for runs in every), seeds=max(len(runs) for runs in every), load=1,
                                age=DETAIL_AGE_FRAMES, commit=f" at commit {options.commit}" if options.commit else "",
+                               balance=max(abs(run["balance_error"]) for runs in every for run in runs),
                                certain="[{:.2f}, {:.2f}]".format(*wilson(max(len(runs) for runs in every),
                                                                          max(len(runs) for runs in every))),
                                headline=headline(points), counts=counts(points),
