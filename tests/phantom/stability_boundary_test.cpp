@@ -49,6 +49,16 @@ RC_GTEST_PROP(StabilityBoundary, ClosedFormWithoutDelay, ()) {
   RC_ASSERT(std::abs(found / expected - 1.0) < 1e-7);
 }
 
+/// Damping that stops the device within a frame, b T / m above 4: it then shakes from frame to frame, an eigenvalue of -1.
+RC_GTEST_PROP(StabilityBoundary, StrongDampingShakesAtHalfTheRate, ()) {
+  const double damping = logarithmic(1.0, 20.0), period = 1.0 / logarithmic(250.0, 10000.0);
+  const double mass = damping * period / logarithmic(4.5, 30.0);
+  const double critical = critical_stiffness(loop(mass, damping, period, 0));
+  RC_ASSERT(std::abs(critical / critical_stiffness_without_delay(mass, damping, period) - 1.0) < 1e-7);
+  RC_ASSERT(spectral_radius(loop(mass, damping, period, 0), critical * 0.999) < 1.0);
+  RC_ASSERT(spectral_radius(loop(mass, damping, period, 0), critical * 1.001) > 1.0);
+}
+
 RC_GTEST_PROP(StabilityBoundary, EigenvaluesLeaveTheCircleThere, ()) {
   const AnyLoop any = any_loop();
   const SampledLoop sampled = loop(any.mass, any.damping, any.period, *rc::gen::inRange(0, 51));
