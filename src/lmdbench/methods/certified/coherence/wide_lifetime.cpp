@@ -29,8 +29,6 @@ inline constexpr std::size_t FETCH_DISTANCE = 2;
 HWY_BEFORE_NAMESPACE();
 namespace lmdbench::HWY_NAMESPACE {
 
-namespace hn = hwy::HWY_NAMESPACE;
-
 /// A criterion that rejects lanes: how far it is from failing and what it loses in a frame.
 template <class Number>
 struct Criterion {

@@ -29,10 +29,16 @@ using FloatTag = hn::CappedTag<float, WIDE_WIDTH>;
 
 template <class Mask>
 HWY_INLINE std::uint32_t mask_bits(FloatTag f, Mask mask, std::uint32_t first) {
+#ifdef __SANITIZE_THREAD__
+  std::uint64_t bits = 0;  // GCC 12 reads the byte below with what stands above it (-O1 -fsanitize=thread).
+  hn::StoreMaskBits(f, mask, reinterpret_cast<std::uint8_t*>(&bits));
+#else
   alignas(8) std::uint8_t bytes[8] = {};
   hn::StoreMaskBits(f, mask, bytes);
+  const std::uint32_t bits = bytes[0];
+#endif
   const std::uint32_t all = hn::Lanes(f) >= 8 ? 0xFFu : (1u << hn::Lanes(f)) - 1u;
-  return (bytes[0] & all) << first;
+  return (static_cast<std::uint32_t>(bits) & all) << first;
 }
 
 /// Which lanes of a vector.
