@@ -142,10 +142,10 @@ HWY_INLINE WideLifetimes test_lifetime(const WideNode& node, const WideProbe& pr
     const Number lmd_slack = select(length_frames >= angle_frames, length.slack, angle_slack);
 
     const auto used = Lanes::not_zero(node.child, first);
-    const auto touch_matters = used & Lanes::of_bits(test.touch_lanes, first);
+    const auto touch_matters = both_of(used, Lanes::of_bits(test.touch_lanes, first));
     const auto soon = [&](Number slack, Number loss) HWY_ATTR { return slack <= loss * horizon; };
-    const auto lmd = used & (soon(length.slack, length.loss) & soon(angle_slack, angle_loss));
-    const auto touch = touch_matters & soon(touching.slack, touching.loss);
+    const auto lmd = both_of(used, both_of(soon(length.slack, length.loss), soon(angle_slack, angle_loss)));
+    const auto touch = both_of(touch_matters, soon(touching.slack, touching.loss));
     result.used |= Lanes::bits(used, first);
     result.lmd |= Lanes::bits(lmd, first);
     result.touch |= Lanes::bits(touch, first);

@@ -44,7 +44,6 @@ HWY_INLINE std::uint32_t mask_bits(FloatTag f, Mask mask, std::uint32_t first) {
 /// Which lanes of a vector.
 struct VectorChoice {
   hn::Mask<FloatTag> raw;
-  friend HWY_INLINE VectorChoice operator&(VectorChoice a, VectorChoice b) { return {hn::And(a.raw, b.raw)}; }
 };
 
 /// One number a lane.
@@ -75,6 +74,9 @@ HWY_INLINE VectorNumber magnitude(VectorNumber a) {
 }
 HWY_INLINE VectorNumber select(VectorChoice choice, VectorNumber yes, VectorNumber no) {
   return {hn::IfThenElse(choice.raw, yes.raw, no.raw)};
+}
+HWY_INLINE VectorChoice both_of(VectorChoice a, VectorChoice b) {
+  return {hn::And(a.raw, b.raw)};
 }
 HWY_INLINE VectorChoice but_not(VectorChoice a, VectorChoice b) {
   return {hn::AndNot(b.raw, a.raw)};
@@ -119,6 +121,9 @@ HWY_INLINE float magnitude(float a) {
 }
 HWY_INLINE float select(bool choice, float yes, float no) {
   return choice ? yes : no;
+}
+HWY_INLINE bool both_of(bool a, bool b) {
+  return a && b;
 }
 HWY_INLINE bool but_not(bool a, bool b) {
   return a && !b;

@@ -40,12 +40,12 @@ HWY_INLINE WideMasks test_lanes(const WideNode& node, const WideProbe& probe, co
   WideMasks masks;
   for (std::uint32_t first = 0; first < WIDE_WIDTH; first += Lanes::count()) {
     const LaneBounds<Lanes> bounds(node, first, probe, limits.rounding);
-    const auto touch = (bounds.squared_distance <= squared(touch_limit + bounds.radii)) &
-                       (magnitude(bounds.z_probe) <= touch_limit + bounds.slab_probe) &
-                       (magnitude(bounds.z_lane) <= touch_limit + bounds.slab_lane);
-    const auto near = (bounds.squared_distance <= squared(cutoff + bounds.radii)) &
-                      (bounds.z_probe <= cutoff + bounds.slab_probe) &
-                      (bounds.z_lane <= cutoff + bounds.slab_lane);
+    const auto touch = both_of(both_of(bounds.squared_distance <= squared(touch_limit + bounds.radii),
+                                       magnitude(bounds.z_probe) <= touch_limit + bounds.slab_probe),
+                               magnitude(bounds.z_lane) <= touch_limit + bounds.slab_lane);
+    const auto near = both_of(both_of(bounds.squared_distance <= squared(cutoff + bounds.radii),
+                                      bounds.z_probe <= cutoff + bounds.slab_probe),
+                              bounds.z_lane <= cutoff + bounds.slab_lane);
 
     const auto collinear =
         -bounds.between >= (bounds.cosine * bounds.probe_cosine - bounds.sine * bounds.probe_sine) -
@@ -54,11 +54,11 @@ HWY_INLINE WideMasks test_lanes(const WideNode& node, const WideProbe& probe, co
     const Number least_squared_distance = bounds.squared_distance * Lanes::set(1.0F - DIRECTION_ROUNDING);
     const auto inside = [&](Number z, Number reach, Number cosine, Number sine) HWY_ATTR {
       const Number side = bounds.radii * cosine + sine * least_of(reach, cutoff * cosine);
-      return (reach >= zero) & ((least_squared_distance - squared(z)) * squared(cosine) <= squared(side));
+      return both_of(reach >= zero, (least_squared_distance - squared(z)) * squared(cosine) <= squared(side));
     };
-    const auto directed =
-        inside(bounds.z_probe, bounds.z_probe + bounds.slab_probe, bounds.probe_cosine, bounds.probe_sine) &
-        inside(bounds.z_lane, bounds.z_lane + bounds.slab_lane, bounds.cosine, bounds.sine);
+    const auto directed = both_of(
+        inside(bounds.z_probe, bounds.z_probe + bounds.slab_probe, bounds.probe_cosine, bounds.probe_sine),
+        inside(bounds.z_lane, bounds.z_lane + bounds.slab_lane, bounds.cosine, bounds.sine));
 
     const std::uint32_t used_bits = Lanes::bits(Lanes::not_zero(node.child, first), first);
     const std::uint32_t touch_bits = Lanes::bits(touch, first) & used_bits;
@@ -119,7 +119,7 @@ void descend(const WideHierarchy& a, const WideHierarchy& b, const WideQuery& qu
     const WideOpening opening = openings[next % LOOK_AHEAD];
     const bool open_a = opening.open_a;
     const WideProbe probe = make_probe(open_a ? WideChild(home_b, lane_b) : WideChild(home_a, lane_a),
-                                              open_a ? query.b_in_a : query.a_in_b);
+                                       open_a ? query.b_in_a : query.a_in_b);
     const WideRef probe_ref = open_a ? ref_b : ref_a;
     const WideNode& node = (open_a ? nodes_a : nodes_b)[opening.node];
 
