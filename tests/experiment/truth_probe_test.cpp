@@ -205,7 +205,8 @@ TEST(FclProbe, AFrameAtThePoseOfTheOneBeforeHasItsAnswers) {
 }
 
 TEST(TruthProbe, AFrameAtThePoseOfTheOneBeforeHasItsSet) {
-  const LockstepInput input = approach({0.04, 0.04, 0.02, 0.02, 0.04});  // Of the one before: not of the first.
+  const LockstepInput input =
+      approach({0.04, 0.04, 0.02, 0.02, 0.04});  // Of the one before: not of the first.
   const auto reused = probe_truth(facing_spheres(), input, PROFILE, {0, 1, 2, 3}, {});
   const auto fresh = probe_truth(facing_spheres(), input, PROFILE, {0, 1, 2, 3}, {}, nullptr, false);
   ASSERT_EQ(reused.size(), fresh.size());
