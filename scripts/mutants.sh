@@ -73,7 +73,7 @@ run_tests() {  # PROGRAM FILTER
     timeout "$TIMEOUT" "./lmdbench_$1_tests" --gtest_brief=1 --gtest_filter="${2:-*}" >"$TREE/build/log" 2>&1 </dev/null)
 }
 
-(cd "$TREE" && cmake --preset release -DLMDBENCH_WITH_CGAL=OFF) >/dev/null ||
+(cd "$TREE" && cmake --preset release -DLMDBENCH_BUILD_EXPERIMENTS=ON -DLMDBENCH_WITH_CGAL=OFF) >/dev/null ||
   die "$EXIT_ENVIRONMENT" "the worktree cannot be configured (remedy: ./scripts/setup.sh)"
 
 declare -A sound=()
