@@ -16,6 +16,7 @@
 
 #include <array>
 #include <cstddef>
+#include <optional>
 #include <string>
 
 namespace lmdbench::testing {
@@ -24,7 +25,7 @@ namespace {
 /// More than this is for the slow-unit check only: the surface's tables would hide what the reader costs.
 constexpr std::size_t SMALL_MESH = 2000;
 
-std::string broken_mesh_file(const FileContent& content) {
+std::optional<std::string> broken_mesh_file(const FileContent& content) {
   return broken_unless_refused(content.file.string(), [&]() -> std::string {
     const TriangleMesh mesh = import_mesh(content);
     if (std::string broken = broken_mesh(mesh); !broken.empty()) return broken;
@@ -37,23 +38,23 @@ std::string broken_mesh_file(const FileContent& content) {
 
 }  // namespace
 
-std::string broken_off(std::string_view bytes) {
-  const std::string broken = broken_unless_refused("fuzz.off", [&]() -> std::string {
+std::optional<std::string> broken_off(std::string_view bytes) {
+  const auto broken = broken_unless_refused("fuzz.off", [&]() -> std::string {
     const TriangleMesh mesh = parse_off(bytes, "fuzz.off");
     if (std::string wrong = broken_mesh(mesh); !wrong.empty()) return wrong;
     return same_mesh(parse_off(to_off_text(mesh), "fuzz.off"), mesh) ? "" : "does not read back the same";
   });
-  return broken.empty() ? broken_mesh_file({"fuzz.off", std::string(bytes), {}}) : broken;
+  return broken.value_or("").empty() ? broken_mesh_file({"fuzz.off", std::string(bytes), {}}) : broken;
 }
 
-std::string broken_ply(std::string_view bytes) {
+std::optional<std::string> broken_ply(std::string_view bytes) {
   return broken_unless_refused("fuzz.ply", [&]() -> std::string {
     check_ply(bytes, "fuzz.ply");
     return {};
   });
 }
 
-std::string broken_obj(std::string_view bytes) {
+std::optional<std::string> broken_obj(std::string_view bytes) {
   return broken_unless_refused("fuzz.obj", [&]() -> std::string {
     check_obj(bytes, "fuzz.obj");
     const std::string text = without_materials(bytes);
@@ -64,15 +65,15 @@ std::string broken_obj(std::string_view bytes) {
   });
 }
 
-std::string broken_import(std::string_view bytes) {
+std::optional<std::string> broken_import(std::string_view bytes) {
   constexpr std::array<const char*, 5> FILES{"fuzz.ply", "fuzz.obj", "fuzz.stl", "fuzz.gltf", "fuzz.glb"};
   static const bool limited = (set_limit("import-seconds=1"), set_limit("import-bytes=1000000000"), true);
-  if (bytes.empty() || !limited) return {};
+  if (bytes.empty() || !limited) return std::nullopt;
   const char* file = FILES[static_cast<unsigned char>(bytes.front()) % FILES.size()];
   return broken_mesh_file({file, std::string(bytes.substr(1)), {}});
 }
 
-std::string broken_manifest(std::string_view bytes) {
+std::optional<std::string> broken_manifest(std::string_view bytes) {
   static const bool limited = (set_limit("triangles=20000"), true);
   return broken_unless_refused("fuzz/manifest.json", [&]() -> std::string {
     const Manifest read = parse_manifest(std::string(bytes), "fuzz/manifest.json");

@@ -6,11 +6,12 @@
 #include "targets.h"
 #include <support/source_directory.h>
 
+#include <optional>
 #include <string>
 
 namespace lmdbench::testing {
 
-std::string broken_experiment(std::string_view bytes) {
+std::optional<std::string> broken_experiment(std::string_view bytes) {
   const std::string file = LMDBENCH_SOURCE_DIR "/experiments/fuzz.json";
   return broken_unless_refused(file, [&]() -> std::string {
     const Experiment read = parse_experiment(std::string(bytes), file);

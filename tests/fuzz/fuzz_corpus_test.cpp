@@ -10,6 +10,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <optional>
 #include <random>
 #include <string>
 #include <string_view>
@@ -20,7 +21,7 @@ namespace {
 
 struct FuzzTarget {
   std::string_view name;
-  std::string (*broken_promise)(std::string_view bytes);
+  std::optional<std::string> (*broken_promise)(std::string_view bytes);
   bool is_json;
 };
 
@@ -55,8 +56,14 @@ class FuzzCorpus : public ::testing::TestWithParam<FuzzTarget> {};
 TEST_P(FuzzCorpus, KeepsEveryPromise) {
   const std::vector<std::string> corpus = corpus_of(GetParam());
   ASSERT_GE(corpus.size(), 5U);
-  for (std::size_t i = 0; i < corpus.size(); ++i)
-    EXPECT_EQ(GetParam().broken_promise(corpus[i]), "") << GetParam().name << ", file " << i << " by name";
+  int taken = 0;
+  for (std::size_t i = 0; i < corpus.size(); ++i) {
+    const std::optional<std::string> broken = GetParam().broken_promise(corpus[i]);
+    EXPECT_EQ(broken.value_or(""), "") << GetParam().name << ", file " << i << " by name";
+    taken += broken.has_value();
+  }
+  // Else nothing behind the first check of the reader is reached, by the fuzzer neither.
+  EXPECT_GT(taken, 0) << GetParam().name;
 }
 
 /// A few mutations of every file: nothing beside what the fuzzers do for hours, but in every run of the tests.
@@ -71,7 +78,7 @@ TEST_P(FuzzCorpus, KeepsEveryPromiseForItsMutations) {
         for (int k = 0; k < 3 && !bytes.empty(); ++k)
           bytes[random() % bytes.size()] = static_cast<char>(random());
       }
-      ASSERT_EQ(GetParam().broken_promise(bytes), "") << GetParam().name << ": " << bytes;
+      ASSERT_EQ(GetParam().broken_promise(bytes).value_or(""), "") << GetParam().name << ": " << bytes;
     }
   }
 }

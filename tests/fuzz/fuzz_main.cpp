@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -17,10 +18,10 @@
 extern "C" std::size_t LLVMFuzzerMutate(std::uint8_t* data, std::size_t size, std::size_t most);
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  const std::string broken =
+  const std::optional<std::string> broken =
       lmdbench::testing::LMDBENCH_FUZZ_CHECK({reinterpret_cast<const char*>(data), size});
-  if (broken.empty()) return 0;
-  std::fprintf(stderr, "broken promise: %s\n", broken.c_str());
+  if (broken.value_or("").empty()) return 0;
+  std::fprintf(stderr, "broken promise: %s\n", broken->c_str());
   std::abort();
 }
 

@@ -8,11 +8,12 @@
 #include <fmt/format.h>
 
 #include <cstddef>
+#include <optional>
 #include <string>
 
 namespace lmdbench::testing {
 
-std::string broken_tum(std::string_view bytes) {
+std::optional<std::string> broken_tum(std::string_view bytes) {
   return broken_unless_refused("fuzz.tum", [&]() -> std::string {
     const Path path = parse_tum(bytes, "fuzz.tum");
     const Path again = parse_tum(tum_text(path), "fuzz.tum");
@@ -29,7 +30,7 @@ std::string broken_tum(std::string_view bytes) {
   });
 }
 
-std::string broken_path(std::string_view bytes) {
+std::optional<std::string> broken_path(std::string_view bytes) {
   return broken_unless_refused("fuzz.json", [&]() -> std::string {
     const PathSpec spec = parse_path_spec(std::string(bytes), "fuzz.json");
     const PathSpec again = parse_path_spec(path_spec_text(spec), "fuzz.json");

@@ -6,18 +6,14 @@
 #include <lmdbench/base/printable_text.h>
 
 #include <fmt/format.h>
-#include <sys/mman.h>
-#include <unistd.h>
+#include <support/scratch_directory.h>
 
-#include <cerrno>
 #include <cstring>
 #include <exception>
-#include <stdexcept>
-#include <system_error>
 
 namespace lmdbench::testing {
 
-std::string broken_unless_refused(const std::string& file, const std::function<std::string()>& read) {
+std::optional<std::string> broken_unless_refused(const std::string& file, const std::function<std::string()>& read) {
   try {
     return read();
   } catch (const Error& error) {
@@ -28,7 +24,7 @@ std::string broken_unless_refused(const std::string& file, const std::function<s
     if (message.find("(remedy: ") == std::string_view::npos)
       return fmt::format("names no remedy: {}", message);
     if (printable(message) != message) return fmt::format("not printable: {}", printable(message));
-    return {};
+    return std::nullopt;
   } catch (const std::exception& error) {
     return fmt::format("threw what a user cannot act upon: {}", error.what());
   }
@@ -51,21 +47,9 @@ bool same_mesh(const TriangleMesh& a, const TriangleMesh& b) {
           std::memcmp(a.vertices.data(), b.vertices.data(), a.vertices.size() * sizeof(Vec3)) == 0);
 }
 
-MemoryFile::MemoryFile(std::string_view bytes) : descriptor_(::memfd_create("fuzz", 0)) {
-  if (descriptor_ < 0) throw std::system_error(errno, std::generic_category(), "memfd_create");
-  while (!bytes.empty()) {
-    const ssize_t written = ::write(descriptor_, bytes.data(), bytes.size());
-    if (written < 0) throw std::system_error(errno, std::generic_category(), "write");
-    bytes.remove_prefix(static_cast<std::size_t>(written));
-  }
-}
-
-MemoryFile::~MemoryFile() {
-  ::close(descriptor_);
-}
-
-std::filesystem::path MemoryFile::name() const {
-  return fmt::format("/proc/self/fd/{}", descriptor_);
+std::filesystem::path written_file(std::string_view bytes) {
+  static const ScratchDirectory scratch;
+  return scratch.write("fuzz", std::string(bytes));
 }
 
 }  // namespace lmdbench::testing

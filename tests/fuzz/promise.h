@@ -6,6 +6,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -15,8 +16,8 @@ namespace lmdbench::testing {
 /// Runs a reader and what checks its value.
 /// @param file  the name that refusals must begin with
 /// @param read  returns what is broken, or nothing; throws where it refuses the bytes
-/// @return empty, or what is broken
-std::string broken_unless_refused(const std::string& file, const std::function<std::string()>& read);
+/// @return nothing where it refused, empty where it took the bytes, or what is broken
+std::optional<std::string> broken_unless_refused(const std::string& file, const std::function<std::string()>& read);
 
 /// Empty, or what is wrong: an index out of range, a coordinate that is not finite.
 std::string broken_mesh(const TriangleMesh& mesh);
@@ -24,17 +25,8 @@ std::string broken_mesh(const TriangleMesh& mesh);
 /// Whether two meshes have the same bits.
 bool same_mesh(const TriangleMesh& a, const TriangleMesh& b);
 
-/// The bytes as a regular file that has a name as long as this exists, and no place on a disk.
-class MemoryFile {
- public:
-  explicit MemoryFile(std::string_view bytes);
-  ~MemoryFile();
-  MemoryFile(const MemoryFile&) = delete;
-  MemoryFile& operator=(const MemoryFile&) = delete;
-  std::filesystem::path name() const;
-
- private:
-  int descriptor_;
-};
+/// The bytes as a regular file, which the next call replaces: a descriptor's name under /proc is a link, which some readers
+/// refuse, and HDF5 opens none without a place in a file system.
+std::filesystem::path written_file(std::string_view bytes);
 
 }  // namespace lmdbench::testing

@@ -6,6 +6,8 @@
 #include "promise.h"
 #include "targets.h"
 
+#include <filesystem>
+#include <optional>
 #include <string>
 
 namespace lmdbench::testing {
@@ -39,11 +41,11 @@ void read_group(const ResultReader& reader, const std::string& group, int depth)
 
 }  // namespace
 
-std::string broken_result(std::string_view bytes) {
+std::optional<std::string> broken_result(std::string_view bytes) {
   static const bool limited = (set_limit("import-seconds=1"), set_limit("import-bytes=1000000000"), true);
-  const MemoryFile file(bytes);
-  return broken_unless_refused(file.name().string(), [&]() -> std::string {
-    const ResultReader reader(file.name());
+  const std::filesystem::path file = written_file(bytes);
+  return broken_unless_refused(file.string(), [&]() -> std::string {
+    const ResultReader reader(file);
     if (limited) read_group(reader, "", 0);
     return {};
   });

@@ -7,11 +7,13 @@
 #include "targets.h"
 #include <support/source_directory.h>
 
+#include <filesystem>
+#include <optional>
 #include <string>
 
 namespace lmdbench::testing {
 
-std::string broken_sweep(std::string_view bytes) {
+std::optional<std::string> broken_sweep(std::string_view bytes) {
   const std::string file = LMDBENCH_SOURCE_DIR "/experiments/sweeps/fuzz.json";
   return broken_unless_refused(file, [&]() -> std::string {
     const Sweep read = parse_sweep(std::string(bytes), file);
@@ -22,11 +24,11 @@ std::string broken_sweep(std::string_view bytes) {
   });
 }
 
-std::string broken_journal(std::string_view bytes) {
-  const MemoryFile file(bytes);
-  return broken_unless_refused(file.name().string(), [&]() -> std::string {
-    if (!is_own_journal(file.name())) return {};
-    const Journal read(file.name());
+std::optional<std::string> broken_journal(std::string_view bytes) {
+  const std::filesystem::path file = written_file(bytes);
+  if (!is_own_journal(file)) return std::nullopt;
+  return broken_unless_refused(file.string(), [&]() -> std::string {
+    const Journal read(file);
     return read.find("no such point", 0) == nullptr ? "" : "found what is not there";
   });
 }

@@ -120,7 +120,9 @@ Outline thread_outline(double radius, double depth, double pitch) {
 }
 
 TriangleMesh make_sleeve(const Outline& outline, const Outline& bore, const SleeveChoice& choice) {
-  const auto& [height, around, layers, rings] = choice;
+  // Names of their own: clang before 16 captures no structured bindings.
+  const double height = choice.height;
+  const int around = choice.around, layers = choice.layers, rings = choice.rings;
   assert(around >= 3 && layers >= 1 && rings >= 1);
   TriangleMesh mesh;
   const auto z_of = [&](int layer) { return height * (static_cast<double>(layer) / layers - 0.5); };

@@ -38,10 +38,11 @@ bool can_be_read(const Hdf5Handle& type, std::size_t count, const Read& read) {
     std::vector<char*> texts(count, nullptr);  // what they point to ends with this process
     return read(type.get(), static_cast<void*>(texts.data())) >= 0;
   }
-  if (kind != H5T_INTEGER && kind != H5T_FLOAT) {  // readers refuse other kinds by themselves
-    std::vector<std::byte> bytes(kind == H5T_STRING ? count * H5Tget_size(type.get()) : 0);
-    return bytes.empty() || read(type.get(), bytes.data()) >= 0;
+  if (kind == H5T_STRING) {
+    std::vector<char> text(count * H5Tget_size(type.get()));
+    return read(type.get(), static_cast<void*>(text.data())) >= 0;
   }
+  if (kind != H5T_INTEGER && kind != H5T_FLOAT) return true;  // readers refuse other kinds by themselves
   std::vector<double> numbers(count);
   if (kind == H5T_INTEGER && read(H5T_NATIVE_INT64, numbers.data()) < 0) return false;
   return read(H5T_NATIVE_DOUBLE, numbers.data()) >= 0;
@@ -93,7 +94,7 @@ herr_t read_object(hid_t file, const char* name, const H5O_info_t* info, void* f
     damage.problem = "asks for more memory than there is";
   }
   if (damage.problem.empty()) return 0;
-  damage.place = std::string("/") + (std::string_view(name) == "." ? "" : name);
+  damage.place = fmt::format("/{}", std::string_view(name) == "." ? "" : name);
   return 1;
 }
 
