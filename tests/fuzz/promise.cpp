@@ -13,7 +13,8 @@
 
 namespace lmdbench::testing {
 
-std::optional<std::string> broken_unless_refused(const std::string& file, const std::function<std::string()>& read) {
+std::optional<std::string> broken_unless_refused(const std::string& file,
+                                                 const std::function<std::string()>& read) {
   try {
     return read();
   } catch (const Error& error) {

@@ -17,7 +17,8 @@ namespace lmdbench::testing {
 /// @param file  the name that refusals must begin with
 /// @param read  returns what is broken, or nothing; throws where it refuses the bytes
 /// @return nothing where it refused, empty where it took the bytes, or what is broken
-std::optional<std::string> broken_unless_refused(const std::string& file, const std::function<std::string()>& read);
+std::optional<std::string> broken_unless_refused(const std::string& file,
+                                                 const std::function<std::string()>& read);
 
 /// Empty, or what is wrong: an index out of range, a coordinate that is not finite.
 std::string broken_mesh(const TriangleMesh& mesh);
