@@ -26,8 +26,8 @@ PROCESSOR_SECONDS = 20  # of a process and its children; what hangs is ended by 
 PATH_SECONDS = 3        # for path specifications, in place of ten minutes
 WALL_SECONDS = 300      # of what neither works nor ends: it waits for something
 CONTROL = re.compile(rb"[\x00-\x08\x0b-\x1f\x7f]")
-# Experiments and sweeps name other files; those may be at fault.
-FILE_NAME = re.compile(rb"error: [^ ]+\.(h5|json|obj|off|ply|stl|tum): ")
+# Experiments and sweeps name other files; those may be at fault, and their names are damaged, too.
+FILE_NAME = re.compile(rb"error: [^ ]+\.[^ /]+: ")
 NUMBERS = [b"0", b"-1", b"1e308", b"-1e308", b"1e-310", b"1e999", b"nan", b"inf", b"2147483647", b"4294967296",
            b"9223372036854775807", b"18446744073709551614", b"0.5", b"1e-9", b"1000000", b"\xff", b"", b"0x10", b"1,5"]
 
@@ -127,6 +127,9 @@ def main():
     program = os.path.abspath(arguments.program)
     info = [program, "mesh", "info", "{file}"]
     meshes = str(arguments.source / "meshes")
+    # The limit on time, lowered: what takes minutes is told before the processor time of a case is over.
+    generate = [program, "--limit", f"path-seconds={PATH_SECONDS}", "path", "generate", "{file}", "--out", "path.tum",
+                "--dir", meshes]
     formats = [
         Format("off", "off", "off", info),
         Format("ply", "ply", "ply", info),
@@ -138,10 +141,8 @@ def main():
         Format("poses", "tum", "tum", [program, "query", "--moving", "sphere", "--fixed", "sphere", "--cutoff", "0.1",
                                        "--dir", meshes, "--poses", "{file}"]),
         Format("experiment", "json", "experiment", [program, "plan", "{file}"]),
-        Format("path", "json", "path", [program, "path", "generate", "{file}", "--out", "path.tum", "--dir", meshes]),
-        # The limit on time, lowered: what takes minutes is told before the processor time of a case is over.
-        Format("wild", "json", "path", [program, "--limit", f"path-seconds={PATH_SECONDS}", "path", "generate", "{file}",
-                                        "--out", "path.tum", "--dir", meshes]),
+        Format("path", "json", "path", generate),
+        Format("wild", "json", "path", generate),
         Format("manifest", "json", "manifest", [program, "mesh", "list", "--dir", "{folder}"], where="manifest.json"),
         Format("sweep", "json", "sweep", [program, "work-precision", "{file}", "--out", "sweep.h5"]),
         Format("result", "h5", "result", [program, "compare", "{file}", "{file}"]),

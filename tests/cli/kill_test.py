@@ -118,7 +118,7 @@ def main():
         by_signal = {}
         for kill in range(arguments.kills):
             process = subprocess.Popen(command + ["--out", out, "--resume"], stdout=subprocess.DEVNULL,
-                                       stderr=subprocess.DEVNULL)
+                                       stderr=subprocess.PIPE, text=True)
             until = time.monotonic() + pick.uniform(0.0, arguments.longest)
             seen = 0
             while time.monotonic() < until and process.poll() is None:
@@ -128,7 +128,7 @@ def main():
             sent = pick.choice(SIGNALS)
             by_signal[sent.name] = by_signal.get(sent.name, 0) + 1
             process.send_signal(sent)
-            process.wait()
+            errors = process.communicate()[1]
             if process.returncode == 0:  # it was through: begin again
                 finished += 1
                 if os.path.exists(out):
@@ -137,7 +137,7 @@ def main():
                     os.remove(out)
                 continue
             if process.returncode != -sent:
-                failures.append(f"kill {kill}: {sent.name} ended the run with {process.returncode}")
+                failures.append(f"kill {kill}: {sent.name} ended the run with {process.returncode}: {errors}")
             count, opens = measured(part)
             if not opens:
                 if seen > 0 or (os.path.exists(part) and os.path.getsize(part) > 0):

@@ -96,6 +96,18 @@ TEST(BoundedMajorant, KeepsTheLimitsAboveRoughAndJumpingSamples) {
   }
 }
 
+/// Limits under which a cap falls by next to nothing along the whole path: no cap rules out another one early. Found by the
+/// hostile set, where the highest of all caps at every sample took the square of the samples.
+TEST(BoundedMajorant, CapsAsWideAsALongPath) {
+  std::vector<double> samples(500'000, 0.0);
+  samples[300'000] = 1.0;
+  const std::vector<double> majorant = bounded_majorant(samples, STEP, {.speed = 1e-6, .acceleration = 1e-6});
+  expect_above(majorant, samples);
+  EXPECT_NEAR(majorant.front(), 1.0 - 300 * 1e-6, 1e-6);
+  EXPECT_NEAR(majorant.back(), 1.0 - 200 * 1e-6, 1e-6);
+  EXPECT_TRUE(std::is_sorted(majorant.begin(), majorant.begin() + 300'000));
+}
+
 TEST(BoundedMajorant, NothingAndOneSample) {
   EXPECT_TRUE(bounded_majorant({}, STEP, LIMITS).empty());
   EXPECT_EQ(bounded_majorant({0.3}, STEP, LIMITS), std::vector<double>{0.3});

@@ -119,6 +119,7 @@ TEST(PathSpec, ComplaintsNameThePlace) {
               HasSubstr("/gaps/1/time_s (line 13): 0 does not lie after 0"));
   EXPECT_THAT(spec_complaint(with("\"gap\": 0.001", "\"gap\": 0.0002")),
               HasSubstr("/gaps/1/gap (line 13): 0.0002 is not above gap_floor"));
+  EXPECT_THAT(spec_complaint(with("\"gap\": 0.001", "\"gap\": 1.1e6")), HasSubstr("/gaps/1/gap (line 13): "));
   EXPECT_THAT(spec_complaint(with("\"gap\": 0.001", "\"gap\": 0.001, \"x\": 1")),
               HasSubstr("/gaps/1/x (line 13): unknown key"));
   EXPECT_THAT(spec_complaint(with(", { \"time_s\": 1.5, \"gap\": 0.001 }", "")),

@@ -1,18 +1,22 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/base/error.h>
+#include <lmdbench/base/file_descriptor.h>
 #include <lmdbench/record/result_writer.h>
 
+#include <fcntl.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <record/result_reading.h>
 #include <sys/resource.h>
 
+#include <chrono>
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <fstream>
 #include <functional>
+#include <thread>
 
 namespace lmdbench {
 namespace {
@@ -66,6 +70,24 @@ TEST(ResultWriterFailure, NamesAPlaceThatCannotBeWritten) {
   // /proc refuses new files even to root.
   EXPECT_THAT(message_of([&] { ResultWriter writer("/proc/lmdbench-result.h5"); }),
               AllOf(HasSubstr("/proc/lmdbench-result.h5.part"), HasSubstr("--out")));
+}
+
+/// The lock of a run that was killed may outlive it by a moment, in a process that read the part for it.
+TEST(ResultWriterFailure, WaitsAMomentForTheLock) {
+  const ScratchDirectory directory;
+  const std::string part = directory / "a.h5.part";
+  std::ofstream(part).flush();
+  FileDescriptor holder(::open(part.c_str(), O_RDWR | O_CLOEXEC));
+  struct flock lock {};
+  lock.l_type = F_WRLCK;
+  ASSERT_EQ(::fcntl(holder.get(), F_OFD_SETLK, &lock), 0);
+  std::thread release([&] {
+    std::this_thread::sleep_for(std::chrono::milliseconds(100));
+    holder = FileDescriptor();
+  });
+  EXPECT_EQ(message_of([&] { write_one(directory / "a.h5", 3.0); }), "nothing was thrown");
+  release.join();
+  EXPECT_THAT(OpenResult(directory / "a.h5").doubles("/a"), ElementsAre(3.0));
 }
 
 TEST(ResultWriterFailure, RefusesASecondWriterOfTheSameResult) {

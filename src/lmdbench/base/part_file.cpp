@@ -11,8 +11,10 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <chrono>
 #include <string_view>
 #include <system_error>
+#include <thread>
 #include <utility>
 
 namespace lmdbench {
@@ -70,6 +72,16 @@ bool lock_whole_file(int descriptor) {
   return ::fcntl(descriptor, F_OFD_SETLK, &lock) == 0 || (errno != EAGAIN && errno != EACCES);
 }
 
+/// A process that read the part for a run that was killed holds the lock with it, and ends a moment after it.
+bool lock_in_time(int descriptor) {
+  constexpr std::chrono::milliseconds LONGEST_WAIT{1000}, PAUSE{10};
+  for (auto waited = PAUSE; !lock_whole_file(descriptor); waited += PAUSE) {
+    if (waited > LONGEST_WAIT) return false;
+    std::this_thread::sleep_for(PAUSE);
+  }
+  return true;
+}
+
 }  // namespace
 
 PartFile::PartFile(std::filesystem::path final_name) : final_name_(std::move(final_name)) {
@@ -99,7 +111,7 @@ void PartFile::open_and_lock() {
       if (!descriptor_.valid() && errno == ENOENT) continue;  // its run ended just now
     }
     if (!descriptor_.valid()) fail(part_name_, "the result cannot be written", errno);
-    if (!lock_whole_file(descriptor_.get())) {
+    if (!lock_in_time(descriptor_.get())) {
       throw EnvironmentError(part_name_.string(), "", "another run is writing this result",
                              "wait for it or choose another file with --out");
     }

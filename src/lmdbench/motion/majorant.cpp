@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <utility>
 
 namespace lmdbench {
 namespace {
@@ -26,22 +27,37 @@ double cap_drop(double time, const MotionLimits& limits) {
   return limits.speed * (time - 0.5 * time_to_full_speed);
 }
 
-std::vector<double> highest_caps(const std::vector<double>& samples, double time_step,
-                                 const MotionLimits& limits) {
-  const std::size_t count = samples.size();
-  std::vector<double> drops(count);
-  for (std::size_t i = 0; i < count; ++i) drops[i] = cap_drop(static_cast<double>(i) * time_step, limits);
-  const double lowest = *std::min_element(samples.begin(), samples.end());
-  std::vector<double> highest = samples;
-  for (std::size_t centre = 0; centre < count; ++centre) {
-    // Where a cap has fallen below every sample it can be the highest no more.
-    for (std::size_t i = centre; i < count && samples[centre] - drops[i - centre] >= lowest; ++i)
-      highest[i] = std::max(highest[i], samples[centre] - drops[i - centre]);
-    for (std::size_t i = centre; i-- > 0 && samples[centre] - drops[centre - i] >= lowest;)
-      highest[i] = std::max(highest[i], samples[centre] - drops[centre - i]);
+/// The highest of all caps at every sample, in n log n steps: a cap falls ever faster to either side, so that of two caps the
+/// one to the right is the higher from some sample on, and the highest one's centre never goes back from sample to sample.
+class HighestCaps {
+ public:
+  HighestCaps(const std::vector<double>& samples, double time_step, const MotionLimits& limits)
+      : samples_(samples), drops_(samples.size()), highest_(samples) {
+    for (std::size_t i = 0; i < drops_.size(); ++i)
+      drops_[i] = cap_drop(static_cast<double>(i) * time_step, limits);
+    fill(0, samples.size(), 0, samples.size());
   }
-  return highest;
-}
+  std::vector<double> take() { return std::move(highest_); }
+
+ private:
+  /// Fills [begin, end), whose highest caps have their centres in [first, last).
+  void fill(std::size_t begin, std::size_t end, std::size_t first, std::size_t last) {
+    if (begin == end) return;
+    const std::size_t middle = begin + (end - begin) / 2;
+    std::size_t best = middle;
+    for (std::size_t centre = first; centre < last; ++centre) {
+      const double height = samples_[centre] - drops_[centre < middle ? middle - centre : centre - middle];
+      if (height <= highest_[middle]) continue;
+      highest_[middle] = height;
+      best = centre;
+    }
+    fill(begin, middle, first, best + 1);
+    fill(middle + 1, end, best, last);
+  }
+
+  const std::vector<double>& samples_;
+  std::vector<double> drops_, highest_;
+};
 
 /// Smallest function above `values` whose second differences are at most acceleration * time_step^2.
 std::vector<double> limit_speeding_up(const std::vector<double>& values, double time_step,
@@ -91,7 +107,7 @@ std::vector<double> bounded_majorant(const std::vector<double>& samples, double 
                                       .acceleration = share.acceleration * limits.acceleration};
     std::vector<double> remainder(samples.size());
     for (std::size_t i = 0; i < samples.size(); ++i) remainder[i] = samples[i] - sum[i];
-    const std::vector<double> pass = limit_speeding_up(highest_caps(remainder, time_step, pass_limits),
+    const std::vector<double> pass = limit_speeding_up(HighestCaps(remainder, time_step, pass_limits).take(),
                                                        time_step, pass_limits.acceleration);
     for (std::size_t i = 0; i < samples.size(); ++i) sum[i] += pass[i];
   }
