@@ -4,7 +4,7 @@
 # The region of our free choices in which each claim of the paper holds, and what the other readings of decisions E1 to E13
 # change: makes paths of other seeds, runs the sweeps experiments/sweeps/claim-*.json and readings.json, the roles of a closed
 # loop and the runs with polylines and contacts, and judges. Stopped and started again it goes on where it was. Leaves
-# results/claims/claim-regions.md. All of it takes about a quarter of an hour of processor time.
+# results/claims/claim-regions.md. All of it takes about an hour of processor time.
 #   scripts/claims.sh [PART...]   only these, such as claim-k3, roles or verdicts
 #   LMDBENCH_BUILD=DIR            where the programs are (build/release)
 set -euo pipefail
@@ -14,7 +14,7 @@ cd "$ROOT"
 BUILD="${LMDBENCH_BUILD:-build/release}"
 OUT=results/claims
 PATHS=20
-APPROACHES=1 # of 6 s each
+APPROACHES=5 # of 6 s each
 PYTHON="$(find_python h5py numpy)"
 mkdir -p "$OUT"
 

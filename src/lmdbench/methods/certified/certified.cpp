@@ -148,8 +148,10 @@ Certified::Certified(Scene scene, const CertifiedOptions& options, WideKernel ke
       hierarchy_moving_(hierarchy_of(*scene_.moving, joins_flat_)),
       flat_moving_(&scene_.moving->prepared<FlatMesh>()),
       coherent_(options.frame_coherence),
+      target_(options.kernel),
       kernel_(kernel),
       flat_pieces_(scene_) {
+  const UseVectorTarget check(target_);
   double extent = hierarchy_moving_.radius;
   for (const auto& body : scene_.fixed) {
     hierarchies_fixed_.push_back(&hierarchy_of(*body, joins_flat_));
@@ -360,6 +362,7 @@ void Certified::report(const RigidTransform& X_WM, double coordinates, LmdSet& l
 }
 
 void Certified::search(const Pose& X_WM, LmdSet& lmds, WorkCounters& counters) {
+  const UseVectorTarget use(target_);
   const RigidTransform transform(X_WM);
   const WideHierarchy& moving = hierarchy_moving_;
   minima_.clear();

@@ -159,6 +159,7 @@ class Certified : public Method {
   const FlatMesh* flat_moving_;
   std::vector<const FlatMesh*> flat_fixed_;  ///< One a fixed body.
   bool coherent_;
+  VectorTarget target_;
   WideKernel kernel_;
   double touch_ = 0.0;
   WideScratch scratch_;

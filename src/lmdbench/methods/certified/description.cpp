@@ -6,7 +6,12 @@
 
 namespace lmdbench {
 
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(CertifiedOptions, frame_coherence)
+NLOHMANN_JSON_SERIALIZE_ENUM(VectorTarget, {{VectorTarget::BEST, "best"},
+                                            {VectorTarget::AVX512, "avx512"},
+                                            {VectorTarget::AVX2, "avx2"},
+                                            {VectorTarget::SSE4, "sse4"},
+                                            {VectorTarget::SCALAR, "scalar"}})
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(CertifiedOptions, frame_coherence, kernel)
 
 const MethodDescription& certified_method() {
   using Counter = Certified::Counter;
@@ -18,11 +23,18 @@ const MethodDescription& certified_method() {
       .promise = Promise::COMPLETE_SET,
       .tracks_locally = false,
       .trackings_after_search = 0,
-      .options =
-          with_defaults({{"frame_coherence",
-                          {{"type", "boolean"},
-                           {"description", "reuse the last frame's tests; the set is the same either way"}}}},
-                        CertifiedOptions{}),
+      .options = with_defaults(
+          {{"frame_coherence",
+            {{"type", "boolean"},
+             {"description", "reuse the last frame's tests; the set is the same either way"}}},
+           {"kernel",
+            {{"enum",
+              {VectorTarget::BEST, VectorTarget::AVX512, VectorTarget::AVX2, VectorTarget::SSE4,
+               VectorTarget::SCALAR}},
+             {"description",
+              "instruction set of the vectorised kernels: the processor's best, or a narrower one for "
+              "comparison; the set is the same with each"}}}},
+          CertifiedOptions{}),
       .counters = traversal_counters_and<Counter>(
           {{Counter::LEAF_PAIRS, "leaf_pairs", "feature or triangle pairs that reached the leaf tests",
             CountedBy::SEARCH},

@@ -1,0 +1,49 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/base/error.h>
+#include <lmdbench/methods/certified/vector_target.h>
+
+#include <hwy/targets.h>
+
+namespace lmdbench {
+namespace {
+
+std::int64_t mask_of(VectorTarget target) {
+  switch (target) {
+    case VectorTarget::AVX512:
+      return HWY_AVX3;
+    case VectorTarget::AVX2:
+      return HWY_AVX2;
+    case VectorTarget::SSE4:
+      return HWY_SSE4;
+    case VectorTarget::SCALAR:
+      return HWY_SCALAR | HWY_EMU128;
+    case VectorTarget::BEST:
+      break;
+  }
+  return hwy::SupportedTargets();
+}
+
+}  // namespace
+
+bool is_available(VectorTarget target) {
+  // Of its own accord Highway names the plain form for no processor.
+  return target == VectorTarget::BEST ||
+         (mask_of(target) & HWY_TARGETS & (hwy::SupportedTargets() | HWY_SCALAR | HWY_EMU128)) != 0;
+}
+
+UseVectorTarget::UseVectorTarget(VectorTarget target) : is_best_(target == VectorTarget::BEST) {
+  if (is_best_) return;
+  if (!is_available(target))
+    throw EnvironmentError(
+        "", "kernel", "this processor or this build has no such vectors",
+        "leave the method's option kernel out, or choose a narrower one; a build has more than the "
+        "narrowest with LMDBENCH_WITH_WIDE_TARGETS=ON");
+  hwy::GetChosenTarget().Update(mask_of(target));
+}
+
+UseVectorTarget::~UseVectorTarget() {
+  if (!is_best_) hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+}
+
+}  // namespace lmdbench
