@@ -7,12 +7,16 @@
 # results/claims/claim-regions.md. All of it takes about an hour of processor time.
 #   scripts/claims.sh [PART...]   only these, such as claim-k3, roles or verdicts
 #   LMDBENCH_BUILD=DIR            where the programs are (build/release)
+#   LMDBENCH_CLAIMS=DIR           where the results go (results/claims); of a second folder the sweeps are compared with
+#                                 those of the first: LMDBENCH_CLAIMS=results/claims-busy scripts/claims.sh claim-k5 claim-k7 roles,
+#                                 on another load, then scripts/claims.sh verdicts
 set -euo pipefail
 # shellcheck source=scripts/lib.sh
 source "$(dirname "${BASH_SOURCE[0]}")/lib.sh"
 cd "$ROOT"
 BUILD="${LMDBENCH_BUILD:-build/release}"
-OUT=results/claims
+OUT="${LMDBENCH_CLAIMS:-results/claims}"
+OTHER=results/claims-busy
 PATHS=20
 APPROACHES=5 # of 6 s each
 PYTHON="$(find_python h5py numpy)"
@@ -58,7 +62,12 @@ part() {
       for file in "$OUT"/{readings,bunny-cut,direction-memory}.h5 "$OUT/roles.json"; do
         if [[ -e $file ]]; then evidence+=("$file"); fi
       done
-      step "Verdicts" "$PYTHON" scripts/figures/claim_regions.py "${evidence[@]}" --out "$OUT" >&2
+      local other=()
+      for file in "$OTHER"/claim-*.h5 "$OTHER/roles.json"; do
+        if [[ -e $file ]]; then other+=("$file"); fi
+      done
+      ((${#other[@]} == 0)) || other=(--other "${other[@]}")
+      step "Verdicts" "$PYTHON" scripts/figures/claim_regions.py "${evidence[@]}" "${other[@]}" --out "$OUT" >&2
       ;;
     *) step "$1" sweep "$1" ;;
   esac

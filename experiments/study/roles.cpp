@@ -62,6 +62,7 @@ class TimedPoses final : public PoseSource {
 struct RoleRow {
   std::string label;
   std::vector<double> device, local;  ///< One a frame [s].
+  double force = 0.0;                 ///< Of the device loop what sums and clips the forces; the rest moves the device [s].
   double global = 0.0;                ///< Sum over the run [s].
   double seconds = 0.0;               ///< Of haptics.
   std::int64_t frames_with_force = 0;
@@ -85,10 +86,12 @@ RoleRow measure_roles(const LockstepMethod& method, LockstepInput input, const D
     const LmdSet& lmds = record.lmds.at(static_cast<std::int64_t>(frame));
     const Vec3 reference_W = RigidTransform(record.poses[frame]).point(input.reference_M);
     RenderedForce rendered;
-    row.device[frame] += seconds_of([&] {
+    const double seconds = seconds_of([&] {
       rendered =
           input.device.render(sum_forces(lmds, method.profile, reference_W), method.profile.largest_sum);
     });
+    row.device[frame] += seconds;
+    row.force += seconds;
     if (rendered.force != record.frames[frame].force)
       throw Error(ExitCode::INTERNAL, "", method.label, "the summed force is not the rendered one",
                   "report this with the experiment file");
@@ -118,6 +121,7 @@ nlohmann::json described(const RoleRow& row) {
           {"together_above_1ms",
            std::count_if(together.begin(), together.end(), [](double value) { return value > 1e-3; })},
           {"device_share", sum(row.device) / row.seconds},
+          {"force_share", row.force / row.seconds},
           {"local_share", sum(row.local) / row.seconds},
           {"global_share", row.global / row.seconds}};
 }
@@ -126,8 +130,8 @@ void print_roles(const nlohmann::json& row) {
   const auto us = [&](const char* stage, const char* name) { return 1e6 * row[stage][name].get<double>(); };
   const auto ms = [&](const char* name) { return 1e3 * row[name].get<double>(); };
   fmt::print(
-      "| {} | {:.3g} | {:.3g} | {:.3g} | {:.3g} | {:.3g} | {:.3g} | {:.3g} | {:.3g} | {:.3g} | {} | {} |\n",
-      row["label"].get<std::string>(), ms("device_share"), ms("local_share"), ms("global_share"),
+      "| {} | {:.3g} | {:.3g} | {:.3g} | {:.3g} | {:.3g} | {:.3g} | {:.3g} | {:.3g} | {:.3g} | {:.3g} | {} | {} |\n",
+      row["label"].get<std::string>(), ms("device_share"), ms("force_share"), ms("local_share"), ms("global_share"),
       us("device", "median_s"), us("device", "p99_s"), us("device", "maximum_s"), us("together", "median_s"),
       us("together", "p99_s"), us("together", "maximum_s"), row["together_above_1ms"].get<int>(),
       row["frames_with_force"].get<int>());
@@ -143,10 +147,10 @@ int run_roles(const RolesChoice& choice) {
   driver.repetitions = 1;
   nlohmann::json rows = nlohmann::json::array();
   fmt::print(
-      "| method and profile | device loop [ms/s] | local tracking [ms/s] | global thread [ms/s] | device "
+      "| method and profile | device loop [ms/s] | of it sum and clip of the forces | local tracking [ms/s] | global thread [ms/s] | device "
       "loop, median [us] | "
       "99 % | largest | device and local, median [us] | 99 % | largest | above 1 ms | frames with force |\n");
-  fmt::print("|---|---|---|---|---|---|---|---|---|---|---|---|\n");
+  fmt::print("|---|---|---|---|---|---|---|---|---|---|---|---|---|\n");
   for (int repetition = 0; repetition < choice.repetitions; ++repetition)
     for (const LockstepMethod& method : lockstep_methods(experiment, prepared)) {
       rows.push_back(described(measure_roles(method, prepared.input, driver)));

@@ -70,19 +70,50 @@ def part(evidence, scene):
     return evidence.restricted(scene) if isinstance(evidence, Sweep) else evidence
 
 
-def markdown(evidence):
-    """@param evidence {name: sweep, run or roles}"""
-    summary, details = [], []
+def judged(evidence):
+    """(claim, words, names of its evidence or None, text, cells) of every claim."""
     for claim, words, judge, alternatives in CLAIMS:
         needs = next((names for names in alternatives if all(name.split("/")[0] in evidence for name in names)), None)
         if needs is None:
-            summary.append([claim, words, "not measured: its sweep is not among these results", "-"])
+            yield claim, words, None, [], {}
             continue
         text, cells = judge(*(part(evidence[name.split("/")[0]], name.partition("/")[2]) for name in needs))
+        yield claim, words, needs, text, cells
+
+
+def two_loads(evidence, other):
+    """What the claims say of another run of some of the sweeps: settings whose verdicts agree, that one of the runs leaves undecided,
+    and that contradict each other."""
+    cells = {claim: found for claim, _, needs, _, found in judged(evidence) if needs}
+    rows, contradictions = [], []
+    for claim, _, needs, _, found in judged(other):
+        if needs is None or claim not in cells:
+            continue
+        both = [(name, cells[claim][name], cell) for name, cell in found.items() if name in cells[claim]]
+        against = [name for name, a, b in both if {a, b} == {HOLDS, FAILS}]
+        contradictions += [f"{claim}, {name}" for name in against]
+        rows.append([claim, len(both), sum(a == b for _, a, b in both), sum(a != b for _, a, b in both) - len(against), len(against),
+                     verdict(cells[claim]), verdict(found)])
+    text = ["## The same sweeps on another load", "",
+            "Each was run again, everything else alike. A setting that holds in one run and does not in the other contradicts itself.", "",
+            *table(["claim", "settings in both", "the same", "undecided in one", "contradicting", "verdict", "verdict on the other load"], rows)]
+    return text + (["Contradicting: " + "; ".join(contradictions) + ".", ""] if contradictions else [])
+
+
+def markdown(evidence, other=None):
+    """@param evidence {name: sweep, run or roles}
+    @param other the same of another run, of some of them"""
+    summary, details = [], []
+    for claim, words, needs, text, cells in judged(evidence):
+        if needs is None:
+            summary.append([claim, words, "not measured: its sweep is not among these results", "-"])
+            continue
         counts = {kind: sum(1 for cell in cells.values() if cell == kind) for kind in (HOLDS, FAILS, OPEN)}
         summary.append([f"[{claim}](#{claim.lower()})", words, f"**{verdict(cells)}**", f"{counts[HOLDS]} / {counts[FAILS]} / {counts[OPEN]}"])
         made = ", ".join(f"`{name.split('/')[0]}` at {evidence[name.split('/')[0]].commit()}" for name in needs)
         details += [f"## {claim}", "", f"{words}. From {made}.", "", *text]
+    if other:
+        details += two_loads(evidence, other)
     if "readings" in evidence:
         details += ["## Decisions E1 to E13", "", f"What the other reading would have changed. From `readings` at {evidence['readings'].commit()}.", "",
                     *readings(evidence["readings"], evidence.get("direction-memory"))]
@@ -97,11 +128,12 @@ def markdown(evidence):
 def main(argv):
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("files", nargs="+", metavar="FILE", help="what scripts/claims.sh leaves in results/claims: sweeps, a run, roles.json")
+    parser.add_argument("--other", nargs="+", default=[], metavar="FILE", help="the same of another run, on another load: do the verdicts agree?")
     parser.add_argument("--out", required=True, metavar="DIR", help="directory of claim-regions.md")
     arguments = parser.parse_args(argv)
     os.makedirs(arguments.out, exist_ok=True)
     file = os.path.join(arguments.out, "claim-regions.md")
-    text = markdown(dict(load(name) for name in arguments.files))
+    text = markdown(dict(load(name) for name in arguments.files), dict(load(name) for name in arguments.other))
     with open(file, "w", encoding="utf-8") as stream:
         stream.write(text)
     print(file)

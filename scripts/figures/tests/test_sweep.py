@@ -241,6 +241,36 @@ class Verdicts(unittest.TestCase):
         self.assertEqual(list(claim_regions.k8(roles(0.1, 0.7))[1].values()), [claim_regions.OPEN])
         self.assertEqual(list(claim_regions.k8(roles(0.6, 0.7))[1].values()), [claim_regions.FAILS])
 
+    def test_k8_knows_the_device_loop_without_its_simulation(self):
+        stage = {"median_s": 1e-6, "p99_s": 2e-6, "maximum_s": 3e-6}
+        row = {"label": "original-hard", "device_share": 9.0, "force_share": 0.1, "local_share": 1.0, "global_share": 2.0, "device": stage,
+               "together": stage, "together_above_1ms": 0}
+        text, cells = claim_regions.k8({"experiment": "closed", "rows": [row]})
+        self.assertEqual(cells, {"original | hard": claim_regions.FAILS,
+                                 "original, the simulated device's motion left out | hard": claim_regions.HOLDS})
+        self.assertIn("| 9e+03 | 100 |", "\n".join(text))
+        row["force_share"] = 0.6
+        self.assertEqual(claim_regions.k8({"experiment": "closed", "rows": [row]})[1]["original, the simulated device's motion left out | hard"],
+                         claim_regions.FAILS)
+
+    def test_two_loads_that_contradict_each_other_are_named(self):
+        stage = {"median_s": 1e-6, "p99_s": 2e-6, "maximum_s": 3e-6}
+        def roles(hard, soft):
+            rows = [{"label": f"original-{name}", "device_share": share, "local_share": 1.0, "global_share": 2.0, "device": stage,
+                     "together": stage, "together_above_1ms": 0} for name, shares in (("hard", hard), ("soft", soft)) for share in shares]
+            return {"roles": claim_regions.Roles(experiment="closed", rows=rows)}
+        text = "\n".join(claim_regions.two_loads(roles([0.1], [0.1]), roles([0.1, 0.7], [0.8])))
+        self.assertIn("| K8 | 2 | 0 | 1 | 1 |", text)
+        self.assertIn("Contradicting: K8, original | soft.", text)
+        self.assertNotIn("Contradicting", "\n".join(claim_regions.two_loads(roles([0.1], [0.1]), roles([0.1, 0.7], [0.2]))))
+
+    def test_why_counts_what_an_option_changes(self):
+        base = ["m", "5", "1", "vertex-normal", "published", "one-ring", "100", "10"]
+        rows = [base, [*base[:5], "edge-neighbours", "30", "10"], [*base[:3], "off", *base[4:6], "500", "5"]]
+        text = "\n".join(region_cost.why_k5(rows))
+        self.assertIn("leaf cones edge-neighbours makes 0.3 times the candidates and keeps 1 times the LMDs", text)
+        self.assertIn("visibility off makes 5 times the candidates and keeps 0.5 times the LMDs", text)
+
     def test_distance_to_triangles_and_back_rotation(self):
         corners = np.array([[[0.0, 0, 0], [1, 0, 0], [0, 1, 0]], [[9.0, 9, 9], [9, 9, 9], [9, 9, 9]]])
         for point, distance in (((0.2, 0.2, 0.5), 0.5), ((-1, 0, 0), 1.0), ((1, 1, 0), math.sqrt(0.5)), ((0.5, -2, 0), 2.0)):
