@@ -62,9 +62,9 @@ class TimedPoses final : public PoseSource {
 struct RoleRow {
   std::string label;
   std::vector<double> device, local;  ///< One a frame [s].
-  double force = 0.0;                 ///< Of the device loop what sums and clips the forces; the rest moves the device [s].
-  double global = 0.0;                ///< Sum over the run [s].
-  double seconds = 0.0;               ///< Of haptics.
+  double force = 0.0;   ///< Of the device loop what sums and clips the forces; the rest moves the device [s].
+  double global = 0.0;  ///< Sum over the run [s].
+  double seconds = 0.0;  ///< Of haptics.
   std::int64_t frames_with_force = 0;
 };
 
@@ -130,11 +130,12 @@ void print_roles(const nlohmann::json& row) {
   const auto us = [&](const char* stage, const char* name) { return 1e6 * row[stage][name].get<double>(); };
   const auto ms = [&](const char* name) { return 1e3 * row[name].get<double>(); };
   fmt::print(
-      "| {} | {:.3g} | {:.3g} | {:.3g} | {:.3g} | {:.3g} | {:.3g} | {:.3g} | {:.3g} | {:.3g} | {:.3g} | {} | {} |\n",
-      row["label"].get<std::string>(), ms("device_share"), ms("force_share"), ms("local_share"), ms("global_share"),
-      us("device", "median_s"), us("device", "p99_s"), us("device", "maximum_s"), us("together", "median_s"),
-      us("together", "p99_s"), us("together", "maximum_s"), row["together_above_1ms"].get<int>(),
-      row["frames_with_force"].get<int>());
+      "| {} | {:.3g} | {:.3g} | {:.3g} | {:.3g} | {:.3g} | {:.3g} | {:.3g} | {:.3g} | {:.3g} | {:.3g} | {} | "
+      "{} |\n",
+      row["label"].get<std::string>(), ms("device_share"), ms("force_share"), ms("local_share"),
+      ms("global_share"), us("device", "median_s"), us("device", "p99_s"), us("device", "maximum_s"),
+      us("together", "median_s"), us("together", "p99_s"), us("together", "maximum_s"),
+      row["together_above_1ms"].get<int>(), row["frames_with_force"].get<int>());
 }
 
 int run_roles(const RolesChoice& choice) {
@@ -147,7 +148,8 @@ int run_roles(const RolesChoice& choice) {
   driver.repetitions = 1;
   nlohmann::json rows = nlohmann::json::array();
   fmt::print(
-      "| method and profile | device loop [ms/s] | of it sum and clip of the forces | local tracking [ms/s] | global thread [ms/s] | device "
+      "| method and profile | device loop [ms/s] | of it sum and clip of the forces | local tracking [ms/s] "
+      "| global thread [ms/s] | device "
       "loop, median [us] | "
       "99 % | largest | device and local, median [us] | 99 % | largest | above 1 ms | frames with force |\n");
   fmt::print("|---|---|---|---|---|---|---|---|---|---|---|---|---|\n");
