@@ -7,6 +7,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <hdf5.h>
 #include <support/scratch_directory.h>
 #include <support/source_directory.h>
 
@@ -142,6 +143,22 @@ TEST(ResultReader, RefusesLinksAndValuesOfOtherFiles) {
   const ResultReader elsewhere(corpus + "values_elsewhere");
   EXPECT_THAT(input_error([&] { elsewhere.reals("/ext"); }),
               HasSubstr("/ext: has its values in another file"));
+}
+
+/// As other programs write texts: of a fixed length.
+TEST(ResultReader, TextsOfAFixedLengthAreNoDamage) {
+  const testing::ScratchDirectory scratch;
+  const std::filesystem::path file = small_result(scratch / "a.h5");
+  const hid_t opened = H5Fopen(file.c_str(), H5F_ACC_RDWR, H5P_DEFAULT), space = H5Screate(H5S_SCALAR);
+  const hid_t type = H5Tcopy(H5T_C_S1);
+  ASSERT_GE(H5Tset_size(type, 5), 0);
+  const hid_t note = H5Acreate2(opened, "note", type, space, H5P_DEFAULT, H5P_DEFAULT);
+  ASSERT_GE(H5Awrite(note, type, "hello"), 0);
+  H5Aclose(note);
+  H5Tclose(type);
+  H5Sclose(space);
+  H5Fclose(opened);
+  EXPECT_THAT(ResultReader(file).attributes("/"), ::testing::Contains("note"));
 }
 
 TEST(ResultReader, NamesTheDamageOfAFileWhenItIsOpened) {
