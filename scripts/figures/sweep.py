@@ -97,7 +97,7 @@ def draw_panel(axes, points, value, colours, markers):
             steps += [(cost(point), steps[-1][1]), (cost(point), place(point))]
         axes.plot([x for x, _ in steps] + [axes.get_xlim()[1] * 1e3], [y for _, y in steps] + [steps[-1][1]],
                   color=style.PALE_GREY, lw=3.0, zorder=1, solid_capstyle="butt")
-    for series in dict.fromkeys(point.series for point in points):
+    for number, series in enumerate(dict.fromkeys(point.series for point in points)):
         line = sorted((point for point in points if point.series == series and np.isfinite(cost(point))
                        and np.isfinite(value(point)) or point.series == series and point.trouble), key=cost)
         drawn = [point for point in line if np.isfinite(cost(point))]
@@ -106,10 +106,15 @@ def draw_panel(axes, points, value, colours, markers):
         for point in drawn:
             if point.trouble:
                 axes.plot(cost(point), failed, marker="x", color=colours[series], ms=5, zorder=4)
-        for name in ("search_every_frames", "feature_points"):
+        for name in ("search_every_frames", "feature_points", "kernel"):
             named = [point for point in drawn if point.axis(name) is not None]
-            for point in (named[0], named[-1]) if len(named) > 1 else ():
-                axes.annotate(f"{point.axis(name)}", (cost(point), place(point)), xytext=(3, 3), textcoords="offset points",
+            ends = [named[0], named[-1]] if len(named) > 1 else []
+            if name == "kernel" and ends and cost(ends[1]) < 3 * cost(ends[0]):
+                ends = ends[1:]  # words need room
+            for point in ends:
+                # Series that lie on one line, as exact ones do, have their labels on either side of it.
+                below = name == "kernel" and number % 2 == 1
+                axes.annotate(f"{point.axis(name)}", (cost(point), place(point)), xytext=(3, -8 if below else 3), textcoords="offset points",
                               fontsize=5.5, color=colours[series], zorder=5)
 
 
@@ -145,7 +150,7 @@ def draw(sweep):
     keys = [Line2D([], [], color=colours[series], marker=markers[series], ms=4.2, mec="white", mew=0.4, lw=0.8, label=series)
             for series in sweep.series]
     keys.append(Line2D([], [], color=style.PALE_GREY, lw=3, label="Pareto front"))
-    figure.text(0.085, 1 - 0.18 / height, "Error against processor time of a second in contact; numbers: frames between searches, feature points", fontsize=7.5, fontweight="bold")
+    figure.text(0.085, 1 - 0.18 / height, "Error against processor time of a second in contact; labels: search period, feature points, kernel", fontsize=7.5, fontweight="bold")
     figure.legend(handles=keys, loc="upper left", bbox_to_anchor=(0.075, 1 - 0.23 / height), ncol=6, handlelength=1.8, columnspacing=1.4,
                   borderpad=0.1)
     return figure
