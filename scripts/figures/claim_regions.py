@@ -95,7 +95,8 @@ def two_loads(evidence, other):
         rows.append([claim, len(both), sum(a == b for _, a, b in both), sum(a != b for _, a, b in both) - len(against), len(against),
                      verdict(cells[claim]), verdict(found)])
     text = ["## The same sweeps on another load", "",
-            "Each was run again, everything else alike. A setting that holds in one run and does not in the other contradicts itself.", "",
+            "Each was run again (" + ", ".join(f"`{name}` at {run.commit()}" for name, run in other.items())
+            + "). A setting that holds in one run and does not in the other contradicts itself.", "",
             *table(["claim", "settings in both", "the same", "undecided in one", "contradicting", "verdict", "verdict on the other load"], rows)]
     return text + (["Contradicting: " + "; ".join(contradictions) + ".", ""] if contradictions else [])
 

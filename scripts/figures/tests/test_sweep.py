@@ -258,9 +258,10 @@ class Verdicts(unittest.TestCase):
         def roles(hard, soft):
             rows = [{"label": f"original-{name}", "device_share": share, "local_share": 1.0, "global_share": 2.0, "device": stage,
                      "together": stage, "together_above_1ms": 0} for name, shares in (("hard", hard), ("soft", soft)) for share in shares]
-            return {"roles": claim_regions.Roles(experiment="closed", rows=rows)}
+            return {"roles": claim_regions.Roles(experiment="closed", rows=rows, context={"build": {"git_commit": "1234567890123"}})}
         text = "\n".join(claim_regions.two_loads(roles([0.1], [0.1]), roles([0.1, 0.7], [0.8])))
         self.assertIn("| K8 | 2 | 0 | 1 | 1 |", text)
+        self.assertIn("`roles` at 123456789012)", text)
         self.assertIn("Contradicting: K8, original | soft.", text)
         self.assertNotIn("Contradicting", "\n".join(claim_regions.two_loads(roles([0.1], [0.1]), roles([0.1, 0.7], [0.2]))))
 
