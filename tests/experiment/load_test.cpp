@@ -89,11 +89,11 @@ TEST(LoadExperiment, OverridesTakeJsonOrStrings) {
 }
 
 TEST(LoadExperiment, EveryMethodOptionIsRead) {
-  const Experiment experiment =
-      parse(MINIMAL, {"/methods/0/literal_g3=true", "/methods/1/visibility=orthogonal",
-                      "/methods/1/reduction=loss-free", "/methods/1/tracking_order=triangle-index",
-                      "/methods/1/literal_g3=true",
-                      R"(/methods/-={"name":"certified","force_law":"linear","frame_coherence":false})"});
+  const Experiment experiment = parse(
+      MINIMAL,
+      {"/methods/0/literal_g3=true", "/methods/1/visibility=orthogonal", "/methods/1/reduction=loss-free",
+       "/methods/1/tracking_order=triangle-index", "/methods/1/literal_g3=true",
+       R"(/methods/-={"name":"certified","force_law":"linear","frame_coherence":false,"kernel":"sse4"})"});
   EXPECT_EQ(experiment.methods[0].options["literal_g3"], true);
   // What the file leaves out has its default.
   EXPECT_EQ(experiment.methods[1].options, nlohmann::json({{"visibility", "orthogonal"},
@@ -104,7 +104,7 @@ TEST(LoadExperiment, EveryMethodOptionIsRead) {
                                                            {"clamped_sigma", false},
                                                            {"plain_cache", false},
                                                            {"second_tracking", true}}));
-  EXPECT_EQ(experiment.methods[2].options, nlohmann::json({{"frame_coherence", false}}));
+  EXPECT_EQ(experiment.methods[2].options, nlohmann::json({{"frame_coherence", false}, {"kernel", "sse4"}}));
 }
 
 /// Every method of the registry is known to the schema, with the defaults of its description and nothing
