@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The lmdbench authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Writes a wavy sheet of very many triangles as OFF and lets the program read it: with the usual limits it must be refused
+"""Writes a rough sheet of very many triangles (no two in one plane) as OFF and lets the program read it: with the usual limits it must be refused
 by name, with the limit raised it must be read. Prints processor time and peak memory of each as a table.
 
     large_mesh.py PROGRAM [--triangles N] [--folder FOLDER]
@@ -27,7 +27,7 @@ def write_sheet(path, triangles):
         columns = [f"{j / side:.7f}" for j in range(side + 1)]
         for i in range(side + 1):
             row = columns[i]
-            file.write("".join(f"{row} {columns[j]} {heights[(i + j) % (side + 1)]}\n" for j in range(side + 1)))
+            file.write("".join(f"{row} {columns[j]} {heights[(31 * i + j) % (side + 1)]}\n" for j in range(side + 1)))
         for i in range(side):
             a, b = i * (side + 1), (i + 1) * (side + 1)
             file.write("".join(f"3 {a + j} {b + j} {b + j + 1}\n3 {a + j} {b + j + 1} {a + j + 1}\n" for j in range(side)))
