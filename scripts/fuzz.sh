@@ -19,7 +19,7 @@ if ! command -v clang++ >/dev/null ||
 fi
 # Where the corpus of each target is.
 declare -A corpora=([triangle]=geometry/fuzz/corpus [lmd]=methods/fuzz/corpus)
-readonly EXECUTIONS=10000000
+readonly EXECUTIONS=10000000 INTERRUPTED=72
 readers=(off ply obj import tum experiment path manifest sweep journal result)
 for reader in "${readers[@]}"; do corpora[$reader]="fuzz/corpus/$reader"; done
 targets=("$@")
@@ -48,7 +48,8 @@ for target in "${targets[@]}"; do
   { time "$build/lmdbench_${target}_fuzz" "$corpus" "$ROOT/tests/${corpora[$target]}" \
     -max_total_time=$((minutes * 60)) -runs=$EXECUTIONS -timeout=30 -rss_limit_mb=4096 -max_len="$longest" \
     -print_final_stats=1 -artifact_prefix="$build/finds/$target-" 2>&1 </dev/null; } >"$log" 2>&1 && status=0 || status=$?
-  # One find ends libFuzzer; it is told by exit code and file.
+  # One find ends libFuzzer; it is told by exit code and file. An interrupted target (SIGINT) has told what it did.
+  ((status != INTERRUPTED)) || status=0
   ((status == 0)) || found=$((found + 1))
   awk -v target="$target" -v status="$status" '
     / cov: / { for (i = 1; i < NF; ++i) { if ($i == "cov:") edges = $(i + 1); if ($i == "corp:") corpus = $(i + 1) } }
