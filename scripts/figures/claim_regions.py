@@ -81,10 +81,12 @@ def judged(evidence):
         yield claim, words, needs, text, cells
 
 
-def two_loads(evidence, other):
-    """What the claims say of another run of some of the sweeps: settings whose verdicts agree, that one of the runs leaves undecided,
-    and that contradict each other."""
-    cells = {claim: found for claim, _, needs, _, found in judged(evidence) if needs}
+def two_loads(claims, other):
+    """What another run of some of the sweeps says: settings whose verdicts agree, that one of the runs leaves undecided, and that
+    contradict each other.
+    @param claims what judged() made of the one run
+    @param other evidence of the other"""
+    cells = {claim: found for claim, _, needs, _, found in claims if needs}
     rows, contradictions = [], []
     for claim, _, needs, _, found in judged(other):
         if needs is None or claim not in cells:
@@ -104,8 +106,8 @@ def two_loads(evidence, other):
 def markdown(evidence, other=None):
     """@param evidence {name: sweep, run or roles}
     @param other the same of another run, of some of them"""
-    summary, details = [], []
-    for claim, words, needs, text, cells in judged(evidence):
+    summary, details, claims = [], [], list(judged(evidence))
+    for claim, words, needs, text, cells in claims:
         if needs is None:
             summary.append([claim, words, "not measured: its sweep is not among these results", "-"])
             continue
@@ -114,7 +116,7 @@ def markdown(evidence, other=None):
         made = ", ".join(f"`{name.split('/')[0]}` at {evidence[name.split('/')[0]].commit()}" for name in needs)
         details += [f"## {claim}", "", f"{words}. From {made}.", "", *text]
     if other:
-        details += two_loads(evidence, other)
+        details += two_loads(claims, other)
     if "readings" in evidence:
         details += ["## Decisions E1 to E13", "", f"What the other reading would have changed. From `readings` at {evidence['readings'].commit()}.", "",
                     *readings(evidence["readings"], evidence.get("direction-memory"))]

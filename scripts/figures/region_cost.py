@@ -8,7 +8,7 @@ import math
 import numpy as np
 
 from intervals import bootstrap
-from region_rules import (FAILS, HOLDS, OPEN, all_of, blocks, cutoff_share, decide, groups, interval, joined, mesh, partner, shown, table,
+from region_rules import (FAILS, HOLDS, OPEN, all_of, blocks, cutoff_share, decide, groups, interval, joined, mesh, partner, shown, span, table,
                           triangles, usable)
 
 
@@ -22,19 +22,21 @@ def options_text(options):
 
 
 def k5(sweep):
-    rows, cells = [], {}
+    rows, cells, counts = [], {}, {}
     for point in usable(sweep.points):
         options = point.experiment["methods"][0]
         if not point.series.startswith("improved") or options.get("plain_cache"):
             continue
-        ratio = point.number("candidates") / point.number("kept") if point.number("kept") else math.nan
+        candidates, kept = point.number("candidates"), point.number("kept")
+        ratio = candidates / kept if kept else math.nan
         largest = point.number("reduction_ratio_maximum")
         if not point.number("seconds_in_contact") > 0:
             continue  # the path comes no nearer than the cutoff
         cell = HOLDS if 10 <= largest <= 40 else FAILS
         cells[f"{options_text(options)} | {mesh(point)}, cutoff {100 * cutoff_share(point):g} %"] = cell
-        rows.append([mesh(point), f"{100 * cutoff_share(point):g}", mean_edges(point), options["visibility"], options["reduction"],
-                     options.get("leaf_cones", "one-ring"), shown(point.number("candidates")), shown(point.number("kept")), shown(ratio),
+        choice = (options["visibility"], options["reduction"], options.get("leaf_cones", "one-ring"))
+        counts.setdefault((mesh(point), cutoff_share(point)), {})[choice] = candidates, kept
+        rows.append([mesh(point), f"{100 * cutoff_share(point):g}", mean_edges(point), *choice, shown(candidates), shown(kept), shown(ratio),
                      shown(largest), shown(100 * point.number("recall")), cell])
     text = ["Rule: the largest ratio of candidates to LMDs that the first reduction keeps lies between 10 and 40. Counts, the same in every "
             "run: no interval. The ratio over all searches is sum over sum.", ""]
@@ -48,22 +50,23 @@ def k5(sweep):
             continue
         growing.append(f"cutoff {100 * share:g} %: " + ", ".join(f"{name} {shown(value)}" for name, value in by_mesh.items())
                        + (" (grows)" if values == sorted(values) else " (does not grow)"))
-    return text + ["Ratio over all searches with density: " + "; ".join(growing) + ".", ""] + why_k5(rows), cells
+    return text + ["Ratio over all searches with density: " + "; ".join(growing) + ".", ""] + why_k5(counts), cells
 
 
-def why_k5(rows):
-    """What an option changes in candidates and in kept LMDs, against the defaults of the same meshes and cutoff."""
-    usual = {(row[0], row[1]): row for row in rows if row[3:6] == ["vertex-normal", "published", "one-ring"]}
+def why_k5(counts):
+    """What an option changes in candidates and in kept LMDs, against the defaults of the same meshes and cutoff.
+    @param counts {(mesh, cutoff): {(visibility, reduction, leaf cones): (candidates, kept)}}"""
+    usual = ("vertex-normal", "published", "one-ring")
     changes = {}
-    for row in rows:
-        base = usual.get((row[0], row[1]))
-        if base is None or base is row or not float(row[7]):
-            continue
-        name = ", ".join(f"{words} {value}" for words, value, other in zip(("visibility", "reduction", "leaf cones"), row[3:6], base[3:6]) if value != other)
-        changes.setdefault(name, []).append((float(row[6]) / float(base[6]), float(row[7]) / float(base[7])))
+    for settings in counts.values():
+        candidates, kept = settings.get(usual, (0, 0))
+        for options, (more, left) in settings.items():
+            if options == usual or not (kept and left):
+                continue
+            name = ", ".join(f"{words} {value}" for words, value, other in zip(("visibility", "reduction", "leaf cones"), options, usual) if value != other)
+            changes.setdefault(name, []).append((more / candidates, left / kept))
     if not changes:
         return []
-    span = lambda values: shown(min(values)) if min(values) == max(values) else f"{shown(min(values))} to {shown(max(values))}"  # noqa: E731
     return ["Why: the ratio follows the candidates, not what is kept. Against the default of the same meshes and cutoff "
             + "; ".join(f"{name} makes {span([c for c, _ in found])} times the candidates and keeps {span([k for _, k in found])} times the LMDs"
                         for name, found in changes.items()) + ".", ""]
@@ -93,7 +96,7 @@ def time_interval(columns, statistic):
 
 
 def k6(sweep):
-    rows, cells = [], {}
+    rows, cells, measured = [], {}, []
     originals = {(mesh(p), cutoff_share(p)): p for p in usable(sweep.of(series="original"))}
     for point in usable(sweep.of(series="improved") + sweep.of(series="improved-plain-cache")):
         one = originals.get((mesh(point), cutoff_share(point)))
@@ -102,8 +105,7 @@ def k6(sweep):
         a, b = Searches(one), Searches(point)
         if not a.search.size or not b.search.size:
             continue
-        pairs = [p.counter("node_pairs") for p in (one, point)]
-        leaves = [p.counter("leaf_pairs") for p in (one, point)]
+        nodes, leaves = (point.counter(name) / one.counter(name) for name in ("node_pairs", "leaf_pairs"))
         base = time_interval((b.search, a.search), lambda new, old: np.median(new) / np.median(old))
         share = time_interval((b.reduction, b.search), lambda reduction, search: np.quantile(reduction / search, 0.99))
         total = time_interval((b.search, b.reduction, a.search), lambda new, more, old: np.median(new + more) / np.median(old))
@@ -111,9 +113,10 @@ def k6(sweep):
         cache = "plain" if point.experiment["methods"][0].get("plain_cache") else "ours"
         cells[f"{mesh(point)}{', plain hash map as cache' if cache == 'plain' else ''} | cutoff {100 * cutoff_share(point):g} %"] = cell
         distances = point.counter("triangle_distances") / point.counter("leaf_pairs")
-        rows.append([mesh(point), f"{100 * cutoff_share(point):g}", mean_edges(point), cache, shown(pairs[1] / pairs[0]), shown(leaves[1] / leaves[0]),
-                     shown(distances), shown(1e3 * float(np.median(a.search))), interval(*base), shown(float(np.median(b.reduction / b.search))),
-                     interval(*share), interval(*total), cell])
+        middle = float(np.median(b.reduction / b.search))
+        measured.append((nodes, leaves, base[0], distances, middle, total[0]))
+        rows.append([mesh(point), f"{100 * cutoff_share(point):g}", mean_edges(point), cache, shown(nodes), shown(leaves), shown(distances),
+                     shown(1e3 * float(np.median(a.search))), interval(*base), shown(middle), interval(*share), interval(*total), cell])
     text = ["Rule: base ratio 0.8 to 1.25; the reduction can take as long as the search: 99th percentile of reduction / search at least 0.8; "
             "total ratio 1.5 to 2.5; all by the ends of their intervals (bootstrap over the searches in contact, widened to the single "
             "repetitions; points interleaved in random order). The counters beside them are the same in every run. Cache: ours is an "
@@ -121,20 +124,20 @@ def k6(sweep):
     text += table(["meshes", "cutoff [% of diagonal]", "[mean edges]", "cache", "node pairs, improved / original", "leaf pairs, improved / original",
                    "triangle distances, all, / leaf pairs", "original's search, median [ms]", "base ratio", "reduction / search, median",
                    "99th percentile", "total ratio", "K6"], rows)
-    return text + why_k6(rows), cells
+    return text + why_k6(measured), cells
 
 
-def why_k6(rows):
-    if not rows:
+def why_k6(measured):
+    """@param measured of each setting node pairs, leaf pairs (improved / original), base ratio, distances a leaf pair, reduction / search, total ratio"""
+    if not measured:
         return []
-    column = lambda index: [float(str(row[index]).split(" ")[0]) for row in rows]  # noqa: E731
-    span = lambda values: f"{shown(min(values))} to {shown(max(values))}"  # noqa: E731
-    pairs = column(4) + column(5)
+    nodes, leaves, base, distances, share, total = zip(*measured)
+    pairs = nodes + leaves
     same = f"Both test {'the same' if min(pairs) == max(pairs) == 1 else span(pairs) + ' times the'} node and leaf pairs"
-    return [f"Why: {same}, so that the base ratio ({span(column(8))}) is that of what stands at a leaf: one exact distance of two triangles, "
-            f"{span(column(6))} a leaf pair with those of the trackings, against 49 distances of points. The reduction takes {span(column(9))} of "
+    return [f"Why: {same}, so that the base ratio ({span(base)}) is that of what stands at a leaf: one exact distance of two triangles, "
+            f"{span(distances)} a leaf pair with those of the trackings, against 49 distances of points. The reduction takes {span(share)} of "
             "the search in the median; only single searches take it as long. So the total ratio is "
-            f"{span(column(11))} and rarely reaches twice.", ""]
+            f"{span(total)} and rarely reaches twice.", ""]
 
 
 def updates(point):
@@ -159,7 +162,7 @@ def update_ratio(one, other):
 
 
 def k7(sweep):
-    rows, ratios, cells = [], {}, {}
+    rows, ratios, cells, times_per_lmd = [], {}, {}, {}
     for one in usable(sweep.points):
         other = partner(one, sweep) if one.series.startswith("original") and "points" not in one.series else None
         found = update_ratio(one, other) if other is not None else None
@@ -167,6 +170,7 @@ def k7(sweep):
             continue
         ratios[(one.scene, one.period, cutoff_share(one))] = found[1]
         per_lmd = [1e9 * p.number("local_update_per_tracked_s") for p in (one, other)]
+        times_per_lmd.setdefault(one.scene, []).append(per_lmd)
         rows.append([one.scene, one.period, f"{100 * cutoff_share(one):g}", mean_edges(one), interval(*found),
                      shown(other.number("local_update_filled_mean_s") / one.number("local_update_filled_mean_s")), shown(per_lmd[1] / per_lmd[0]),
                      *(shown(1e6 * p.number("local_update_filled_median_s")) for p in (one, other)), *(shown(x) for x in per_lmd),
@@ -186,21 +190,27 @@ def k7(sweep):
     text += table(["scene", "search every [frames]", "cutoff [% of diagonal]", "[mean edges]", "improved / original, median", "mean", "per LMD carried",
                    "original, median [us]", "improved, median [us]", "original per LMD [ns]", "improved per LMD [ns]", "original, empty set [ns]",
                    "improved, empty set [ns]", "original, frames without LMD", "improved, frames without LMD"], rows)
-    return text + why_k7(rows), cells
+    return text + why_k7(times_per_lmd), cells
 
 
-def why_k7(rows):
+def why_k7(times_per_lmd):
+    """@param times_per_lmd {scene: [(original, improved)]} [ns]"""
     texts = []
     for word in ("hard", "soft"):
-        own = [row for row in rows if word in row[0]]
+        own = [pair for scene, pairs in times_per_lmd.items() if word in scene for pair in pairs]
         if own:
-            each = [[float(row[index]) for row in own] for index in (9, 10)]
-            texts.append(f"{word}: original {shown(min(each[0]))} to {shown(max(each[0]))} ns, improved {shown(min(each[1]))} to {shown(max(each[1]))} ns")
+            original, improved = (span(times) for times in zip(*own))
+            texts.append(f"{word}: original {original} ns, improved {improved} ns")
     if not texts:
         return []
     return ["Why: an update costs by the LMDs that it carries (sum of times over sum of LMDs: " + "; ".join(texts) + "). The original's is the dearer the "
             "larger the cutoff, because the updates that take over a search's set walk from all the pairs that it found; the improved one "
             "receives a reduced set. A median sees none of those updates, the mean and the time per LMD do.", ""]
+
+
+def against_the_others(runs, share):
+    """That share of the processor over those of local tracking and of the global thread, each a number a run."""
+    return [[run[share] / run[other] if run[other] > 0 else math.inf for run in runs] for other in ("local_share", "global_share")]
 
 
 def k8(roles):
@@ -209,22 +219,20 @@ def k8(roles):
     labels = list(dict.fromkeys(row["label"] for row in roles["rows"]))
     for label in labels:
         runs = [row for row in roles["rows"] if row["label"] == label]
-        ratios = {role: [run["device_share"] / run[f"{role}_share"] if run[f"{role}_share"] > 0 else math.inf for run in runs]
-                  for role in ("local", "global")}
-        ends = {role: (min(values), max(values)) for role, values in ratios.items()}
+        has_parts = all("force_share" in run for run in runs)
+        ratios = against_the_others(runs, "device_share")
         late = [run["together"]["p99_s"] for run in runs]
         if label.startswith(("original", "improved")):
             method, _, profile = label.partition("-")
             one_core = decide(min(late), max(late), at_most=1e-3)
-            cells[f"{method} | {profile}"] = all_of(*(decide(*limits, at_most=0.5) for limits in ends.values()), one_core)
-            if all("force_share" in run for run in runs):
-                alone = [[run["force_share"] / run[f"{role}_share"] if run[f"{role}_share"] > 0 else math.inf for run in runs] for role in ("local", "global")]
-                cells[f"{method}, the simulated device's motion left out | {profile}"] = all_of(
-                    *(decide(min(values), max(values), at_most=0.5) for values in alone), one_core)
+            need_less = lambda found: all_of(*(decide(min(values), max(values), at_most=0.5) for values in found), one_core)  # noqa: E731
+            cells[f"{method} | {profile}"] = need_less(ratios)
+            if has_parts:
+                cells[f"{method}, the simulated device's motion left out | {profile}"] = need_less(against_the_others(runs, "force_share"))
         middle = lambda name: shown(1e3 * float(np.median([run[name] for run in runs])))  # noqa: E731
         stage = lambda name, key: shown(1e6 * float(np.median([run[name][key] for run in runs])))  # noqa: E731
-        rows.append([label, len(runs), middle("device_share"), middle("force_share") if all("force_share" in run for run in runs) else "-", middle("local_share"), middle("global_share"),
-                     *(interval(float(np.median(ratios[role])), ends[role]) for role in ("local", "global")),
+        rows.append([label, len(runs), middle("device_share"), middle("force_share") if has_parts else "-", middle("local_share"), middle("global_share"),
+                     *(interval(float(np.median(values)), (min(values), max(values))) for values in ratios),
                      *(stage("device", key) for key in ("median_s", "p99_s", "maximum_s")),
                      *(stage("together", key) for key in ("median_s", "p99_s", "maximum_s")),
                      max(run["together_above_1ms"] for run in runs), cells.get(label.replace("-", " | ", 1), "")])

@@ -24,6 +24,11 @@ def interval(value, limits):
     return f"{shown(value)} [{shown(limits[0])}, {shown(limits[1])}]"
 
 
+def span(values):
+    """From the least to the largest; one number where both are shown alike."""
+    return " to ".join(dict.fromkeys((shown(min(values)), shown(max(values)))))
+
+
 def table(headings, rows):
     return ["| " + " | ".join(headings) + " |", "|" + "---|" * len(headings),
             *("| " + " | ".join(str(cell) for cell in row) + " |" for row in rows), ""]

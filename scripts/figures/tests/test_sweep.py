@@ -148,6 +148,13 @@ class Intervals(unittest.TestCase):
         self.assertEqual(intervals.bootstrap(data, np.mean), intervals.bootstrap(data, np.mean))
 
 
+def role_row(label, device_share, **more):
+    """A repetition as `lmdbench-study roles --json` writes it."""
+    stage = {"median_s": 1e-6, "p99_s": 2e-6, "maximum_s": 3e-6}
+    return {"label": label, "device_share": device_share, "local_share": 1.0, "global_share": 2.0, "device": stage, "together": stage,
+            "together_above_1ms": 0, **more}
+
+
 class Verdicts(unittest.TestCase):
     def test_one_event_decides_nothing(self):
         self.assertEqual(claim_regions.decide(0.5, 1.5, at_least=1.0), claim_regions.OPEN)
@@ -233,18 +240,13 @@ class Verdicts(unittest.TestCase):
 
     def test_k8_needs_every_repetition(self):
         def roles(*shares):
-            stage = {"median_s": 1e-6, "p99_s": 2e-6, "maximum_s": 3e-6}
-            return {"experiment": "closed", "rows": [
-                {"label": "improved-hard", "device_share": share, "local_share": 1.0, "global_share": 2.0, "device": stage, "together": stage,
-                 "together_above_1ms": 0} for share in shares]}
+            return {"experiment": "closed", "rows": [role_row("improved-hard", share) for share in shares]}
         self.assertEqual(list(claim_regions.k8(roles(0.1, 0.2))[1].values()), [claim_regions.HOLDS])
         self.assertEqual(list(claim_regions.k8(roles(0.1, 0.7))[1].values()), [claim_regions.OPEN])
         self.assertEqual(list(claim_regions.k8(roles(0.6, 0.7))[1].values()), [claim_regions.FAILS])
 
     def test_k8_knows_the_device_loop_without_its_simulation(self):
-        stage = {"median_s": 1e-6, "p99_s": 2e-6, "maximum_s": 3e-6}
-        row = {"label": "original-hard", "device_share": 9.0, "force_share": 0.1, "local_share": 1.0, "global_share": 2.0, "device": stage,
-               "together": stage, "together_above_1ms": 0}
+        row = role_row("original-hard", 9.0, force_share=0.1)
         text, cells = claim_regions.k8({"experiment": "closed", "rows": [row]})
         self.assertEqual(cells, {"original | hard": claim_regions.FAILS,
                                  "original, the simulated device's motion left out | hard": claim_regions.HOLDS})
@@ -254,21 +256,20 @@ class Verdicts(unittest.TestCase):
                          claim_regions.FAILS)
 
     def test_two_loads_that_contradict_each_other_are_named(self):
-        stage = {"median_s": 1e-6, "p99_s": 2e-6, "maximum_s": 3e-6}
         def roles(hard, soft):
-            rows = [{"label": f"original-{name}", "device_share": share, "local_share": 1.0, "global_share": 2.0, "device": stage,
-                     "together": stage, "together_above_1ms": 0} for name, shares in (("hard", hard), ("soft", soft)) for share in shares]
+            rows = [role_row(f"original-{name}", share) for name, shares in (("hard", hard), ("soft", soft)) for share in shares]
             return {"roles": claim_regions.Roles(experiment="closed", rows=rows, context={"build": {"git_commit": "1234567890123"}})}
-        text = "\n".join(claim_regions.two_loads(roles([0.1], [0.1]), roles([0.1, 0.7], [0.8])))
+        claims = list(claim_regions.judged(roles([0.1], [0.1])))
+        text = "\n".join(claim_regions.two_loads(claims, roles([0.1, 0.7], [0.8])))
         self.assertIn("| K8 | 2 | 0 | 1 | 1 |", text)
         self.assertIn("`roles` at 123456789012)", text)
         self.assertIn("Contradicting: K8, original | soft.", text)
-        self.assertNotIn("Contradicting", "\n".join(claim_regions.two_loads(roles([0.1], [0.1]), roles([0.1, 0.7], [0.2]))))
+        self.assertNotIn("Contradicting", "\n".join(claim_regions.two_loads(claims, roles([0.1, 0.7], [0.2]))))
 
     def test_why_counts_what_an_option_changes(self):
-        base = ["m", "5", "1", "vertex-normal", "published", "one-ring", "100", "10"]
-        rows = [base, [*base[:5], "edge-neighbours", "30", "10"], [*base[:3], "off", *base[4:6], "500", "5"]]
-        text = "\n".join(region_cost.why_k5(rows))
+        counts = {("m", 0.05): {("vertex-normal", "published", "one-ring"): (100, 10), ("vertex-normal", "published", "edge-neighbours"): (30, 10),
+                                ("off", "published", "one-ring"): (500, 5), ("vertex-normal", "published", "own"): (0, 0)}}
+        text = "\n".join(region_cost.why_k5(counts))
         self.assertIn("leaf cones edge-neighbours makes 0.3 times the candidates and keeps 1 times the LMDs", text)
         self.assertIn("visibility off makes 5 times the candidates and keeps 0.5 times the LMDs", text)
 
