@@ -7,8 +7,8 @@
 # results/claims/claim-regions.md. All of it takes about an hour of processor time.
 #   scripts/claims.sh [PART...]   only these, such as claim-k3, roles or verdicts
 #   LMDBENCH_BUILD=DIR            where the programs are (build/release)
-#   LMDBENCH_CLAIMS=DIR           where the results go (results/claims); of a second folder the sweeps are compared with
-#                                 those of the first: LMDBENCH_CLAIMS=results/claims-busy scripts/claims.sh claim-k5 claim-k7 roles,
+#   LMDBENCH_CLAIMS=DIR           where the results go (results/claims). What is in results/claims-busy is compared with them:
+#                                 LMDBENCH_CLAIMS=results/claims-busy scripts/claims.sh claim-k5 claim-k7 roles
 #                                 on another load, then scripts/claims.sh verdicts
 set -euo pipefail
 # shellcheck source=scripts/lib.sh
@@ -48,6 +48,12 @@ PYTHON_END
 sweep() { "$BUILD/lmdbench" work-precision "experiments/sweeps/$1.json" --out "$OUT/$1.h5" >"$OUT/$1.txt"; }
 run() { "$BUILD/lmdbench" run "experiments/$1.json" --out "$OUT/$2.h5" "${@:3}" </dev/null >&2; }
 
+# Those of the files that are there, a line each.
+existing() {
+  local file
+  for file in "$@"; do [[ ! -e $file ]] || printf '%s\n' "$file"; done
+}
+
 part() {
   case "$1" in
     claim-k1) step "Paths" make_paths && step "$1" sweep "$1" ;;
@@ -58,16 +64,11 @@ part() {
         --set /probes/truth/stride_frames=0 --set /probes/fcl/stride_frames=0
       ;;
     verdicts)
-      local evidence=("$OUT"/claim-*.h5) file
-      for file in "$OUT"/{readings,bunny-cut,direction-memory}.h5 "$OUT/roles.json"; do
-        if [[ -e $file ]]; then evidence+=("$file"); fi
-      done
-      local other=()
-      for file in "$OTHER"/claim-*.h5 "$OTHER/roles.json"; do
-        if [[ -e $file ]]; then other+=("$file"); fi
-      done
+      local more other
+      mapfile -t more < <(existing "$OUT"/{readings,bunny-cut,direction-memory}.h5 "$OUT/roles.json")
+      mapfile -t other < <(existing "$OTHER"/claim-*.h5 "$OTHER/roles.json")
       ((${#other[@]} == 0)) || other=(--other "${other[@]}")
-      step "Verdicts" "$PYTHON" scripts/figures/claim_regions.py "${evidence[@]}" "${other[@]}" --out "$OUT" >&2
+      step "Verdicts" "$PYTHON" scripts/figures/claim_regions.py "$OUT"/claim-*.h5 "${more[@]}" "${other[@]}" --out "$OUT" >&2
       ;;
     *) step "$1" sweep "$1" ;;
   esac

@@ -35,13 +35,16 @@ mkdir -p "$build/finds" "$build/logs"
 export ASAN_OPTIONS="${ASAN_OPTIONS:-detect_leaks=0:allocator_may_return_null=1}"
 # What readers of named files are given is written anew for every execution: to memory, where there is such a place.
 [[ ! -d /dev/shm ]] || export TMPDIR=/dev/shm
-# Finds that the target does not repeat are none: of a child process, which may crash in HDF5 or assimp (that is what it is
-# for) and writes a find all the same, and of a machine that was busy elsewhere.
+# What a target has outlived and does not repeat is no find: of a child process, which may crash in HDF5 or assimp (that is
+# what it is for) and writes a find all the same, and slow inputs of a machine that was busy elsewhere.
 drop_what_does_not_repeat() {
   local find scratch
   scratch="$(mktemp -d)"
   for find in "$build/finds/$1"-*; do
-    [[ ! -e $find ]] || ! "$build/lmdbench_$1_fuzz" "$find" -timeout=30 -artifact_prefix="$scratch/" >/dev/null 2>&1 </dev/null || rm "$find"
+    [[ -e $find ]] || continue
+    if "$build/lmdbench_$1_fuzz" "$find" -timeout=30 -artifact_prefix="$scratch/" >/dev/null 2>&1 </dev/null; then
+      rm "$find"
+    fi
   done
   rm -rf "$scratch"
 }
@@ -60,8 +63,11 @@ for target in "${targets[@]}"; do
     -print_final_stats=1 -artifact_prefix="$build/finds/$target-" 2>&1 </dev/null; } >"$log" 2>&1 && status=0 || status=$?
   # One find ends libFuzzer; it is told by exit code and file. An interrupted target (SIGINT) has told what it did.
   ((status != INTERRUPTED)) || status=0
-  drop_what_does_not_repeat "$target"
-  ((status == 0)) || found=$((found + 1))
+  if ((status == 0)); then
+    drop_what_does_not_repeat "$target"
+  else
+    found=$((found + 1))
+  fi
   awk -v target="$target" -v status="$status" '
     / cov: / { for (i = 1; i < NF; ++i) { if ($i == "cov:") edges = $(i + 1); if ($i == "corp:") corpus = $(i + 1) } }
     /^stat::number_of_executed_units/ { executions = $2 }

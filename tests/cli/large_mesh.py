@@ -1,7 +1,8 @@
 # SPDX-FileCopyrightText: The lmdbench authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Writes a rough sheet of very many triangles (no two in one plane) as OFF and lets the program read it: with the usual limits it must be refused
-by name, with the limit raised it must be read. Prints processor time and peak memory of each as a table.
+"""Writes a rough sheet of very many triangles (no two in one plane) as OFF and lets the program read it: with the usual
+limits it must be refused by name, with the limit raised it must be read. Prints processor time and peak memory of each
+as a table.
 
     large_mesh.py PROGRAM [--triangles N] [--folder FOLDER]
 """

@@ -151,7 +151,7 @@ Certified::Certified(Scene scene, const CertifiedOptions& options, WideKernel ke
       target_(options.kernel),
       kernel_(kernel),
       flat_pieces_(scene_) {
-  const UseVectorTarget check(target_);
+  const UseVectorTarget refused_here_if_not_available(target_);
   double extent = hierarchy_moving_.radius;
   for (const auto& body : scene_.fixed) {
     hierarchies_fixed_.push_back(&hierarchy_of(*body, joins_flat_));

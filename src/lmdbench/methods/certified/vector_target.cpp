@@ -34,8 +34,7 @@ std::int64_t mask_of(VectorTarget target) {
 
 bool is_available(VectorTarget target) {
   // Of its own accord Highway names the plain form for no processor.
-  return target == VectorTarget::BEST ||
-         (mask_of(target) & HWY_TARGETS & (supported_targets() | HWY_SCALAR | HWY_EMU128)) != 0;
+  return (mask_of(target) & HWY_TARGETS & (supported_targets() | HWY_SCALAR | HWY_EMU128)) != 0;
 }
 
 UseVectorTarget::UseVectorTarget(VectorTarget target) : is_best_(target == VectorTarget::BEST) {
@@ -49,7 +48,7 @@ UseVectorTarget::UseVectorTarget(VectorTarget target) : is_best_(target == Vecto
 }
 
 UseVectorTarget::~UseVectorTarget() {
-  if (!is_best_) hwy::GetChosenTarget().Update(supported_targets());
+  if (!is_best_) hwy::GetChosenTarget().Update(mask_of(VectorTarget::BEST));
 }
 
 }  // namespace lmdbench
