@@ -11,6 +11,8 @@
 
 #include <algorithm>
 #include <map>
+#include <memory>
+#include <mutex>
 #include <numeric>
 #include <vector>
 
@@ -135,6 +137,22 @@ Json schema_at(const std::vector<std::string>& place, const Json& root, const Js
   return follow(*schema, root);
 }
 
+/// The validator's form of a schema. It is kept: making it takes longer than most documents take to check, and a sweep
+/// checks one document a point.
+const valijson::Schema& prepared(const Json& schema) {
+  static std::mutex mutex;
+  static std::map<Json, std::unique_ptr<const valijson::Schema>> known;
+  const std::scoped_lock lock(mutex);
+  auto place = known.find(schema);
+  if (place == known.end()) {
+    auto made = std::make_unique<valijson::Schema>();
+    valijson::SchemaParser(valijson::SchemaParser::kDraft7)
+        .populateSchema(valijson::adapters::NlohmannJsonAdapter(schema), *made);
+    place = known.emplace(schema, std::move(made)).first;
+  }
+  return *place->second;
+}
+
 /// What a value must be, in words, from its part of the schema.
 std::string expectation(const Json& schema) {
   std::string text;
@@ -163,12 +181,9 @@ void refuse_unknown_keys(const Json& document, const Json& schema, const std::st
 }
 
 void validate_against_schema(const Json& document, const Json& schema_json, const std::string& file) {
-  valijson::Schema schema;
-  valijson::SchemaParser(valijson::SchemaParser::kDraft7)
-      .populateSchema(valijson::adapters::NlohmannJsonAdapter(schema_json), schema);
   valijson::ValidationResults results;
   const valijson::adapters::NlohmannJsonAdapter target(document);
-  if (valijson::Validator().validate(schema, target, &results)) return;
+  if (valijson::Validator().validate(prepared(schema_json), target, &results)) return;
 
   // The validator reports the innermost violation first, then every enclosing
   // object: only the first one helps.

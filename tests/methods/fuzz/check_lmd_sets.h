@@ -23,8 +23,8 @@ struct FuzzScene {
 /// duplicate and touching triangles are common. Nothing for too few bytes or meshes without triangles.
 std::optional<FuzzScene> scene_from_bytes(std::span<const std::uint8_t> bytes);
 
-/// Empty, or what is broken: `certified` is `exhaustive`, every number is finite that must be, each LMD's
-/// distance is that of its points, and for closed manifold meshes that are apart the candidates of the
+/// Empty, or what is broken: `certified` is `exhaustive`, both sets are in their order, every number is finite that
+/// must be, each LMD's distance is that of its points, and for closed manifold meshes that are apart the candidates of the
 /// improved algorithm without its visibility test hold a pair as near as the nearest LMD.
 std::string broken_promise(const FuzzScene& fuzz);
 

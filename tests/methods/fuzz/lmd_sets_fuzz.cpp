@@ -5,7 +5,7 @@
 #include <cstdio>
 #include <cstdlib>
 
-/// libFuzzer's entry: lmdbench_lmd_fuzz tests/methods/fuzz/corpus -max_len=160. Finds end up in the corpus,
+/// libFuzzer's entry: lmdbench_lmd_fuzz tests/methods/fuzz/corpus. Finds end up in the corpus,
 /// which the test LmdFuzzCorpus replays.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const auto fuzz = lmdbench::testing::scene_from_bytes({data, size});
