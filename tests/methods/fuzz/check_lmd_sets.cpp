@@ -126,11 +126,11 @@ std::string broken_promise(const FuzzScene& fuzz) {
     if (lmd.distance > fuzz.scene.cutoff + 1e-12) return complain("an LMD lies beyond the cutoff");
   }
   // Distances that are equal but for their rounding may stand in either order.
-  const bool same = std::is_permutation(truth.begin(), truth.end(), certified.begin(), certified.end(),
-                                        [](const Lmd& a, const Lmd& b) {
-                                          return same_feature_pair(a, b) && a.intersecting == b.intersecting &&
-                                                 std::abs(a.distance - b.distance) <= 1e-12;
-                                        });
+  const bool same = std::is_permutation(
+      truth.begin(), truth.end(), certified.begin(), certified.end(), [](const Lmd& a, const Lmd& b) {
+        return same_feature_pair(a, b) && a.intersecting == b.intersecting &&
+               std::abs(a.distance - b.distance) <= 1e-12;
+      });
   if (!same) return complain("certified is not exhaustive");
   for (const LmdSet& lmds : {truth, certified})
     if (!std::is_sorted(lmds.begin(), lmds.end(), lmd_less)) return complain("a set is not in its order");
