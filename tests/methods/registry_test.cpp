@@ -67,9 +67,10 @@ TEST(Registry, MethodsCountWhatTheyDescribe) {
   std::vector<Pose> grazing;
   for (int i = 0; i < 5; ++i) grazing.push_back(testing::grazing_pose(curved, 0.01, random));
   Pose over, tilted;
-  over.translation = tilted.translation = {0.01, 0.02, 0.24};
-  // So little that rounding decides, triangle by triangle.
-  tilted.rotation = Eigen::AngleAxisd(1e-9, Vec3::UnitX());
+  over.translation = {0.01, 0.02, 0.24};
+  // So near and by so little that rounding decides, triangle by triangle.
+  tilted.translation = {0.01, 0.02, 0.15 + 1e-8};
+  tilted.rotation = Eigen::AngleAxisd(2e-8, Vec3::UnitX());
   for (const MethodDescription& description : method_descriptions()) {
     WorkCounters searched, tracked;
     const auto count = [&](const Scene& scene, const std::vector<Pose>& poses) {

@@ -16,6 +16,10 @@ inline constexpr double FIRST_ORDER_TOLERANCE = 1e-10;
 /// together although others are tilted by a little more. A plateau needs a piece that passes the narrow test.
 inline constexpr double PLATEAU_PIECE_TOLERANCE = 10.0 * FIRST_ORDER_TOLERANCE;
 
+/// Flat features of exact meshes at no larger angle (a sine) are parallel, whole: PLATEAU_PIECE_TOLERANCE on either mesh, and
+/// as much for the rounding that is granted beside it. Beyond it the test passes for no piece that has a size.
+inline constexpr double PARALLEL_TILT = 3.0 * PLATEAU_PIECE_TOLERANCE;
+
 /// The first-order LMD condition (DEFINITION.md) for one side: no point of the triangles incident to
 /// `feature` is nearer to the other point to first order, and the direction leaves on the outer side,
 ///   n . (x - p) <= 0 for every corner x of those triangles, n . pseudo_normal > 0.

@@ -42,8 +42,9 @@ ParallelRule ParallelRule::of(const Surface& moving, const FlatRegions& moving_r
 }
 
 bool ParallelRule::drifts_sideways(const Vec3& u, const Vec3& v) const {
-  const double length_u = u.norm(), length_v = v.norm();
-  return is_exact && u.cross(v).norm() / std::max(length_u, length_v) > allowance;
+  const double length_u = u.norm(), length_v = v.norm(), crossed = u.cross(v).norm();
+  return is_exact && crossed > PARALLEL_TILT * length_u * length_v &&
+         crossed / std::max(length_u, length_v) > allowance;
 }
 
 bool ParallelRule::is_speck(const ConvexPolygon& polygon, double area) const {
@@ -138,7 +139,8 @@ void FlatPieces::add(const Side& moving, const Side& fixed, std::int32_t body, c
 void FlatPieces::offer_faces(const Side& moving, const Side& fixed, std::int32_t body) {
   const Plane plane_m = moving.plane(), plane_f = fixed.plane();
   const ParallelRule& rule = rules_[static_cast<std::size_t>(body)];
-  if ((plane_m.normal + plane_f.normal).norm() > rule.largest_tilt) return;
+  const double tilt = (plane_m.normal + plane_f.normal).norm();
+  if (tilt > rule.largest_tilt) return;
   const Vec3 n = contact_direction(plane_m.normal, plane_f.normal, moving.surface, fixed.surface);
   const PlanarFrame frame(fixed.corners[0], n);
   const ConvexPolygon a(frame, moving.corners), b(frame, fixed.corners);
@@ -146,6 +148,7 @@ void FlatPieces::offer_faces(const Side& moving, const Side& fixed, std::int32_t
   const AreaAndCentroid whole = overlap.measure();
   if (rule.is_speck(overlap, whole.area)) return;
   Piece piece{{body, 2, {FeatureKind::FACE, moving.region()}, {FeatureKind::FACE, fixed.region()}},
+              tilt,
               std::numeric_limits<double>::infinity(),
               -std::numeric_limits<double>::infinity(),
               {},
@@ -187,7 +190,10 @@ void FlatPieces::offer_edge_face(const Side& of_edge, std::size_t side, const Si
   const FeatureId straight{FeatureKind::EDGE, of_edge.straight(side)};
   const FeatureId region{FeatureKind::FACE, of_face.region()};
   const bool forward = of_edge.is_moving;
+  // Of the whole line: that of one edge says less.
+  const Vec3 whole = of_edge.whole(straight.index);
   Piece piece{{body, 1, forward ? straight : region, forward ? region : straight},
+              std::abs(whole.dot(plane.normal)) / whole.norm(),
               std::min(d0, d1),
               std::max(d0, d1),
               {},
@@ -208,9 +214,10 @@ void FlatPieces::offer_edges(const Side& moving, std::size_t side_moving, const 
   const Vec3 v = fixed.corners[(side_fixed + 1) % 3] - b0;
   const double length_u = u.norm(), length_v = v.norm();
   const ParallelRule& rule = rules_[static_cast<std::size_t>(body)];
+  const Vec3 whole_u = moving.whole(moving.straight(side_moving));
+  const Vec3 whole_v = fixed.whole(fixed.straight(side_fixed));
   if (!(length_u > 0.0 && length_v > 0.0) || u.cross(v).norm() > rule.largest_tilt * length_u * length_v ||
-      rule.drifts_sideways(moving.whole(moving.straight(side_moving)),
-                           fixed.whole(fixed.straight(side_fixed))))
+      rule.drifts_sideways(whole_u, whole_v))
     return;
   const double sense = u.dot(v) > 0.0 ? 1.0 : -1.0;
   const Vec3 w = (u / length_u + sense / length_v * v).normalized();
@@ -237,6 +244,7 @@ void FlatPieces::offer_edges(const Side& moving, std::size_t side_moving, const 
                1,
                {FeatureKind::EDGE, moving.straight(side_moving)},
                {FeatureKind::EDGE, fixed.straight(side_fixed)}},
+              whole_u.cross(whole_v).norm() / (whole_u.norm() * whole_v.norm()),
               std::min({d0, d1, d.norm()}),
               std::max({d0, d1, d.norm()}),
               {},
@@ -323,7 +331,8 @@ void FlatPieces::append_parallel(std::vector<LocalMinimum>& minima, std::size_t 
       greatest = std::max(greatest, pieces_[end].greatest_distance);
     }
     // Faces that cross have no distance: their triangles say so.
-    if (least > 0.0 && greatest - least <= rules_[static_cast<std::size_t>(place.body)].allowance) {
+    if (least > 0.0 &&
+        rules_[static_cast<std::size_t>(place.body)].is_parallel(pieces_[begin].tilt, greatest - least)) {
       if (place.moving.kind != place.fixed.kind)
         over_faces.push_back(std::span(pieces_).subspan(begin, end - begin));
       else

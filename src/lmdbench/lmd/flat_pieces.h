@@ -4,6 +4,7 @@
 
 #include <lmdbench/geometry/convex_polygon.h>
 #include <lmdbench/geometry/pose.h>
+#include <lmdbench/lmd/first_order.h>
 #include <lmdbench/lmd/plateau.h>
 #include <lmdbench/lmd/scene.h>
 #include <lmdbench/mesh/flat_regions.h>
@@ -22,7 +23,7 @@ double parallel_tolerance(const Surface& moving, const Surface& fixed);
 /// Features of rounded meshes at a larger angle (a sine) are never parallel: at that tilt no tolerance that
 /// rounding leaves spans more than a speck.
 inline constexpr double LARGEST_PARALLEL_TILT = 5e-5;
-/// The same where no mesh was rounded: beyond it the first-order test of no piece of a plateau passes.
+/// The same where no mesh was rounded: beyond it rounding explains no tilt.
 inline constexpr double LARGEST_EXACT_TILT = 1e-8;
 
 /// When flat features of two meshes are parallel: one rule for the truth and for `certified`.
@@ -32,13 +33,18 @@ struct ParallelRule {
   /// planes that are planar to rounding only, and a small triangle of such a plane says little of its direction: that
   /// of the whole region counts.
   double allowance;
-  double largest_tilt;  ///< Sine.
+  double largest_tilt;  ///< Sine; beyond it nothing is parallel.
   double least_width;   ///< Thinner places are none [m].
   bool is_exact;        ///< No mesh has a planar tolerance.
 
   static ParallelRule of(const Surface& moving, const FlatRegions& moving_regions, const Surface& fixed,
                          const FlatRegions& fixed_regions);
 
+  /// @param tilt sine of the angle between the planes or lines
+  /// @param variation of their distance over the place where they face each other [m]
+  bool is_parallel(double tilt, double variation) const {
+    return tilt <= largest_tilt && (variation <= allowance || (is_exact && tilt <= PARALLEL_TILT));
+  }
   /// Edges of exact meshes that cross at a tiny angle drift apart sideways long before their distance tells.
   /// @param u, v from end to end of the straight edges
   bool drifts_sideways(const Vec3& u, const Vec3& v) const;
@@ -56,8 +62,8 @@ Vec3 contact_direction(const Vec3& normal_moving, const Vec3& normal_fixed, cons
 /// precision by 1e-15: to the letter the contact of two faces is then one corner, the contact of the next pose
 /// another one. So two flat features, each a flat region or a straight edge, are parallel when the distance
 /// between their planes or lines varies by no more than the `ParallelRule` allows over the place where they face
-/// each other; all of that place is then a set of minimisers, at the distance of its centroid. The rule is the
-/// same seen from either mesh.
+/// each other, or when they are tilted by no more than PARALLEL_TILT; all of that place is then a set of minimisers, at the
+/// distance of its centroid. The rule is the same seen from either mesh.
 ///
 /// This class finds such places triangle by triangle, edge by edge: slow and simple, for the ground truth, and for
 /// `certified` where it leaves a place to its triangles.
@@ -98,6 +104,7 @@ class FlatPieces {
   };
   struct Piece {
     Place place;
+    double tilt;
     double least_distance, greatest_distance;
     LocalMinimum minimum;
     OverFace over;

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/geometry/convex_polygon.h>
+#include <lmdbench/lmd/first_order.h>
 #include <lmdbench/lmd/minimiser_set.h>
 #include <lmdbench/lmd/plateau.h>
 
@@ -86,7 +87,7 @@ std::vector<InContact> in_contact(const Surface& surface, const RigidTransform& 
     for (const Vec3& corner : triangle) size = std::max(size, (corner - p).norm());
     std::vector<Vec2> corners;
     double farthest = 0.0;
-    for (const Vec3& x : near_plane(triangle, p, n, reach + 2.0 * PLATEAU_TOLERANCE * size)) {
+    for (const Vec3& x : near_plane(triangle, p, n, reach + 1.5 * PARALLEL_TILT * size)) {
       corners.push_back(frame_W.flat(x));
       farthest = std::max(farthest, (corners.back() - own).norm());
     }

@@ -38,19 +38,18 @@ bool feature_pair_less(const Lmd& a, const Lmd& b) {
          std::tie(b.fixed_body, b.feature_moving, b.feature_fixed);
 }
 
-/// Equal distance and direction up to rounding of the points' coordinates and up to the tilt that the
-/// first-order test lets pass on each side: faces tilted by so little count as parallel there, so they must
-/// here, or one plateau would be reported corner by corner.
+/// Equal distance and direction up to rounding of the points' coordinates and up to the tilt at which features still count as
+/// parallel: or one plateau would be reported corner by corner.
 /// @param tolerance of rounded meshes [m]
 bool same_plane_of_contact(const Lmd& a, const Lmd& b, double tolerance) {
   const double coordinates =
       std::max(a.point_moving.cwiseAbs().maxCoeff(), a.point_fixed.cwiseAbs().maxCoeff());
   const double rounding = tolerance + 64.0 * std::numeric_limits<double>::epsilon() * coordinates +
-                          2.0 * PLATEAU_PIECE_TOLERANCE * (a.point_moving - b.point_moving).norm();
+                          PARALLEL_TILT * (a.point_moving - b.point_moving).norm();
   if (std::abs(a.distance - b.distance) > PLATEAU_TOLERANCE * std::max(a.distance, b.distance) + rounding)
     return false;
   const Vec3 difference = (a.point_fixed - a.point_moving) - (b.point_fixed - b.point_moving);
-  return difference.norm() <= PLATEAU_TOLERANCE * std::max(a.distance, b.distance) + rounding;
+  return difference.norm() <= PARALLEL_TILT * std::max(a.distance, b.distance) + rounding;
 }
 
 std::size_t root_of(std::vector<std::size_t>& parents, std::size_t i) {
@@ -74,7 +73,7 @@ std::vector<bool> have_company(std::span<const LocalMinimum> minima, std::span<c
     const Lmd &a = minima[order[k - 1]].lmd, &b = minima[order[k]].lmd;
     // At least what same_plane_of_contact grants: two points are less than four coordinates apart.
     const double granted = tolerances[static_cast<std::size_t>(b.fixed_body)] +
-                           PLATEAU_TOLERANCE * b.distance + 9.0 * PLATEAU_PIECE_TOLERANCE * coordinates;
+                           PLATEAU_TOLERANCE * b.distance + 4.5 * PARALLEL_TILT * coordinates;
     if (a.fixed_body == b.fixed_body && b.distance - a.distance <= granted)
       result[order[k - 1]] = result[order[k]] = true;
   }

@@ -22,8 +22,8 @@ struct LocalMinimum {
   bool strict = true;
 };
 
-/// Relative difference of two distances, and angle of two directions, below which
-/// neighbouring minima are one plateau.
+/// Relative difference of two distances below which neighbouring minima are one plateau; their directions may be
+/// PARALLEL_TILT apart.
 inline constexpr double PLATEAU_TOLERANCE = 1e-9;
 
 /// Leaves one entry a feature pair, sorted by body and features: of the highest dimension the nearest, of

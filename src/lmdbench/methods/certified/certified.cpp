@@ -29,9 +29,9 @@ constexpr double FILTER_MARGIN = 1e-5;
 constexpr double RELATIVE_TINY = 1e-8;
 /// Motions of a frame that are larger than this many cutoffs are jumps: next to nothing would be kept.
 constexpr double LARGEST_PACE = 1.0;
-/// Two minima whose distances differ by more than this part of them cannot be on one
-/// plateau (its tolerance is 1e-9).
-constexpr double APART = 1e-6;
+/// Two minima whose distances differ by more than this part of them, and this part of the coordinates, cannot be on one
+/// plateau: its tolerance is 1e-9 and, for points that are less than four coordinates apart, PARALLEL_TILT.
+constexpr double APART = 1e-6, SLOPE = 4.5 * PARALLEL_TILT;
 
 /// Pairs between the one that is decided and the one whose data is fetched; twice that for the indices,
 /// without which the rest is not known.
@@ -349,7 +349,7 @@ void Certified::report(const RigidTransform& X_WM, double coordinates, LmdSet& l
   for (std::size_t i = 0; i < minima_.size(); ++i) {
     for (std::size_t j = i + 1; j < minima_.size(); ++j) {
       const double a = minima_[i].lmd.distance, b = minima_[j].lmd.distance;
-      if (std::abs(a - b) > APART * std::max(a, b) + RELATIVE_TOUCH * coordinates + tolerance) continue;
+      if (std::abs(a - b) > APART * std::max(a, b) + SLOPE * coordinates + tolerance) continue;
       merge();
       return;
     }
@@ -480,7 +480,8 @@ void Certified::search(const Pose& X_WM, LmdSet& lmds, WorkCounters& counters) {
   if (in_doubt_) {
     if (!by_single_features_)
       by_single_features_ = std::make_unique<Certified>(
-          scene_, CertifiedOptions{.frame_coherence = coherent_}, kernel_, FlatFeatures::SINGLE);
+          scene_, CertifiedOptions{.frame_coherence = coherent_, .kernel = target_}, kernel_,
+          FlatFeatures::SINGLE);
     by_single_features_->search(X_WM, lmds, counters);
     return;
   }

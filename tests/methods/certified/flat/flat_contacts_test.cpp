@@ -67,8 +67,22 @@ TEST(FlatContacts, TiltedByMoreThanAnyToleranceAreNone) {
   EXPECT_FALSE(tilted.is_in_doubt);
 }
 
-TEST(FlatContacts, TiltedByMoreThanRoundingAreInDoubt) {
-  EXPECT_TRUE(judged(1e-3, 8e-9).is_in_doubt);
+TEST(FlatContacts, TiltsAreParallelOrClearAtTheDistancesOfAContact) {
+  for (const double tilt : {1e-10, 1e-9, 2.9e-9}) {
+    const Judgement parallel = judged(1e-3, tilt);
+    EXPECT_EQ(parallel.verdict, FlatVerdict::FOUND) << tilt;
+    EXPECT_FALSE(parallel.is_in_doubt) << tilt;
+  }
+  for (const double tilt : {3.1e-9, 8e-9, 2e-8}) {
+    const Judgement clear = judged(1e-3, tilt);
+    EXPECT_EQ(clear.verdict, FlatVerdict::NONE) << tilt;
+    EXPECT_FALSE(clear.is_in_doubt) << tilt;
+  }
+}
+
+TEST(FlatContacts, TiltsThatRoundingExplainsNearTouchAreInDoubt) {
+  EXPECT_TRUE(judged(1e-8, 2e-8).is_in_doubt);
+  EXPECT_EQ(judged(1e-8, 1e-6).verdict, FlatVerdict::NONE);
 }
 
 }  // namespace

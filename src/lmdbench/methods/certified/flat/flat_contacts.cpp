@@ -15,16 +15,13 @@ namespace lmdbench {
 
 namespace {
 
-/// Tilt beyond which the first-order test of no piece of a plateau passes (PLATEAU_PIECE_TOLERANCE and the
-/// rounding beside it), with room; but see `acceptable_tilt`.
-constexpr double CLEAR_TILT = LARGEST_EXACT_TILT;
 /// What rounding grants the first-order test of a direction, times the coordinates over its length: 8 epsilon on either
 /// mesh, between which the direction may share a tilt, with room.
 constexpr double ROUNDED_TILT = 20.0 * std::numeric_limits<double>::epsilon();
 /// Contacts are one set of minimisers to the definition only where they differ by less than this, relative to the
-/// coordinates, in their heights and gaps (minimiser_set.h and plateau.cpp grant 1e-9, and 2e-9 of a distance in the
-/// plane, which is up to 3.5 coordinates), and by the planar tolerance.
-constexpr double ONE_SET = 1e-8;
+/// coordinates, in their heights and gaps (minimiser_set.h and plateau.cpp grant 1e-9, and PARALLEL_TILT of a distance in
+/// the plane, which is up to 3.5 coordinates), and by the planar tolerance.
+constexpr double ONE_SET = 1.2e-8;
 /// How far, relative to the coordinates, a minimum that a triangle pair found may be from the contact that it
 /// is a part of.
 constexpr double TOUCHING = 1e-9;
@@ -84,20 +81,20 @@ void FlatContacts::start(std::int32_t body, double cutoff, double touch, double 
 FlatVerdict FlatContacts::judge(const Range& distances, double tilt) {
   // Faces that are in touch or cross have no direction: their triangles tell.
   if (distances.greatest < 0.0) return FlatVerdict::NONE;
-  if (rule_.is_exact && tilt > acceptable_tilt(distances.least)) return FlatVerdict::NONE;
+  const bool is_parallel = rule_.is_parallel(tilt, distances.greatest - distances.least);
+  if (rule_.is_exact && !is_parallel && tilt > acceptable_tilt(distances.least)) return FlatVerdict::NONE;
   if (distances.least <= 2.0 * touch_)
     return rule_.is_exact && distances.greatest > 4.0 * touch_ ? doubt() : FlatVerdict::UNSURE;
-  if (tilt <= rule_.largest_tilt && distances.greatest - distances.least <= rule_.allowance)
-    return FlatVerdict::FOUND;
-  return rule_.is_exact || tilt <= CLEAR_TILT ? doubt() : FlatVerdict::NONE;
+  if (is_parallel) return FlatVerdict::FOUND;
+  return rule_.is_exact || tilt <= PARALLEL_TILT ? doubt() : FlatVerdict::NONE;
 }
 
 double FlatContacts::acceptable_tilt(double distance) const {
-  return CLEAR_TILT + ROUNDED_TILT * coordinates_ / std::max(distance, touch_);
+  return PARALLEL_TILT + ROUNDED_TILT * coordinates_ / std::max(distance, touch_);
 }
 
 double FlatContacts::largest_tilt() const {
-  return rule_.is_exact ? acceptable_tilt(touch_) : rule_.largest_tilt;
+  return rule_.is_exact ? std::max(rule_.largest_tilt, acceptable_tilt(touch_)) : rule_.largest_tilt;
 }
 
 std::span<const ConvexPolygon> FlatContacts::pieces_of(const Contact& contact) const {
@@ -131,7 +128,7 @@ bool FlatContacts::are_one_set(std::size_t one, std::size_t other) const {
   if (a.flat_moving == b.flat_moving && a.flat_fixed == b.flat_fixed) return false;
   const double gap = tolerance_ + ONE_SET * coordinates_;
   const Vec3 difference = a.lmd.distance * a.lmd.direction - b.lmd.distance * b.lmd.direction;
-  return difference.norm() <= PLATEAU_TOLERANCE * std::max(a.lmd.distance, b.lmd.distance) + gap &&
+  return difference.norm() <= PARALLEL_TILT * std::max(a.lmd.distance, b.lmd.distance) + gap &&
          do_touch(one, other, gap);
 }
 
@@ -293,7 +290,8 @@ FlatVerdict FlatContacts::add_edge_face(const FlatSide& of_edge, std::int32_t st
     return unsure(flat_moving, flat_fixed);
   for (const Part& part : parts) {
     const Vec3 middle = x0 + 0.5 * (part.begin + part.end) * u;
-    const Vec3 foot = middle + along(plane, n, middle) * n;
+    const auto foot_of = [&](const Vec3& x) { return Vec3(x + along(plane, n, x) * n); };
+    const Vec3 foot = foot_of(middle);
     if (!in_outward_polar_cone(of_edge.surface, of_edge.X_WS, lead, middle, foot - middle))
       return unsure(flat_moving, flat_fixed);
     Contact contact;
@@ -301,8 +299,9 @@ FlatVerdict FlatContacts::add_edge_face(const FlatSide& of_edge, std::int32_t st
     contact.flat_fixed = flat_fixed;
     contact.lmd.point_moving = of_edge.is_moving ? middle : foot;
     contact.lmd.point_fixed = of_edge.is_moving ? foot : middle;
-    contact.end0 = contact.lmd.point_fixed + (part.begin - 0.5 * (part.begin + part.end)) * u;
-    contact.end1 = contact.lmd.point_fixed + (part.end - 0.5 * (part.begin + part.end)) * u;
+    const Vec3 begin = x0 + part.begin * u, end = x0 + part.end * u;
+    contact.end0 = of_edge.is_moving ? foot_of(begin) : begin;
+    contact.end1 = of_edge.is_moving ? foot_of(end) : end;
     add(of_edge.is_moving ? of_edge : of_face, of_edge.is_moving ? of_face : of_edge, contact);
   }
   return FlatVerdict::FOUND;
@@ -319,7 +318,7 @@ FlatVerdict FlatContacts::add_edges(const FlatSide& moving, std::int32_t straigh
   const double length_u = u.norm(), length_v = v.norm();
   const double tilt = u.cross(v).norm() / (length_u * length_v);
   if (!(tilt <= largest_tilt())) return FlatVerdict::NONE;
-  if (rule_.is_exact && tilt > CLEAR_TILT &&
+  if (rule_.is_exact && tilt > rule_.largest_tilt &&
       tilt > acceptable_tilt(std::sqrt(segment_distance({a0, a0 + u}, {b0, b0 + v}).squared_distance)))
     return FlatVerdict::NONE;
   const double sense = u.dot(v) > 0.0 ? 1.0 : -1.0;
@@ -335,8 +334,7 @@ FlatVerdict FlatContacts::add_edges(const FlatSide& moving, std::int32_t straigh
   const double middle = 0.5 * (begin + end);
   const Vec3 p = on_moving(middle), d = on_fixed(middle) - p;
   Range distances{d.norm(), d.norm()};
-  distances.add((on_fixed(begin) - on_moving(begin)).norm());
-  distances.add((on_fixed(end) - on_moving(end)).norm());
+  for (const double s : {begin, end}) distances.add((on_fixed(s) - on_moving(s)).norm());
   if (distances.least > cutoff_) return FlatVerdict::NONE;
   const FlatVerdict verdict = judge(distances, tilt);
   if (verdict == FlatVerdict::NONE) return verdict;
@@ -344,11 +342,18 @@ FlatVerdict FlatContacts::add_edges(const FlatSide& moving, std::int32_t straigh
   const FeatureId lead_f{FeatureKind::EDGE, fixed.mesh.lead_of_straight(straight_fixed)};
   if (verdict == FlatVerdict::UNSURE || is_on_unsure(moving, lead_m, fixed, lead_f))
     return FlatVerdict::UNSURE;
-  const Vec3 across_m = d - d.dot(u) / (length_u * length_u) * u;
-  const Vec3 across_f = d - d.dot(v) / (length_v * length_v) * v;
-  if (!in_outward_polar_cone(moving.surface, moving.X_WS, lead_m, p, across_m) ||
-      !in_outward_polar_cone(fixed.surface, fixed.X_WS, lead_f, p + d, -across_f))
-    return FlatVerdict::UNSURE;
+  // Lines at a tiny angle pass each other: the cones are convex, so that what holds at both ends holds between them.
+  int inside = 0;
+  for (const double s : {begin, middle, end}) {
+    const Vec3 x = on_moving(s), y = on_fixed(s);
+    const Vec3 across_m = (y - x) - (y - x).dot(u) / (length_u * length_u) * u;
+    const Vec3 across_f = (y - x) - (y - x).dot(v) / (length_v * length_v) * v;
+    if (in_outward_polar_cone(moving.surface, moving.X_WS, lead_m, x, across_m) &&
+        in_outward_polar_cone(fixed.surface, fixed.X_WS, lead_f, y, -across_f))
+      ++inside;
+  }
+  if (inside == 0) return FlatVerdict::UNSURE;
+  if (inside < 3) return unsure({FeatureKind::EDGE, straight_moving}, {FeatureKind::EDGE, straight_fixed});
   Contact contact;
   contact.flat_moving = {FeatureKind::EDGE, straight_moving};
   contact.flat_fixed = {FeatureKind::EDGE, straight_fixed};
@@ -411,7 +416,9 @@ bool FlatContacts::contains(const FlatSide& moving, const FeatureId& on_moving, 
   for (std::size_t i = 0; i < contacts_.size(); ++i) {
     const Contact& contact = contacts_[i];
     const double distance = contact.lmd.distance;
-    if ((d - distance * contact.lmd.direction).norm() > SAME_DISTANCE * distance + reach) continue;
+    if ((d - distance * contact.lmd.direction).norm() >
+        SAME_DISTANCE * distance + reach + PARALLEL_TILT * (q_W - contact.lmd.point_fixed).norm())
+      continue;
     if (!moving.mesh.is_on(moving.surface, on_moving, contact.flat_moving) ||
         !fixed.mesh.is_on(fixed.surface, on_fixed, contact.flat_fixed))
       continue;
