@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/base/significant_digits.h>
 #include <lmdbench/experiment/defaults.h>
 #include <lmdbench/lmd/scene.h>
 #include <lmdbench/mesh/triangle_mesh.h>
@@ -91,7 +92,7 @@ double default_cutoff(const Scene& scene, std::vector<DefaultNote>& notes) {
   const double by_size = DEFAULT_CUTOFF_DIAGONALS * diagonal;
   const double by_edges = DEFAULT_CUTOFF_EDGES * edge;
   // Three digits: a number that one can say, and write into a file.
-  const double cutoff = std::stod(fmt::format("{:.3g}", std::min(by_size, by_edges)));
+  const double cutoff = to_significant_digits(std::min(by_size, by_edges), 3);
   notes.push_back(
       {"/force/cutoff_m", fmt::format("{:g} m", cutoff),
        by_size <= by_edges

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/base/error.h>
+#include <lmdbench/base/significant_digits.h>
 #include <lmdbench/motion/grazing.h>
 #include <lmdbench/motion/interpolate.h>
 
@@ -16,10 +17,8 @@ namespace {
 /// A path counts as grazing when it comes this near, in cutoffs.
 constexpr double NEAR_ENOUGH = 0.5;
 
-/// To four digits, so that a specification can be read.
-double rounded(double value) {
-  return std::stod(fmt::format("{:.4g}", value));
-}
+/// Of lengths and speeds, so that a specification can be read.
+constexpr int DIGITS = 4;
 
 }  // namespace
 
@@ -30,11 +29,11 @@ PathSpec grazing_spec(const PathScene& scene, double cutoff) {
   spec.turn_rate = 35.0 * DEGREE;
   // A small mesh must not have to run around a large one faster than it can follow its surface.
   const double orbit = scene.moving_radius + scene.fixed_radius;
-  spec.slide_rate = rounded(30.0 * std::min(1.0, scene.diagonal / orbit)) * DEGREE;
+  spec.slide_rate = to_significant_digits(30.0 * std::min(1.0, scene.diagonal / orbit), DIGITS) * DEGREE;
   const double share = cutoff / scene.diagonal;
-  spec.gap_floor = rounded(GRAZING_FLOOR_IN_CUTOFFS * share);
+  spec.gap_floor = to_significant_digits(GRAZING_FLOOR_IN_CUTOFFS * share, DIGITS);
   for (const GapPoint& point : GRAZING_GAPS_IN_CUTOFFS)
-    spec.gaps.push_back({.time = point.time, .gap = rounded(point.gap * share)});
+    spec.gaps.push_back({.time = point.time, .gap = to_significant_digits(point.gap * share, DIGITS)});
   return spec;
 }
 

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/base/input_file.h>
 #include <lmdbench/base/json_document.h>
+#include <lmdbench/base/significant_digits.h>
 #include <lmdbench/motion/path_spec.h>
 
 #include <fmt/format.h>
@@ -105,7 +106,7 @@ std::string path_spec_text(const PathSpec& spec) {
     write_placement(choice.placement, entry);
     return entry;
   };
-  const auto degrees = [](double angle) { return std::stod(fmt::format("{:.12g}", angle / DEGREE)); };
+  const auto degrees = [](double angle) { return to_significant_digits(angle / DEGREE, 12); };
   OrderedJson json{
       {"moving", mesh(spec.moving)},
       {"fixed", mesh(spec.fixed)},
