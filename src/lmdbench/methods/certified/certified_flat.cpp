@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/geometry/segment_distance.h>
+#include <lmdbench/lmd/first_order.h>
 #include <lmdbench/methods/certified/certified.h>
 #include <lmdbench/methods/certified/touch.h>
 
@@ -21,6 +22,9 @@ namespace {
 /// they cross in one place.
 constexpr double NEARLY_PARALLEL_SINE = 1e-4;
 constexpr double CROSSING_SINE = 1e-8;
+/// Sine by which a direction leaves an edge's cone, beyond what PLATEAU_PIECE_TOLERANCE grants to a point of the edge that is a
+/// thousand times as far from the triangles' corners as another one.
+constexpr double CLEARLY_OUTSIDE = 1e3 * PLATEAU_PIECE_TOLERANCE;
 /// A feature with more times the corners of the other one is not held against the other's plane
 /// (scripts/tuned_constants.py --only FEW_CORNERS experiments/extreme/gears.json).
 constexpr std::size_t FEW_CORNERS = 4;
@@ -82,6 +86,18 @@ void for_each_face_near(const FlatSide& side, std::int32_t region, std::span<con
   shape->for_each_near(low, high, reach, visit);
 }
 
+/// Whether the direction from an edge to a plane that it is parallel to, and clear of, leaves the edge's polar cone by more than the
+/// truth could grant to any point of the edge.
+/// @param ends_W of the edge
+bool is_clearly_outside(const FlatSide& side, std::int32_t edge, const std::array<Vec3, 2>& ends_W,
+                        const Plane& plane, double touch) {
+  const Vec3 u = ends_W[1] - ends_W[0], middle = 0.5 * (ends_W[0] + ends_W[1]);
+  if (std::min(plane.height(ends_W[0]), plane.height(ends_W[1])) <= 2.0 * touch) return false;
+  const Vec3 n = -(plane.normal - u.dot(plane.normal) / u.squaredNorm() * u).normalized();
+  return !in_outward_polar_cone(side.surface, side.X_WS, {FeatureKind::EDGE, edge}, middle,
+                                plane.height(middle) * n, CLEARLY_OUTSIDE);
+}
+
 /// Gap between a feature's corners and a plane, with the axis from the feature towards it.
 ClearGap gap_to(const Plane& plane, const FlatSide& side, std::span<const std::int32_t> corners) {
   double lowest = std::numeric_limits<double>::infinity(), highest = -lowest;
@@ -100,16 +116,11 @@ bool Certified::decide_flat(const Frame& frame, const FeatureId& on_moving, cons
                             WorkCounters& counters) {
   const bool joined =
       frame.flat_moving.mesh.is_joined(on_moving) || frame.flat_fixed.mesh.is_joined(on_fixed);
-  const bool is_tolerant = frame.tolerance > 0.0;
   const FeatureKind kind_m = on_moving.kind, kind_f = on_fixed.kind;
   if (kind_m == FeatureKind::VERTEX || kind_f == FeatureKind::VERTEX)
     return decide_vertex(frame, on_moving, on_fixed, joined, counters);
   if (kind_m == FeatureKind::FACE && kind_f == FeatureKind::FACE) {
     const std::int32_t a = region_of(frame.flat_moving, on_moving), b = region_of(frame.flat_fixed, on_fixed);
-    if (!joined && !is_tolerant) {
-      contacts_.leave({FeatureKind::FACE, a}, {FeatureKind::FACE, b});
-      return false;
-    }
     if (contacts_.add_faces(frame.flat_moving, a, frame.flat_fixed, b) == FlatVerdict::UNSURE)
       expand_faces(frame, a, b);
     return true;
@@ -122,11 +133,6 @@ bool Certified::decide_flat(const Frame& frame, const FeatureId& on_moving, cons
     const FlatSide& of_face = forward ? frame.flat_fixed : frame.flat_moving;
     const std::int32_t straight = straight_of(of_edge, forward ? on_moving : on_fixed);
     const std::int32_t region = region_of(of_face, forward ? on_fixed : on_moving);
-    if (!joined && !is_tolerant) {
-      const FeatureId flat_edge{FeatureKind::EDGE, straight}, flat_face{FeatureKind::FACE, region};
-      contacts_.leave(forward ? flat_edge : flat_face, forward ? flat_face : flat_edge);
-      return false;
-    }
     if (contacts_.add_edge_face(of_edge, straight, of_face, region) == FlatVerdict::UNSURE)
       expand_edge_face(frame, of_edge, straight, of_face, region);
     return true;
@@ -144,7 +150,7 @@ bool Certified::decide_edges(const Frame& frame, const FeatureId& on_moving, con
     // The common perpendicular of edges of two faces in contact is the contact's direction.
     if (contacts_.contact_of(frame.flat_moving, on_moving, frame.flat_fixed, on_fixed) != nullptr)
       return true;
-  } else if (joined || frame.tolerance > 0.0) {
+  } else {
     const std::int32_t s = straight_of(frame.flat_moving, on_moving);
     const std::int32_t t = straight_of(frame.flat_fixed, on_fixed);
     const FlatVerdict verdict = contacts_.add_edges(frame.flat_moving, s, frame.flat_fixed, t);
@@ -240,9 +246,11 @@ void Certified::find_faces_near(const FlatSide& side, std::int32_t region, const
 
 void Certified::expand_edge_face(const Frame& frame, const FlatSide& of_edge, std::int32_t straight,
                                  const FlatSide& of_face, std::int32_t region) {
+  const Plane plane = of_face.plane(region);
   for (const std::int32_t e : of_edge.mesh.regions->edges_of_straight[straight]) {
     const auto& ends = of_edge.surface.adjacency.edges[static_cast<std::size_t>(e)];
     const std::array<Vec3, 2> points{of_edge.vertex(ends[0]), of_edge.vertex(ends[1])};
+    if (is_clearly_outside(of_edge, e, points, plane, frame.filter.touch)) continue;
     for (const std::int32_t t : of_edge.surface.adjacency.edge_triangles[e])
       for_each_face_near(of_face, region, points, 4.0 * frame.filter.touch, [&](std::int32_t face) {
         pending_.push_back({of_edge.is_moving ? TrianglePair{t, face} : TrianglePair{face, t}, false});

@@ -82,11 +82,6 @@ class FlatContacts {
   FlatVerdict add_edges(const FlatSide& moving, std::int32_t straight_moving, const FlatSide& fixed,
                         std::int32_t straight_fixed);
 
-  /// Leaves a pair of flat features to its triangles, and with it what lies on both: pieces of one plateau
-  /// must be judged alike.
-  void leave(const FeatureId& flat_moving, const FeatureId& flat_fixed) {
-    unsure_.push_back({flat_moving, flat_fixed});
-  }
   /// Whether all triangles of a pair of flat features are to decide.
   bool is_left_to_triangles(const FeatureId& flat_moving, const FeatureId& flat_fixed) const {
     return std::find(unsure_.begin(), unsure_.end(), std::pair(flat_moving, flat_fixed)) != unsure_.end();
