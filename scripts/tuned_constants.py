@@ -28,6 +28,7 @@ CONSTANTS = {
     "LARGEST_HORIZON": (FORECAST, "LARGEST_HORIZON = {},", ("1.0", "2.0", "4.0", "8.0", "16.0")),
     "HORIZON_CUTOFFS": (FORECAST, "HORIZON_CUTOFFS = {},", ("0.25", "0.5", "1.0", "2.0", "4.0")),
     "FEW_CORNERS": (FLAT, "FEW_CORNERS = {};", ("1", "4", "16", "1000000")),  # experiments/extreme/gears.json moves it
+    "MOST_CORNER_PAIRS": (FLAT, "MOST_CORNER_PAIRS = {};", ("0", "16", "64", "1024")),  # experiments/extreme/peg-square.json moves it
     "HORIZON_TURN": (FORECAST, "HORIZON_TURN = {};", ("0.0025", "0.005", "0.01", "0.02", "0.04")),
 }
 SCENE = ("--set", '/methods=[{"name":"certified","force_law":"exponential"}]', "--set", "/driver/repetitions=1", "--set",

@@ -28,6 +28,9 @@ constexpr double CLEARLY_OUTSIDE = 1e3 * PLATEAU_PIECE_TOLERANCE;
 /// A feature with more times the corners of the other one is not held against the other's plane
 /// (scripts/tuned_constants.py --only FEW_CORNERS experiments/extreme/gears.json).
 constexpr std::size_t FEW_CORNERS = 4;
+/// Of features with more pairs of corners the sides are not tried as separating axes, because the triangles that are near each
+/// other may be fewer (scripts/tuned_constants.py --only MOST_CORNER_PAIRS experiments/extreme/peg-square.json).
+constexpr std::size_t MOST_CORNER_PAIRS = 64;
 
 std::int32_t region_of(const FlatSide& side, const FeatureId& face) {
   return side.mesh.regions->region_of_triangle[static_cast<std::size_t>(face.index)];
@@ -107,6 +110,41 @@ ClearGap gap_to(const Plane& plane, const FlatSide& side, std::span<const std::i
     highest = std::max(highest, height);
   }
   return lowest >= -highest ? ClearGap{lowest, -plane.normal} : ClearGap{-highest, plane.normal};
+}
+
+/// Largest gap between two regions along the products of a side of one and a side of the other: with their own planes the
+/// separating axes of convex polygons. Walls of a box that stands over a box are separated by no plane of theirs.
+ClearGap gap_along_side_products(const FlatSide& moving, std::int32_t region_moving,
+                                 std::span<const Vec3> corners_moving, const FlatSide& fixed,
+                                 std::int32_t region_fixed, std::span<const Vec3> corners_fixed) {
+  const auto sides_m = moving.mesh.regions->straight_edges_of_region[region_moving];
+  const auto sides_f = fixed.mesh.regions->straight_edges_of_region[region_fixed];
+  ClearGap widest;
+  const auto side_of = [](const FlatSide& side, std::int32_t straight) {
+    const auto& ends = side.mesh.regions->straight_edges[static_cast<std::size_t>(straight)].ends;
+    return Vec3(side.vertex(ends[1]) - side.vertex(ends[0]));
+  };
+  for (const std::int32_t s : sides_m) {
+    const Vec3 u = side_of(moving, s);
+    for (const std::int32_t t : sides_f) {
+      const Vec3 product = u.cross(side_of(fixed, t));
+      const double length = product.norm();
+      if (!(length > 0.0)) continue;
+      const Vec3 axis = product / length;
+      double low_m = std::numeric_limits<double>::infinity(), high_m = -low_m, low_f = low_m, high_f = -low_m;
+      for (const Vec3& x : corners_moving) {
+        low_m = std::min(low_m, axis.dot(x));
+        high_m = std::max(high_m, axis.dot(x));
+      }
+      for (const Vec3& x : corners_fixed) {
+        low_f = std::min(low_f, axis.dot(x));
+        high_f = std::max(high_f, axis.dot(x));
+      }
+      if (low_f - high_m > widest.gap) widest = {low_f - high_m, axis};
+      if (low_m - high_f > widest.gap) widest = {low_m - high_f, -axis};
+    }
+  }
+  return widest;
 }
 
 }  // namespace
@@ -289,6 +327,15 @@ Certificate Certified::decide_touching_flat(const Frame& frame, const WidePair& 
   if (region_m >= 0 && count_f <= FEW_CORNERS * count_m) {
     const ClearGap gap = gap_to(frame.flat_moving.plane(region_m), frame.flat_fixed, fixed_corners_);
     if (gap.gap > margin) return {gap.gap - margin, -gap.axis};
+  }
+  if (region_m >= 0 && region_f >= 0 && count_m * count_f <= MOST_CORNER_PAIRS) {
+    points_.clear();
+    for (const std::int32_t v : corners_) points_.push_back(frame.flat_moving.vertex(v));
+    for (const std::int32_t v : fixed_corners_) points_.push_back(frame.flat_fixed.vertex(v));
+    const std::span points(points_);
+    const ClearGap gap = gap_along_side_products(frame.flat_moving, region_m, points.first(count_m),
+                                                 frame.flat_fixed, region_f, points.subspan(count_m));
+    if (gap.gap > margin) return {gap.gap - margin, gap.axis};
   }
   const auto decide_triangles = [&](std::int32_t t_moving, std::int32_t t_fixed) {
     const Triangle a = frame.filter.X_WM.triangle(frame.filter.moving.mesh.triangle(t_moving));
