@@ -102,6 +102,8 @@ TEST_F(PlateauTest, AnotherDistanceOrDirectionIsAnotherLmd) {
   LocalMinimum tilted = face_pair(1, 1, {0.7, 0.4, 0}, 1.0);
   tilted.lmd.point_moving.x() += 1e-6 * HEIGHT;
   EXPECT_EQ(merged({first, tilted}).size(), 2u);
+  tilted.lmd.point_moving.x() = 0.7 + 2e-9 * HEIGHT;  // Within PARALLEL_TILT.
+  EXPECT_EQ(merged({first, tilted}).size(), 1u);
   LocalMinimum touching = first;
   touching.lmd.feature_fixed.index = 1;
   touching.lmd.intersecting = true;

@@ -282,6 +282,25 @@ TEST(FlatScenes, AFaceTiltedByLessThanATolerancesIsStillOneContactAPlace) {
   }
 }
 
+TEST(FlatScenes, EdgesAreParallelUpToATiltWhole) {
+  // A ridge over a ridge, turned about a place beside the middle of what they share: where they cross, once they do.
+  const Scene scene = make_scene(make_wedge(0.05, 0.1, 0.05), make_wedge(0.05, 0.1, 0.05), 0.01);
+  for (const auto& [turn, place] :
+       {std::pair(1e-9, 0.015), std::pair(2.9e-9, 0.015), std::pair(1e-4, 0.03)}) {
+    Pose pose;
+    pose.translation = {0.0, 0.03, 0.051};
+    pose.rotation =
+        Eigen::AngleAxisd(turn, Vec3::UnitZ()) * Eigen::AngleAxisd(std::numbers::pi, Vec3::UnitY());
+    for (const char* method : {"exhaustive", "certified"}) {
+      LmdSet set;
+      WorkCounters counters;
+      make_method(method, scene)->search(pose, set, counters);
+      ASSERT_EQ(set.size(), 1u) << method << " " << turn << "\n" << text(set);
+      EXPECT_NEAR(set[0].point_fixed.y(), place, 1e-6) << method << " " << turn;
+    }
+  }
+}
+
 TEST(FlatScenes, EdgesOnFacesAndAlongEdges) {
   std::mt19937_64 random(3);
   FlatComparison wedge(make_scene(make_wedge(0.05, 0.1, 0.05), make_box({0.2, 0.2, 0.1}, 4), 0.03));
@@ -322,6 +341,7 @@ TEST(FlatScenes, TiltsAroundTheLargestParallelOne) {
   FlatComparison feet(make_scene(make_two_boxes({0.03, 0.1, 0.1}, 0.04), table, 0.03));
   FlatComparison wedge(make_scene(make_wedge(0.05, 0.1, 0.05), table, 0.03));
   FlatComparison wedges(make_scene(make_wedge(0.05, 0.1, 0.05), make_wedge(0.05, 0.1, 0.05), 0.02));
+  FlatComparison edges(make_scene(make_box({0.1, 0.1, 0.1}, 4), make_box({0.1, 0.1, 0.1}, 3), 0.02));
   const auto tilted = [&](Pose pose) {
     const double tilt = std::pow(10.0, -11.0 + 4.0 * uniform(random));
     pose.rotation = Eigen::AngleAxisd(tilt, random_direction(random)) * pose.rotation;
@@ -337,8 +357,17 @@ TEST(FlatScenes, TiltsAroundTheLargestParallelOne) {
     wedge.check(tilted(pose));
     wedges.check(tilted({Vec3(2e-4 * (uniform(random) - 0.5), 0.1 * (uniform(random) - 0.5), 0.05 + height),
                          Eigen::Quaterniond(over)}));
+    // Edges whose direction is at a border of the fixed one's cone, so that along it they come to lie over the face beside it.
+    const double off = (uniform(random) < 0.5 ? -1.0 : 1.0) * std::pow(10.0, -8.0 + 4.0 * uniform(random));
+    const double gap = std::pow(10.0, -6.0 + 3.0 * uniform(random));
+    Pose aside = tilted(
+        {Vec3::Zero(), Eigen::Quaterniond(Eigen::AngleAxisd(0.25 * std::numbers::pi - 0.3, Vec3::UnitY()))});
+    aside.translation =
+        Vec3(0.05 + gap * std::sin(off), 0.08 * (uniform(random) - 0.5), 0.05 + gap * std::cos(off)) -
+        aside.rotation * Vec3(0.05, 0.0, -0.05);
+    edges.check(aside);
   }
-  for (const FlatComparison* scene : {&boxes, &feet, &wedge, &wedges})
+  for (const FlatComparison* scene : {&boxes, &feet, &wedge, &wedges, &edges})
     EXPECT_GE(scene->found(), static_cast<std::size_t>(tilted_poses()) / 2);
 }
 

@@ -25,6 +25,8 @@ constexpr double ONE_SET = 1.2e-8;
 /// How far, relative to the coordinates, a minimum that a triangle pair found may be from the contact that it
 /// is a part of.
 constexpr double TOUCHING = 1e-9;
+/// Sine between an edge and a border that it stays beside, to TOUCHING, for longer than 1e-2 of the coordinates.
+constexpr double ALMOST_ALONG = 1e-7;
 /// Relative difference of the distances of a contact and of a minimum that is a part of it.
 constexpr double SAME_DISTANCE = 1e-6;
 
@@ -284,6 +286,8 @@ FlatVerdict FlatContacts::add_edge_face(const FlatSide& of_edge, std::int32_t st
   if (parts.empty() || distances.least > cutoff_) return FlatVerdict::NONE;
   const FlatVerdict verdict = judge(distances, tilt);
   if (verdict == FlatVerdict::NONE) return verdict;
+  if (verdict == FlatVerdict::FOUND && rule_.is_exact && follows_border_aslant(of_face, region, x0, u, n))
+    return doubt();
   const FeatureId lead_face{FeatureKind::FACE, of_face.mesh.lead_of_region(region)};
   if (verdict == FlatVerdict::UNSURE || (of_edge.is_moving ? is_on_unsure(of_edge, lead, of_face, lead_face)
                                                            : is_on_unsure(of_face, lead_face, of_edge, lead)))
@@ -305,6 +309,32 @@ FlatVerdict FlatContacts::add_edge_face(const FlatSide& of_edge, std::int32_t st
     add(of_edge.is_moving ? of_edge : of_face, of_edge.is_moving ? of_face : of_edge, contact);
   }
   return FlatVerdict::FOUND;
+}
+
+/// Whether somewhere along a straight edge over a region the region's border is beside it, to TOUCHING, and at so small an angle
+/// that what is over the border and what is over the region are of one set.
+/// @param x0, u  first end, and from there to the other
+/// @param n  square to the edge
+bool FlatContacts::follows_border_aslant(const FlatSide& of_face, std::int32_t region, const Vec3& x0,
+                                         const Vec3& u, const Vec3& n) const {
+  const double length = u.norm();
+  const Vec3 along_edge = u / length, aside = n.cross(along_edge);
+  for (const std::int32_t straight : of_face.mesh.regions->straight_edges_of_region[region]) {
+    const auto& ends = of_face.mesh.regions->straight_edges[static_cast<std::size_t>(straight)].ends;
+    const Vec3 begin = of_face.vertex(ends[0]) - x0, border = of_face.vertex(ends[1]) - x0 - begin;
+    const double run = border.dot(along_edge), slope = border.dot(aside) / run;
+    if (!(std::abs(slope) <= ALMOST_ALONG)) continue;
+    const double place = begin.dot(along_edge);
+    const double from = std::max(0.0, std::min(place, place + run));
+    const double to = std::min(length, std::max(place, place + run));
+    if (!(to > from)) continue;
+    const double off_from = begin.dot(aside) + slope * (from - place);
+    const double off_to = begin.dot(aside) + slope * (to - place);
+    const bool crosses = off_from * off_to < 0.0;
+    const double nearest = crosses ? 0.0 : std::min(std::abs(off_from), std::abs(off_to));
+    if (nearest <= TOUCHING * coordinates_ && std::abs(off_to - off_from) > rule_.allowance) return true;
+  }
+  return false;
 }
 
 FlatVerdict FlatContacts::add_edges(const FlatSide& moving, std::int32_t straight_moving,
@@ -342,18 +372,11 @@ FlatVerdict FlatContacts::add_edges(const FlatSide& moving, std::int32_t straigh
   const FeatureId lead_f{FeatureKind::EDGE, fixed.mesh.lead_of_straight(straight_fixed)};
   if (verdict == FlatVerdict::UNSURE || is_on_unsure(moving, lead_m, fixed, lead_f))
     return FlatVerdict::UNSURE;
-  // Lines at a tiny angle pass each other: the cones are convex, so that what holds at both ends holds between them.
-  int inside = 0;
-  for (const double s : {begin, middle, end}) {
-    const Vec3 x = on_moving(s), y = on_fixed(s);
-    const Vec3 across_m = (y - x) - (y - x).dot(u) / (length_u * length_u) * u;
-    const Vec3 across_f = (y - x) - (y - x).dot(v) / (length_v * length_v) * v;
-    if (in_outward_polar_cone(moving.surface, moving.X_WS, lead_m, x, across_m) &&
-        in_outward_polar_cone(fixed.surface, fixed.X_WS, lead_f, y, -across_f))
-      ++inside;
-  }
-  if (inside == 0) return FlatVerdict::UNSURE;
-  if (inside < 3) return unsure({FeatureKind::EDGE, straight_moving}, {FeatureKind::EDGE, straight_fixed});
+  const Vec3 across_m = d - d.dot(u) / (length_u * length_u) * u;
+  const Vec3 across_f = d - d.dot(v) / (length_v * length_v) * v;
+  if (!in_outward_polar_cone(moving.surface, moving.X_WS, lead_m, p, across_m) ||
+      !in_outward_polar_cone(fixed.surface, fixed.X_WS, lead_f, p + d, -across_f))
+    return FlatVerdict::UNSURE;
   Contact contact;
   contact.flat_moving = {FeatureKind::EDGE, straight_moving};
   contact.flat_fixed = {FeatureKind::EDGE, straight_fixed};

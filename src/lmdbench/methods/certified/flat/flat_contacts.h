@@ -109,6 +109,8 @@ class FlatContacts {
   double acceptable_tilt(double distance) const;
   /// Beyond it nothing is parallel, at whatever distance.
   double largest_tilt() const;
+  bool follows_border_aslant(const FlatSide& of_face, std::int32_t region, const Vec3& x0, const Vec3& u,
+                             const Vec3& n) const;
   std::span<const ConvexPolygon> pieces_of(const Contact& contact) const;
   bool do_touch(std::size_t one, std::size_t other, double gap) const;
   bool are_one_set(std::size_t one, std::size_t other) const;
