@@ -101,6 +101,35 @@ bool is_clearly_outside(const FlatSide& side, std::int32_t edge, const std::arra
                                 plane.height(middle) * n, CLEARLY_OUTSIDE);
 }
 
+/// The same of two edges: whether they are parallel, clear of each other, and the direction leaves the cone of one.
+bool are_clearly_outside(const FlatSide& moving, std::int32_t edge_moving, const FlatSide& fixed,
+                         std::int32_t edge_fixed, double touch) {
+  const auto ends_of = [](const FlatSide& side, std::int32_t edge) {
+    const auto& ends = side.surface.adjacency.edges[static_cast<std::size_t>(edge)];
+    return Segment{side.vertex(ends[0]), side.vertex(ends[1])};
+  };
+  const Segment a = ends_of(moving, edge_moving), b = ends_of(fixed, edge_fixed);
+  const Vec3 u = a[1] - a[0], v = b[1] - b[0];
+  // What both share along the moving edge, from 0 to 1 on it.
+  const auto place_of = [&](const Vec3& x) { return (x - a[0]).dot(u) / u.squaredNorm(); };
+  const double place0 = place_of(b[0]), place1 = place_of(b[1]);
+  const double begin = std::max(0.0, std::min(place0, place1)), end = std::min(1.0, std::max(place0, place1));
+  if (!(end > begin)) return false;
+  const auto on_moving = [&](double s) { return Vec3(a[0] + s * u); };
+  const auto on_fixed = [&](double s) { return Vec3(b[0] + (s - place0) / (place1 - place0) * v); };
+  const Vec3 d0 = on_fixed(begin) - on_moving(begin), d1 = on_fixed(end) - on_moving(end);
+  const double nearest = std::min(d0.norm(), d1.norm());
+  // Edges that pass each other have a direction at each place.
+  if (nearest <= 2.0 * touch || (d1 - d0).norm() > 0.1 * CLEARLY_OUTSIDE * nearest) return false;
+  const double middle = 0.5 * (begin + end);
+  const Vec3 p = on_moving(middle), q = on_fixed(middle), d = q - p;
+  const Vec3 across_m = d - d.dot(u) / u.squaredNorm() * u, across_f = d - d.dot(v) / v.squaredNorm() * v;
+  return !in_outward_polar_cone(moving.surface, moving.X_WS, {FeatureKind::EDGE, edge_moving}, p, across_m,
+                                CLEARLY_OUTSIDE) ||
+         !in_outward_polar_cone(fixed.surface, fixed.X_WS, {FeatureKind::EDGE, edge_fixed}, q, -across_f,
+                                CLEARLY_OUTSIDE);
+}
+
 /// Gap between a feature's corners and a plane, with the axis from the feature towards it.
 ClearGap gap_to(const Plane& plane, const FlatSide& side, std::span<const std::int32_t> corners) {
   double lowest = std::numeric_limits<double>::infinity(), highest = -lowest;
@@ -301,6 +330,7 @@ void Certified::expand_edges(const Frame& frame, std::int32_t straight_moving, s
     for (const std::int32_t j : frame.flat_fixed.mesh.regions->edges_of_straight[straight_fixed]) {
       const PairAnswer answer = frame.single_filter({FeatureKind::EDGE, i}, {FeatureKind::EDGE, j}, 1.0);
       if (answer.verdict == PairVerdict::NO_LMD) continue;
+      if (are_clearly_outside(frame.flat_moving, i, frame.flat_fixed, j, frame.filter.touch)) continue;
       for (const std::int32_t t_moving : frame.filter.moving.adjacency.edge_triangles[i])
         for (const std::int32_t t_fixed : frame.filter.fixed.adjacency.edge_triangles[j])
           pending_.push_back({{t_moving, t_fixed}, false});
