@@ -430,6 +430,7 @@ void Certified::search(const Pose& X_WM, LmdSet& lmds, WorkCounters& counters) {
     };
     touching_.clear();
     const int ranks = frame.is_flat ? RANKS : 1;
+    std::size_t settled = first;
     TraversalFront& front = kept_[i].front;
     if (keep && query.possible && kept_[i].policy.keep()) {
       if (front.empty()) {
@@ -444,6 +445,7 @@ void Certified::search(const Pose& X_WM, LmdSet& lmds, WorkCounters& counters) {
           return !touches && (ranks == 1 || rank_of(pair) == rank);
         });
       settle_touching_contacts(frame, first, counters);
+      settled = minima_.size();
       front.for_each_due_touching(
           [&](std::uint32_t leaf, const WidePair& pair) { touching_.emplace_back(pair, leaf); });
       decide_touching(frame, counters, [&](std::uint32_t leaf, Certificate certificate) {
@@ -467,11 +469,14 @@ void Certified::search(const Pose& X_WM, LmdSet& lmds, WorkCounters& counters) {
         for (const WidePair& pair : scratch_.lmd_pairs)
           if (rank_of(pair) == rank) decide_pair(pair, false, 1.0);
       settle_touching_contacts(frame, first, counters);
+      settled = minima_.size();
       for (const WidePair& pair : scratch_.touch_pairs) touching_.emplace_back(pair, 0u);
       decide_touching(frame, counters, [](std::uint32_t, const Certificate&) {});
     }
+    of_touching_.assign(minima_.begin() + static_cast<std::ptrdiff_t>(settled), minima_.end());
     decide_pending(frame, first, counters);
     if (frame.is_flat) {
+      settle_contacts_beside(frame, first, of_touching_, counters);
       in_doubt_ = in_doubt_ || contacts_.is_in_doubt();
       take_contacts(frame, first);
     }

@@ -148,6 +148,9 @@ class Certified : public Method {
   void expand_edges(const Frame& frame, std::int32_t straight_moving, std::int32_t straight_fixed);
   Certificate decide_touching_flat(const Frame& frame, const WidePair& candidate, WorkCounters& counters);
   void settle_touching_contacts(const Frame& frame, std::size_t first, WorkCounters& counters);
+  void decide_again(const Frame& frame, std::size_t first, WorkCounters& counters);
+  void settle_contacts_beside(const Frame& frame, std::size_t first, std::span<const LocalMinimum> touching,
+                              WorkCounters& counters);
   void take_contacts(const Frame& frame, std::size_t first);
 
   void report(const RigidTransform& X_WM, double coordinates, LmdSet& lmds);
@@ -165,7 +168,7 @@ class Certified : public Method {
   WideScratch scratch_;
   std::vector<PendingPair> pending_;
   FlatPieces flat_pieces_;  ///< Parallel contacts that are left to their triangles.
-  std::vector<LocalMinimum> minima_;
+  std::vector<LocalMinimum> minima_, of_touching_;
   std::vector<Intersection> crossings_;            ///< Of triangles that clearly cross.
   std::vector<CrossingPair> touching_pairs_;       ///< Others that share a point.
   bool in_doubt_ = false;                          ///< The last frame was searched by single features.

@@ -412,12 +412,27 @@ Certificate Certified::decide_touching_flat(const Frame& frame, const WidePair& 
 /// Decides all candidates again, with the contacts that touch left to their triangles.
 /// @param first of minima_ that are this body's
 void Certified::settle_touching_contacts(const Frame& frame, std::size_t first, WorkCounters& counters) {
-  while (frame.is_flat && contacts_.leave_touching_contacts()) {
-    minima_.resize(first);
-    pending_.clear();
-    std::vector<WidePair> candidates;
-    candidates.swap(flat_candidates_);
-    for (const WidePair& candidate : candidates) decide(frame, candidate, 1.0, counters);
+  while (frame.is_flat && contacts_.leave_touching_contacts()) decide_again(frame, first, counters);
+}
+
+void Certified::decide_again(const Frame& frame, std::size_t first, WorkCounters& counters) {
+  minima_.resize(first);
+  pending_.clear();
+  std::vector<WidePair> candidates;
+  candidates.swap(flat_candidates_);
+  for (const WidePair& candidate : candidates) decide(frame, candidate, 1.0, counters);
+}
+
+/// The same for contacts beside minima of their triangles and others'.
+/// @param touching of minima_ that are this body's, those of triangles that may touch: they stay
+void Certified::settle_contacts_beside(const Frame& frame, std::size_t first,
+                                       std::span<const LocalMinimum> touching, WorkCounters& counters) {
+  while (contacts_.leave_contacts_beside(frame.flat_moving, frame.flat_fixed,
+                                         std::span(minima_).subspan(first))) {
+    decide_again(frame, first, counters);
+    settle_touching_contacts(frame, first, counters);
+    minima_.insert(minima_.end(), touching.begin(), touching.end());
+    decide_pending(frame, first, counters);
   }
 }
 

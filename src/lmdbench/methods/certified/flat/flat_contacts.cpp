@@ -143,7 +143,27 @@ bool FlatContacts::leave_touching_contacts() {
   for (std::size_t i = 0; i < contacts_.size(); ++i)
     if (touches[i] && !is_left(contacts_[i].flat_moving, contacts_[i].flat_fixed))
       left_.push_back({contacts_[i].flat_moving, contacts_[i].flat_fixed});
-  if (left_.size() == known) return false;
+  return left_.size() > known && forget_contacts();
+}
+
+bool FlatContacts::leave_contacts_beside(const FlatSide& moving, const FlatSide& fixed,
+                                         std::span<const LocalMinimum> minima) {
+  const std::size_t known = left_.size();
+  for (std::size_t i = 0; i < contacts_.size(); ++i) {
+    const Contact& contact = contacts_[i];
+    const bool has_neighbour = std::ranges::any_of(minima, [&](const LocalMinimum& minimum) {
+      const Lmd& lmd = minimum.lmd;
+      return !lmd.intersecting && is_at(i, lmd.point_moving, lmd.point_fixed) &&
+             !(moving.mesh.is_on(moving.surface, lmd.feature_moving, contact.flat_moving) &&
+               fixed.mesh.is_on(fixed.surface, lmd.feature_fixed, contact.flat_fixed));
+    });
+    if (has_neighbour && !is_left(contact.flat_moving, contact.flat_fixed))
+      left_.push_back({contact.flat_moving, contact.flat_fixed});
+  }
+  return left_.size() > known && forget_contacts();
+}
+
+bool FlatContacts::forget_contacts() {
   contacts_.clear();
   pieces_.clear();
   frames_.clear();
@@ -432,30 +452,29 @@ const FlatContacts::Contact* FlatContacts::contact_of(const FlatSide& moving, co
   return nullptr;
 }
 
+bool FlatContacts::is_at(std::size_t i, const Vec3& p_W, const Vec3& q_W) const {
+  const Contact& contact = contacts_[i];
+  const double distance = contact.lmd.distance, reach = TOUCHING * coordinates_ + tolerance_;
+  if ((q_W - p_W - distance * contact.lmd.direction).norm() >
+      SAME_DISTANCE * distance + reach + PARALLEL_TILT * (q_W - contact.lmd.point_fixed).norm())
+    return false;
+  if (contact.count == 0) {
+    const Vec3 along_segment = contact.end1 - contact.end0;
+    const double t =
+        std::clamp((q_W - contact.end0).dot(along_segment) / along_segment.squaredNorm(), 0.0, 1.0);
+    return (contact.end0 + t * along_segment - q_W).norm() <= reach;
+  }
+  const Vec2 x = frames_[i].flat(q_W);
+  return std::ranges::any_of(pieces_of(contact),
+                             [&](const ConvexPolygon& piece) { return is_inside(piece, x, reach); });
+}
+
 bool FlatContacts::contains(const FlatSide& moving, const FeatureId& on_moving, const FlatSide& fixed,
                             const FeatureId& on_fixed, const Vec3& p_W, const Vec3& q_W) const {
-  const Vec3 d = q_W - p_W;
-  const double reach = TOUCHING * coordinates_ + tolerance_;
-  for (std::size_t i = 0; i < contacts_.size(); ++i) {
-    const Contact& contact = contacts_[i];
-    const double distance = contact.lmd.distance;
-    if ((d - distance * contact.lmd.direction).norm() >
-        SAME_DISTANCE * distance + reach + PARALLEL_TILT * (q_W - contact.lmd.point_fixed).norm())
-      continue;
-    if (!moving.mesh.is_on(moving.surface, on_moving, contact.flat_moving) ||
-        !fixed.mesh.is_on(fixed.surface, on_fixed, contact.flat_fixed))
-      continue;
-    if (contact.count == 0) {
-      const Vec3 along_segment = contact.end1 - contact.end0;
-      const double t =
-          std::clamp((q_W - contact.end0).dot(along_segment) / along_segment.squaredNorm(), 0.0, 1.0);
-      if ((contact.end0 + t * along_segment - q_W).norm() <= reach) return true;
-      continue;
-    }
-    const Vec2 x = frames_[i].flat(q_W);
-    for (std::size_t k = 0; k < contact.count; ++k)
-      if (is_inside(pieces_[contact.first + k], x, reach)) return true;
-  }
+  for (std::size_t i = 0; i < contacts_.size(); ++i)
+    if (is_at(i, p_W, q_W) && moving.mesh.is_on(moving.surface, on_moving, contacts_[i].flat_moving) &&
+        fixed.mesh.is_on(fixed.surface, on_fixed, contacts_[i].flat_fixed))
+      return true;
   return false;
 }
 

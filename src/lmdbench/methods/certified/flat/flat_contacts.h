@@ -6,6 +6,7 @@
 #include <lmdbench/geometry/pose.h>
 #include <lmdbench/lmd/flat_pieces.h>
 #include <lmdbench/lmd/lmd.h>
+#include <lmdbench/lmd/plateau.h>
 #include <lmdbench/methods/certified/flat/flat_mesh.h>
 
 #include <algorithm>
@@ -74,6 +75,10 @@ class FlatContacts {
   /// regions. Leaves them to their triangles, for good until `start`.
   /// @returns whether there are any; then all contacts are forgotten, and everything is to be decided again
   bool leave_touching_contacts();
+  /// The same of contacts beside minima that are no part of them: an edge that lies in a region's plane and is no side of it.
+  /// @param minima of this body
+  bool leave_contacts_beside(const FlatSide& moving, const FlatSide& fixed,
+                             std::span<const LocalMinimum> minima);
 
   FlatVerdict add_faces(const FlatSide& moving, std::int32_t region_moving, const FlatSide& fixed,
                         std::int32_t region_fixed);
@@ -112,6 +117,9 @@ class FlatContacts {
   bool follows_border_aslant(const FlatSide& of_face, std::int32_t region, const Vec3& x0, const Vec3& u,
                              const Vec3& n) const;
   std::span<const ConvexPolygon> pieces_of(const Contact& contact) const;
+  /// Whether a minimum has a contact's distance and direction and a point in it.
+  bool is_at(std::size_t contact, const Vec3& p_W, const Vec3& q_W) const;
+  bool forget_contacts();
   bool do_touch(std::size_t one, std::size_t other, double gap) const;
   bool are_one_set(std::size_t one, std::size_t other) const;
   bool is_left(const FeatureId& flat_moving, const FeatureId& flat_fixed) const {
