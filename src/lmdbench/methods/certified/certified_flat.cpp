@@ -101,7 +101,8 @@ bool is_clearly_outside(const FlatSide& side, std::int32_t edge, const std::arra
                                 plane.height(middle) * n, CLEARLY_OUTSIDE);
 }
 
-/// The same of two edges: whether they are parallel, clear of each other, and the direction leaves the cone of one.
+/// The same of two edges: whether they share nothing along each other, or are parallel, clear of each other, and the direction
+/// leaves the cone of one.
 bool are_clearly_outside(const FlatSide& moving, std::int32_t edge_moving, const FlatSide& fixed,
                          std::int32_t edge_fixed, double touch) {
   const auto ends_of = [](const FlatSide& side, std::int32_t edge) {
@@ -114,7 +115,8 @@ bool are_clearly_outside(const FlatSide& moving, std::int32_t edge_moving, const
   const auto place_of = [&](const Vec3& x) { return (x - a[0]).dot(u) / u.squaredNorm(); };
   const double place0 = place_of(b[0]), place1 = place_of(b[1]);
   const double begin = std::max(0.0, std::min(place0, place1)), end = std::min(1.0, std::max(place0, place1));
-  if (!(end > begin)) return false;
+  // The direction of a minimum inside both is square to both: where they share nothing, their ends answer.
+  if (!(end > begin)) return (begin - end) * u.norm() > 2.0 * touch;
   const auto on_moving = [&](double s) { return Vec3(a[0] + s * u); };
   const auto on_fixed = [&](double s) { return Vec3(b[0] + (s - place0) / (place1 - place0) * v); };
   const Vec3 d0 = on_fixed(begin) - on_moving(begin), d1 = on_fixed(end) - on_moving(end);
