@@ -22,9 +22,12 @@ namespace {
 /// they cross in one place.
 constexpr double NEARLY_PARALLEL_SINE = 1e-4;
 constexpr double CROSSING_SINE = 1e-8;
-/// Sine by which a direction leaves an edge's cone, beyond what PLATEAU_PIECE_TOLERANCE grants to a point of the edge that is a
-/// thousand times as far from the triangles' corners as another one.
-constexpr double CLEARLY_OUTSIDE = 1e3 * PLATEAU_PIECE_TOLERANCE;
+/// Sine by which a direction leaves an edge's cone clearly: ten times what the truth grants to a piece of a plateau.
+constexpr double CLEARLY_OUTSIDE = 10.0 * PLATEAU_PIECE_TOLERANCE;
+/// How far a direction between points may be off, times the touch distance over its length: 16 epsilon of the coordinates.
+constexpr double DIRECTION_ROUNDING = 4e-6;
+/// Directions of edges that pass each other and differ by more than this, as a sine, are left to the triangles.
+constexpr double LARGEST_TURN_ALONG = 1e-2;
 /// A feature with more times the corners of the other one is not held against the other's plane
 /// (scripts/tuned_constants.py --only FEW_CORNERS experiments/extreme/gears.json).
 constexpr std::size_t FEW_CORNERS = 4;
@@ -89,22 +92,33 @@ void for_each_face_near(const FlatSide& side, std::int32_t region, std::span<con
   shape->for_each_near(low, high, reach, visit);
 }
 
-/// Whether the direction from an edge to a plane that it is parallel to, and clear of, leaves the edge's polar cone by more than the
-/// truth could grant to any point of the edge.
-/// @param ends_W of the edge
-bool is_clearly_outside(const FlatSide& side, std::int32_t edge, const std::array<Vec3, 2>& ends_W,
-                        const Plane& plane, double touch) {
-  const Vec3 u = ends_W[1] - ends_W[0], middle = 0.5 * (ends_W[0] + ends_W[1]);
-  if (std::min(plane.height(ends_W[0]), plane.height(ends_W[1])) <= 2.0 * touch) return false;
-  const Vec3 n = -(plane.normal - u.dot(plane.normal) / u.squaredNorm() * u).normalized();
-  return !in_outward_polar_cone(side.surface, side.X_WS, {FeatureKind::EDGE, edge}, middle,
-                                plane.height(middle) * n, CLEARLY_OUTSIDE);
+/// Whether a direction leaves an edge's polar cone at all points from p0 to p1, by more than the truth grants: how far a corner
+/// is over the plane square to the direction does not depend on the point, and what is granted for it is most at an end.
+/// @param spare  sine by which the direction may be off
+bool leaves_cone(const FlatSide& side, std::int32_t edge, const Vec3& p0, const Vec3& p1, const Vec3& d_W,
+                 double touch, double spare) {
+  const double tolerance = CLEARLY_OUTSIDE + DIRECTION_ROUNDING * touch / d_W.norm() + spare;
+  const auto is_outside = [&](const Vec3& p) {
+    return !in_outward_polar_cone(side.surface, side.X_WS, {FeatureKind::EDGE, edge}, p, d_W, tolerance);
+  };
+  return is_outside(p0) && is_outside(p1);
 }
 
-/// The same of two edges: whether they share nothing along each other, or are parallel, clear of each other, and the direction
-/// leaves the cone of one.
-bool are_clearly_outside(const FlatSide& moving, std::int32_t edge_moving, const FlatSide& fixed,
-                         std::int32_t edge_fixed, double touch) {
+/// Whether an edge that is parallel to a plane, and clear of it, has no minimum inside over that plane.
+/// @param ends_W of the edge
+bool has_none_over(const FlatSide& side, std::int32_t edge, const std::array<Vec3, 2>& ends_W,
+                   const Plane& plane, double touch) {
+  const Vec3 u = ends_W[1] - ends_W[0];
+  const double height = std::min(plane.height(ends_W[0]), plane.height(ends_W[1]));
+  if (height <= 2.0 * touch) return false;
+  const Vec3 n = -(plane.normal - u.dot(plane.normal) / u.squaredNorm() * u).normalized();
+  return leaves_cone(side, edge, ends_W[0], ends_W[1], height * n, touch, 0.0);
+}
+
+/// Whether two edges have no minimum inside both: they share nothing along each other, or are parallel and clear of each other,
+/// and the direction leaves the cone of one.
+bool have_none_inside(const FlatSide& moving, std::int32_t edge_moving, const FlatSide& fixed,
+                      std::int32_t edge_fixed, double touch) {
   const auto ends_of = [](const FlatSide& side, std::int32_t edge) {
     const auto& ends = side.surface.adjacency.edges[static_cast<std::size_t>(edge)];
     return Segment{side.vertex(ends[0]), side.vertex(ends[1])};
@@ -119,17 +133,14 @@ bool are_clearly_outside(const FlatSide& moving, std::int32_t edge_moving, const
   if (!(end > begin)) return (begin - end) * u.norm() > 2.0 * touch;
   const auto on_moving = [&](double s) { return Vec3(a[0] + s * u); };
   const auto on_fixed = [&](double s) { return Vec3(b[0] + (s - place0) / (place1 - place0) * v); };
-  const Vec3 d0 = on_fixed(begin) - on_moving(begin), d1 = on_fixed(end) - on_moving(end);
-  const double nearest = std::min(d0.norm(), d1.norm());
+  const Vec3 p0 = on_moving(begin), p1 = on_moving(end), q0 = on_fixed(begin), q1 = on_fixed(end);
+  const double nearest = std::min((q0 - p0).norm(), (q1 - p1).norm());
   // Edges that pass each other have a direction at each place.
-  if (nearest <= 2.0 * touch || (d1 - d0).norm() > 0.1 * CLEARLY_OUTSIDE * nearest) return false;
-  const double middle = 0.5 * (begin + end);
-  const Vec3 p = on_moving(middle), q = on_fixed(middle), d = q - p;
-  const Vec3 across_m = d - d.dot(u) / u.squaredNorm() * u, across_f = d - d.dot(v) / v.squaredNorm() * v;
-  return !in_outward_polar_cone(moving.surface, moving.X_WS, {FeatureKind::EDGE, edge_moving}, p, across_m,
-                                CLEARLY_OUTSIDE) ||
-         !in_outward_polar_cone(fixed.surface, fixed.X_WS, {FeatureKind::EDGE, edge_fixed}, q, -across_f,
-                                CLEARLY_OUTSIDE);
+  const double turn = ((q1 - p1) - (q0 - p0)).norm() / nearest;
+  if (nearest <= 2.0 * touch || turn > LARGEST_TURN_ALONG) return false;
+  const Vec3 d = 0.5 * ((q0 - p0) + (q1 - p1));
+  return leaves_cone(moving, edge_moving, p0, p1, d - d.dot(u) / u.squaredNorm() * u, touch, 2.0 * turn) ||
+         leaves_cone(fixed, edge_fixed, q0, q1, -(d - d.dot(v) / v.squaredNorm() * v), touch, 2.0 * turn);
 }
 
 /// Gap between a feature's corners and a plane, with the axis from the feature towards it.
@@ -319,7 +330,7 @@ void Certified::expand_edge_face(const Frame& frame, const FlatSide& of_edge, st
   for (const std::int32_t e : of_edge.mesh.regions->edges_of_straight[straight]) {
     const auto& ends = of_edge.surface.adjacency.edges[static_cast<std::size_t>(e)];
     const std::array<Vec3, 2> points{of_edge.vertex(ends[0]), of_edge.vertex(ends[1])};
-    if (is_clearly_outside(of_edge, e, points, plane, frame.filter.touch)) continue;
+    if (has_none_over(of_edge, e, points, plane, frame.filter.touch)) continue;
     for (const std::int32_t t : of_edge.surface.adjacency.edge_triangles[e])
       for_each_face_near(of_face, region, points, 4.0 * frame.filter.touch, [&](std::int32_t face) {
         pending_.push_back({of_edge.is_moving ? TrianglePair{t, face} : TrianglePair{face, t}, false});
@@ -332,7 +343,7 @@ void Certified::expand_edges(const Frame& frame, std::int32_t straight_moving, s
     for (const std::int32_t j : frame.flat_fixed.mesh.regions->edges_of_straight[straight_fixed]) {
       const PairAnswer answer = frame.single_filter({FeatureKind::EDGE, i}, {FeatureKind::EDGE, j}, 1.0);
       if (answer.verdict == PairVerdict::NO_LMD) continue;
-      if (are_clearly_outside(frame.flat_moving, i, frame.flat_fixed, j, frame.filter.touch)) continue;
+      if (have_none_inside(frame.flat_moving, i, frame.flat_fixed, j, frame.filter.touch)) continue;
       for (const std::int32_t t_moving : frame.filter.moving.adjacency.edge_triangles[i])
         for (const std::int32_t t_fixed : frame.filter.fixed.adjacency.edge_triangles[j])
           pending_.push_back({{t_moving, t_fixed}, false});
