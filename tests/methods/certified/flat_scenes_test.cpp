@@ -16,6 +16,7 @@
 #include <memory>
 #include <numbers>
 #include <string>
+#include <tuple>
 #include <vector>
 
 /// Flat contact: regions and straight edges must give the sets that the triangles give.
@@ -331,6 +332,26 @@ TEST(FlatScenes, TiltedBoxesAtAnyAngle) {
     pose.rotation = testing::random_rotation(random);
     boxes.check(pose);
   }
+}
+
+/// A plate over its copy, walls over walls included, however finely both are cut.
+TEST(FlatScenes, WorkDoesNotGrowWithTheTriangles) {
+  const auto work_of = [](int cells) {
+    const TriangleMesh plate = make_box({0.1, 0.1, 0.01}, {cells, cells, 1});
+    const auto method = make_method("certified", make_scene(plate, plate, 0.001));
+    LmdSet set;
+    WorkCounters counters;
+    std::mt19937_64 random(5);
+    for (int i = 0; i < 20; ++i) {
+      Pose pose = turned_on_top(random, 0.0101);
+      pose.translation.head<2>() *= 0.5;
+      method->search(pose, set, counters);
+      EXPECT_EQ(set.size(), 1u) << cells << " " << text(pose);
+    }
+    return std::tuple(counters[Certified::Counter::NODE_PAIRS], counters[Certified::Counter::LEAF_PAIRS],
+                      counters[Certified::Counter::TRIANGLE_DISTANCES]);
+  };
+  EXPECT_EQ(work_of(4), work_of(64));
 }
 
 /// From rounding to beyond PARALLEL_TILT: faces over faces, an edge over a face, edges along edges.

@@ -381,6 +381,7 @@ Certificate Certified::decide_touching_flat(const Frame& frame, const WidePair& 
     if (gap.gap > margin) return {gap.gap - margin, gap.axis};
   }
   const auto decide_triangles = [&](std::int32_t t_moving, std::int32_t t_fixed) {
+    ++counters[Counter::LEAF_PAIRS];
     const Triangle a = frame.filter.X_WM.triangle(frame.filter.moving.mesh.triangle(t_moving));
     const Triangle b = frame.filter.fixed.mesh.triangle(t_fixed);
     const Vec3 normal_a =
