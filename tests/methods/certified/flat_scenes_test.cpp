@@ -93,7 +93,7 @@ Pose turned_on_top(std::mt19937_64& random, double height) {
 }
 
 /// LMDBENCH_TILTED_POSES, or few.
-int tilted_poses(int few = 40) {
+int tilted_poses(int few = 400) {
   const char* const wanted = std::getenv("LMDBENCH_TILTED_POSES");
   return wanted != nullptr ? std::atoi(wanted) : few;
 }
@@ -300,6 +300,28 @@ TEST(FlatScenes, EdgesAreParallelUpToATiltWhole) {
       EXPECT_NEAR(set[0].point_fixed.y(), place, 1e-6) << method << " " << turn;
     }
   }
+}
+
+/// Left to their triangles: ridges between the touch distance and twice it, and a ridge over two that go on in one line between
+/// other faces.
+TEST(FlatScenes, EdgesAlongEdgesByTheirTriangles) {
+  std::mt19937_64 random(13);
+  const TriangleMesh ridge = make_wedge(0.05, 0.1, 0.05);
+  const auto over = [&](double height) {
+    return Pose{Vec3(0.0, 0.06 * (uniform(random) - 0.5), 0.025 + height),
+                Eigen::Quaterniond(Eigen::AngleAxisd(std::numbers::pi, Vec3::UnitY()))};
+  };
+  FlatComparison near(make_scene(ridge, ridge, 0.01));
+  for (int i = 0; i < 60; ++i) near.check(over(0.025 + 1e-11 * std::pow(10.0, 2.0 * uniform(random))));
+  EXPECT_GE(near.found(), 60u);
+  TriangleMesh roof;
+  roof.vertices = {{0, -0.05, 0.05}, {0, 0, 0.05},      {0, 0.05, 0.05}, {-0.025, -0.05, 0},
+                   {-0.025, 0, 0},   {0.025, -0.05, 0}, {0.025, 0, 0},   {-0.04, 0, 0},
+                   {-0.04, 0.05, 0}, {0.04, 0, 0},      {0.04, 0.05, 0}};
+  roof.triangles = {{0, 1, 4}, {0, 4, 3}, {0, 5, 6}, {0, 6, 1}, {1, 2, 8}, {1, 8, 7}, {1, 9, 10}, {1, 10, 2}};
+  FlatComparison roofs(make_scene(ridge, roof, 0.01));
+  for (int i = 0; i < 20; ++i) roofs.check(over(0.05 + 0.005 * uniform(random)));
+  EXPECT_GE(roofs.found(), 20u);
 }
 
 TEST(FlatScenes, EdgesOnFacesAndAlongEdges) {
