@@ -316,7 +316,8 @@ FlatVerdict FlatContacts::add_edge_face(const FlatSide& of_edge, std::int32_t st
     const Vec3 middle = x0 + 0.5 * (part.begin + part.end) * u;
     const auto foot_of = [&](const Vec3& x) { return Vec3(x + along(plane, n, x) * n); };
     const Vec3 foot = foot_of(middle);
-    if (!in_outward_polar_cone(of_edge.surface, of_edge.X_WS, lead, middle, foot - middle))
+    if (!in_outward_polar_cone(of_edge.surface, of_edge.X_WS, lead, middle, foot - middle) ||
+        is_beside_turned_face(of_edge, straight, n))
       return unsure(flat_moving, flat_fixed);
     Contact contact;
     contact.flat_moving = flat_moving;
@@ -329,6 +330,16 @@ FlatVerdict FlatContacts::add_edge_face(const FlatSide& of_edge, std::int32_t st
     add(of_edge.is_moving ? of_edge : of_face, of_edge.is_moving ? of_face : of_edge, contact);
   }
   return FlatVerdict::FOUND;
+}
+
+/// Whether a face beside a straight edge lies in the plane of its contact and turns away, as on the border of a sheet: what is over that
+/// face is of one set with what is over the edge, although no contact of the face.
+/// @param n  from the edge to the other mesh
+bool FlatContacts::is_beside_turned_face(const FlatSide& side, std::int32_t straight, const Vec3& n) const {
+  return std::ranges::any_of(side.mesh.regions->straight_edges[static_cast<std::size_t>(straight)].regions,
+                             [&](std::int32_t region) {
+                               return region >= 0 && (side.plane(region).normal + n).norm() <= largest_tilt();
+                             });
 }
 
 /// Whether somewhere along a straight edge over a region the region's border is beside it, to TOUCHING, and at so small an angle
@@ -397,6 +408,9 @@ FlatVerdict FlatContacts::add_edges(const FlatSide& moving, std::int32_t straigh
   if (!in_outward_polar_cone(moving.surface, moving.X_WS, lead_m, p, across_m) ||
       !in_outward_polar_cone(fixed.surface, fixed.X_WS, lead_f, p + d, -across_f))
     return FlatVerdict::UNSURE;
+  if (is_beside_turned_face(moving, straight_moving, d.normalized()) ||
+      is_beside_turned_face(fixed, straight_fixed, -d.normalized()))
+    return unsure({FeatureKind::EDGE, straight_moving}, {FeatureKind::EDGE, straight_fixed});
   Contact contact;
   contact.flat_moving = {FeatureKind::EDGE, straight_moving};
   contact.flat_fixed = {FeatureKind::EDGE, straight_fixed};
