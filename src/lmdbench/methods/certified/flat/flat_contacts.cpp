@@ -153,7 +153,10 @@ bool FlatContacts::leave_contacts_beside(const FlatSide& moving, const FlatSide&
     const Contact& contact = contacts_[i];
     const bool has_neighbour = std::ranges::any_of(minima, [&](const LocalMinimum& minimum) {
       const Lmd& lmd = minimum.lmd;
-      return !lmd.intersecting && is_at(i, lmd.point_moving, lmd.point_fixed) &&
+      // A piece with a size is known by its middle alone: at the same height it may touch the contact anywhere.
+      return !lmd.intersecting &&
+             (minimum.dimension > 0 ? is_level_with(contact, lmd.point_moving, lmd.point_fixed)
+                                    : is_at(i, lmd.point_moving, lmd.point_fixed)) &&
              !(moving.mesh.is_on(moving.surface, lmd.feature_moving, contact.flat_moving) &&
                fixed.mesh.is_on(fixed.surface, lmd.feature_fixed, contact.flat_fixed));
     });
@@ -466,12 +469,16 @@ const FlatContacts::Contact* FlatContacts::contact_of(const FlatSide& moving, co
   return nullptr;
 }
 
+bool FlatContacts::is_level_with(const Contact& contact, const Vec3& p_W, const Vec3& q_W) const {
+  const double distance = contact.lmd.distance, reach = TOUCHING * coordinates_ + tolerance_;
+  return (q_W - p_W - distance * contact.lmd.direction).norm() <=
+         SAME_DISTANCE * distance + reach + PARALLEL_TILT * (q_W - contact.lmd.point_fixed).norm();
+}
+
 bool FlatContacts::is_at(std::size_t i, const Vec3& p_W, const Vec3& q_W) const {
   const Contact& contact = contacts_[i];
-  const double distance = contact.lmd.distance, reach = TOUCHING * coordinates_ + tolerance_;
-  if ((q_W - p_W - distance * contact.lmd.direction).norm() >
-      SAME_DISTANCE * distance + reach + PARALLEL_TILT * (q_W - contact.lmd.point_fixed).norm())
-    return false;
+  const double reach = TOUCHING * coordinates_ + tolerance_;
+  if (!is_level_with(contact, p_W, q_W)) return false;
   if (contact.count == 0) {
     const Vec3 along_segment = contact.end1 - contact.end0;
     const double t =

@@ -118,7 +118,9 @@ class FlatContacts {
   bool follows_border_aslant(const FlatSide& of_face, std::int32_t region, const Vec3& x0, const Vec3& u,
                              const Vec3& n) const;
   std::span<const ConvexPolygon> pieces_of(const Contact& contact) const;
-  /// Whether a minimum has a contact's distance and direction and a point in it.
+  /// Whether a minimum has a contact's distance and direction.
+  bool is_level_with(const Contact& contact, const Vec3& p_W, const Vec3& q_W) const;
+  /// The same, and a point in it.
   bool is_at(std::size_t contact, const Vec3& p_W, const Vec3& q_W) const;
   bool forget_contacts();
   bool do_touch(std::size_t one, std::size_t other, double gap) const;
