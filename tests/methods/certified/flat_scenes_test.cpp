@@ -376,6 +376,21 @@ TEST(FlatScenes, WorkDoesNotGrowWithTheTriangles) {
   EXPECT_EQ(work_of(4), work_of(64));
 }
 
+/// A box behind a strip: over both borders, and over what is between them although that turns away.
+TEST(FlatScenes, BordersOfASheetThatTurnsAway) {
+  TriangleMesh strip;
+  strip.vertices = {{-0.01, -0.1, 0.0}, {0.01, -0.1, 0.0}, {0.01, 0.1, 0.0}, {-0.01, 0.1, 0.0}};
+  strip.triangles = {{0, 1, 2}, {0, 2, 3}};
+  std::mt19937_64 random(14);
+  FlatComparison behind(make_scene(make_box({0.05, 0.05, 0.05}, 2), strip, 0.01));
+  for (int i = 0; i < 20; ++i) {
+    Pose pose = turned_on_top(random, -0.026 - 0.005 * uniform(random));
+    pose.translation.head<2>() *= 0.1;
+    behind.check(pose);
+  }
+  EXPECT_GE(behind.found(), 20u);
+}
+
 /// From rounding to beyond PARALLEL_TILT: faces over faces, an edge over a face, edges along edges.
 TEST(FlatScenes, TiltsAroundTheLargestParallelOne) {
   std::mt19937_64 random(12);
