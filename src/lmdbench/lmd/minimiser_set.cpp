@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/geometry/convex_polygon.h>
+#include <lmdbench/geometry/extent.h>
 #include <lmdbench/lmd/first_order.h>
 #include <lmdbench/lmd/minimiser_set.h>
 #include <lmdbench/lmd/plateau.h>
@@ -100,16 +101,8 @@ std::vector<InContact> in_contact(const Surface& surface, const RigidTransform& 
 bool is_apart(const std::vector<Vec2>& a, const std::vector<Vec2>& b, const Vec2& axis, double gap) {
   const double length = axis.norm();
   if (!(length > 0.0)) return false;
-  double low_a = std::numeric_limits<double>::infinity(), high_a = -low_a, low_b = low_a, high_b = -low_a;
-  for (const Vec2& x : a) {
-    low_a = std::min(low_a, axis.dot(x));
-    high_a = std::max(high_a, axis.dot(x));
-  }
-  for (const Vec2& x : b) {
-    low_b = std::min(low_b, axis.dot(x));
-    high_b = std::max(high_b, axis.dot(x));
-  }
-  return std::max(low_b - high_a, low_a - high_b) > gap * length;
+  const Extent of_a = extent_along(a, axis), of_b = extent_along(b, axis);
+  return std::max(of_b.least - of_a.greatest, of_a.least - of_b.greatest) > gap * length;
 }
 
 /// Separating axes of convex polygons, segments and points: square to the sides, along segments, and between points.

@@ -71,9 +71,9 @@ std::vector<bool> have_company(std::span<const LocalMinimum> minima, std::span<c
   std::vector<bool> result(minima.size(), false);
   for (std::size_t k = 1; k < order.size(); ++k) {
     const Lmd &a = minima[order[k - 1]].lmd, &b = minima[order[k]].lmd;
-    // At least what same_plane_of_contact grants: two points are less than four coordinates apart.
+    // At least what same_plane_of_contact grants.
     const double granted = tolerances[static_cast<std::size_t>(b.fixed_body)] +
-                           PLATEAU_TOLERANCE * b.distance + 4.5 * PARALLEL_TILT * coordinates;
+                           PLATEAU_TOLERANCE * b.distance + PLATEAU_SLOPE * coordinates;
     if (a.fixed_body == b.fixed_body && b.distance - a.distance <= granted)
       result[order[k - 1]] = result[order[k]] = true;
   }

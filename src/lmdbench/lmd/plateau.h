@@ -3,6 +3,7 @@
 #pragma once
 
 #include <lmdbench/geometry/pose.h>
+#include <lmdbench/lmd/first_order.h>
 #include <lmdbench/lmd/intersections.h>
 #include <lmdbench/lmd/lmd.h>
 #include <lmdbench/lmd/scene.h>
@@ -25,6 +26,10 @@ struct LocalMinimum {
 /// Relative difference of two distances below which neighbouring minima are one plateau; their directions may be
 /// PARALLEL_TILT apart.
 inline constexpr double PLATEAU_TOLERANCE = 1e-9;
+
+/// Distances of one plateau differ by no more than this part of the coordinates for its tilt: two of its points are less
+/// than four coordinates apart.
+inline constexpr double PLATEAU_SLOPE = 4.5 * PARALLEL_TILT;
 
 /// Leaves one entry a feature pair, sorted by body and features: of the highest dimension the nearest, of
 /// those the one with the largest measure; strict if any of them is.

@@ -29,9 +29,9 @@ constexpr double FILTER_MARGIN = 1e-5;
 constexpr double RELATIVE_TINY = 1e-8;
 /// Motions of a frame that are larger than this many cutoffs are jumps: next to nothing would be kept.
 constexpr double LARGEST_PACE = 1.0;
-/// Two minima whose distances differ by more than this part of them, and this part of the coordinates, cannot be on one
-/// plateau: its tolerance is 1e-9 and, for points that are less than four coordinates apart, PARALLEL_TILT.
-constexpr double APART = 1e-6, SLOPE = 4.5 * PARALLEL_TILT;
+/// Two minima whose distances differ by more than this part of them, and PLATEAU_SLOPE of the coordinates, cannot be on one
+/// plateau (its tolerance is 1e-9).
+constexpr double APART = 1e-6;
 
 /// Pairs between the one that is decided and the one whose data is fetched; twice that for the indices,
 /// without which the rest is not known.
@@ -349,7 +349,7 @@ void Certified::report(const RigidTransform& X_WM, double coordinates, LmdSet& l
   for (std::size_t i = 0; i < minima_.size(); ++i) {
     for (std::size_t j = i + 1; j < minima_.size(); ++j) {
       const double a = minima_[i].lmd.distance, b = minima_[j].lmd.distance;
-      if (std::abs(a - b) > APART * std::max(a, b) + SLOPE * coordinates + tolerance) continue;
+      if (std::abs(a - b) > APART * std::max(a, b) + PLATEAU_SLOPE * coordinates + tolerance) continue;
       merge();
       return;
     }
@@ -473,7 +473,8 @@ void Certified::search(const Pose& X_WM, LmdSet& lmds, WorkCounters& counters) {
       for (const WidePair& pair : scratch_.touch_pairs) touching_.emplace_back(pair, 0u);
       decide_touching(frame, counters, [](std::uint32_t, const Certificate&) {});
     }
-    of_touching_.assign(minima_.begin() + static_cast<std::ptrdiff_t>(settled), minima_.end());
+    if (frame.is_flat)
+      of_touching_.assign(minima_.begin() + static_cast<std::ptrdiff_t>(settled), minima_.end());
     decide_pending(frame, first, counters);
     if (frame.is_flat) {
       settle_contacts_beside(frame, first, of_touching_, counters);

@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/geometry/extent.h>
 #include <lmdbench/geometry/segment_distance.h>
 #include <lmdbench/lmd/first_order.h>
 #include <lmdbench/methods/certified/certified.h>
@@ -145,13 +146,10 @@ bool have_none_inside(const FlatSide& moving, std::int32_t edge_moving, const Fl
 
 /// Gap between a feature's corners and a plane, with the axis from the feature towards it.
 ClearGap gap_to(const Plane& plane, const FlatSide& side, std::span<const std::int32_t> corners) {
-  double lowest = std::numeric_limits<double>::infinity(), highest = -lowest;
-  for (const std::int32_t corner : corners) {
-    const double height = plane.height(side.vertex(corner));
-    lowest = std::min(lowest, height);
-    highest = std::max(highest, height);
-  }
-  return lowest >= -highest ? ClearGap{lowest, -plane.normal} : ClearGap{-highest, plane.normal};
+  Extent heights;
+  for (const std::int32_t corner : corners) heights.add(plane.height(side.vertex(corner)));
+  return heights.least >= -heights.greatest ? ClearGap{heights.least, -plane.normal}
+                                            : ClearGap{-heights.greatest, plane.normal};
 }
 
 /// Largest gap between two regions along the products of a side of one and a side of the other: with their own planes the
@@ -173,17 +171,11 @@ ClearGap gap_along_side_products(const FlatSide& moving, std::int32_t region_mov
       const double length = product.norm();
       if (!(length > 0.0)) continue;
       const Vec3 axis = product / length;
-      double low_m = std::numeric_limits<double>::infinity(), high_m = -low_m, low_f = low_m, high_f = -low_m;
-      for (const Vec3& x : corners_moving) {
-        low_m = std::min(low_m, axis.dot(x));
-        high_m = std::max(high_m, axis.dot(x));
-      }
-      for (const Vec3& x : corners_fixed) {
-        low_f = std::min(low_f, axis.dot(x));
-        high_f = std::max(high_f, axis.dot(x));
-      }
-      if (low_f - high_m > widest.gap) widest = {low_f - high_m, axis};
-      if (low_m - high_f > widest.gap) widest = {low_m - high_f, -axis};
+      const Extent of_moving = extent_along(corners_moving, axis),
+                   of_fixed = extent_along(corners_fixed, axis);
+      const double ahead = of_fixed.least - of_moving.greatest, behind = of_moving.least - of_fixed.greatest;
+      if (ahead > widest.gap) widest = {ahead, axis};
+      if (behind > widest.gap) widest = {behind, -axis};
     }
   }
   return widest;
@@ -423,12 +415,14 @@ Certificate Certified::decide_touching_flat(const Frame& frame, const WidePair& 
   return {};
 }
 
-/// Decides all candidates again, with the contacts that touch left to their triangles.
+/// Leaves contacts that touch others to their triangles.
 /// @param first of minima_ that are this body's
 void Certified::settle_touching_contacts(const Frame& frame, std::size_t first, WorkCounters& counters) {
   while (frame.is_flat && contacts_.leave_touching_contacts()) decide_again(frame, first, counters);
 }
 
+/// Decides all candidates again, after contacts were left to their triangles.
+/// @param first of minima_ that are this body's
 void Certified::decide_again(const Frame& frame, std::size_t first, WorkCounters& counters) {
   minima_.resize(first);
   pending_.clear();

@@ -80,7 +80,7 @@ void FlatContacts::start(std::int32_t body, double cutoff, double touch, double 
   frames_.clear();
 }
 
-FlatVerdict FlatContacts::judge(const Range& distances, double tilt) {
+FlatVerdict FlatContacts::judge(const Extent& distances, double tilt) {
   // Faces that are in touch or cross have no direction: their triangles tell.
   if (distances.greatest < 0.0) return FlatVerdict::NONE;
   const bool is_parallel = rule_.is_parallel(tilt, distances.greatest - distances.least);
@@ -207,7 +207,7 @@ FlatVerdict FlatContacts::add_faces(const FlatSide& moving, std::int32_t region_
   collect_pieces(moving, region_moving, frame, of_moving_);
   collect_pieces(fixed, region_fixed, frame, of_fixed_);
   overlaps_.clear();
-  Range distances{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
+  Extent distances;
   for (const ConvexPolygon& a : of_moving_) {
     for (const ConvexPolygon& b : of_fixed_) {
       if (!touch(a, b, 0.0)) continue;
@@ -301,7 +301,7 @@ FlatVerdict FlatContacts::add_edge_face(const FlatSide& of_edge, std::int32_t st
   parts.resize(kept);
   std::erase_if(parts, [](const Part& part) { return part.covers < 2; });
   const FeatureId lead{FeatureKind::EDGE, of_edge.mesh.lead_of_straight(straight)};
-  Range distances{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
+  Extent distances;
   for (const Part& part : parts) {
     distances.add(along(plane, n, x0 + part.begin * u));
     distances.add(along(plane, n, x0 + part.end * u));
@@ -312,15 +312,15 @@ FlatVerdict FlatContacts::add_edge_face(const FlatSide& of_edge, std::int32_t st
   if (verdict == FlatVerdict::FOUND && rule_.is_exact && follows_border_aslant(of_face, region, x0, u, n))
     return doubt();
   const FeatureId lead_face{FeatureKind::FACE, of_face.mesh.lead_of_region(region)};
-  if (verdict == FlatVerdict::UNSURE || (of_edge.is_moving ? is_on_unsure(of_edge, lead, of_face, lead_face)
-                                                           : is_on_unsure(of_face, lead_face, of_edge, lead)))
+  if (verdict == FlatVerdict::UNSURE || is_beside_turned_face(of_edge, straight, n) ||
+      (of_edge.is_moving ? is_on_unsure(of_edge, lead, of_face, lead_face)
+                         : is_on_unsure(of_face, lead_face, of_edge, lead)))
     return unsure(flat_moving, flat_fixed);
   for (const Part& part : parts) {
     const Vec3 middle = x0 + 0.5 * (part.begin + part.end) * u;
     const auto foot_of = [&](const Vec3& x) { return Vec3(x + along(plane, n, x) * n); };
     const Vec3 foot = foot_of(middle);
-    if (!in_outward_polar_cone(of_edge.surface, of_edge.X_WS, lead, middle, foot - middle) ||
-        is_beside_turned_face(of_edge, straight, n))
+    if (!in_outward_polar_cone(of_edge.surface, of_edge.X_WS, lead, middle, foot - middle))
       return unsure(flat_moving, flat_fixed);
     Contact contact;
     contact.flat_moving = flat_moving;
@@ -397,8 +397,8 @@ FlatVerdict FlatContacts::add_edges(const FlatSide& moving, std::int32_t straigh
   const auto on_fixed = [&](double s) { return Vec3(b0 + (s - begin_b) / (end_b - begin_b) * v); };
   const double middle = 0.5 * (begin + end);
   const Vec3 p = on_moving(middle), d = on_fixed(middle) - p;
-  Range distances{d.norm(), d.norm()};
-  for (const double s : {begin, end}) distances.add((on_fixed(s) - on_moving(s)).norm());
+  Extent distances;
+  for (const double s : {begin, middle, end}) distances.add((on_fixed(s) - on_moving(s)).norm());
   if (distances.least > cutoff_) return FlatVerdict::NONE;
   const FlatVerdict verdict = judge(distances, tilt);
   if (verdict == FlatVerdict::NONE) return verdict;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <lmdbench/geometry/convex_polygon.h>
+#include <lmdbench/geometry/extent.h>
 #include <lmdbench/geometry/pose.h>
 #include <lmdbench/lmd/flat_pieces.h>
 #include <lmdbench/lmd/lmd.h>
@@ -101,14 +102,7 @@ class FlatContacts {
                             const FeatureId& on_fixed, std::size_t from = 0) const;
 
  private:
-  struct Range {
-    double least, greatest;
-    void add(double x) {
-      least = std::min(least, x);
-      greatest = std::max(greatest, x);
-    }
-  };
-  FlatVerdict judge(const Range& distances, double tilt);
+  FlatVerdict judge(const Extent& distances, double tilt);
   /// Tilt that the definition's first-order test may accept between features at a distance [m]: rounding grants the more
   /// the shorter the direction is.
   double acceptable_tilt(double distance) const;
