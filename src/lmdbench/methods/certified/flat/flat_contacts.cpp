@@ -58,6 +58,10 @@ bool is_inside(const ConvexPolygon& polygon, const Vec2& x, double tolerance) {
   return true;
 }
 
+bool has_inward_edge(const FlatSide& side, std::int32_t region) {
+  return side.mesh.region_has_inward_edge[static_cast<std::size_t>(region)];
+}
+
 bool is_segment(const FlatContacts::Contact& contact) {
   return contact.flat_moving.kind == FeatureKind::EDGE || contact.flat_fixed.kind == FeatureKind::EDGE;
 }
@@ -222,9 +226,10 @@ FlatVerdict FlatContacts::add_faces(const FlatSide& moving, std::int32_t region_
   }
   if (overlaps_.empty() || distances.least > cutoff_) return FlatVerdict::NONE;
   const FlatVerdict verdict = judge(distances, tilt);
-  if (verdict == FlatVerdict::UNSURE)
-    return unsure({FeatureKind::FACE, region_moving}, {FeatureKind::FACE, region_fixed});
   if (verdict == FlatVerdict::NONE) return verdict;
+  if (verdict == FlatVerdict::UNSURE || has_inward_edge(moving, region_moving) ||
+      has_inward_edge(fixed, region_fixed))
+    return unsure({FeatureKind::FACE, region_moving}, {FeatureKind::FACE, region_fixed});
 
   group_.resize(overlaps_.size());
   std::iota(group_.begin(), group_.end(), std::size_t{0});
@@ -312,7 +317,8 @@ FlatVerdict FlatContacts::add_edge_face(const FlatSide& of_edge, std::int32_t st
   if (verdict == FlatVerdict::FOUND && rule_.is_exact && follows_border_aslant(of_face, region, x0, u, n))
     return doubt();
   const FeatureId lead_face{FeatureKind::FACE, of_face.mesh.lead_of_region(region)};
-  if (verdict == FlatVerdict::UNSURE || is_beside_turned_face(of_edge, straight, n) ||
+  if (verdict == FlatVerdict::UNSURE || is_beside_inward(of_edge, straight, n) ||
+      has_inward_edge(of_face, region) ||
       (of_edge.is_moving ? is_on_unsure(of_edge, lead, of_face, lead_face)
                          : is_on_unsure(of_face, lead_face, of_edge, lead)))
     return unsure(flat_moving, flat_fixed);
@@ -335,14 +341,17 @@ FlatVerdict FlatContacts::add_edge_face(const FlatSide& of_edge, std::int32_t st
   return FlatVerdict::FOUND;
 }
 
-/// Whether a face beside a straight edge lies in the plane of its contact and turns away, as on the border of a sheet: what is over that
-/// face is of one set with what is over the edge, although no contact of the face.
+/// Whether a face beside a straight edge lies in the plane of its contact and turns away, as on the border of a sheet, or an edge at
+/// its end does: what is over those is of one set with what is over the edge, although no contact of theirs.
 /// @param n  from the edge to the other mesh
-bool FlatContacts::is_beside_turned_face(const FlatSide& side, std::int32_t straight, const Vec3& n) const {
-  return std::ranges::any_of(side.mesh.regions->straight_edges[static_cast<std::size_t>(straight)].regions,
+bool FlatContacts::is_beside_inward(const FlatSide& side, std::int32_t straight, const Vec3& n) const {
+  const auto& regions = side.mesh.regions->straight_edges[static_cast<std::size_t>(straight)].regions;
+  return std::ranges::any_of(regions,
                              [&](std::int32_t region) {
                                return region >= 0 && (side.plane(region).normal + n).norm() <= largest_tilt();
-                             });
+                             }) ||
+         side.mesh.straight_has_inward_edge(side.surface, straight, side.X_WS.rotation.transpose() * n,
+                                            tolerance_ + ONE_SET * coordinates_);
 }
 
 /// Whether somewhere along a straight edge over a region the region's border is beside it, to TOUCHING, and at so small an angle
@@ -411,8 +420,8 @@ FlatVerdict FlatContacts::add_edges(const FlatSide& moving, std::int32_t straigh
   if (!in_outward_polar_cone(moving.surface, moving.X_WS, lead_m, p, across_m) ||
       !in_outward_polar_cone(fixed.surface, fixed.X_WS, lead_f, p + d, -across_f))
     return FlatVerdict::UNSURE;
-  if (is_beside_turned_face(moving, straight_moving, d.normalized()) ||
-      is_beside_turned_face(fixed, straight_fixed, -d.normalized()))
+  if (is_beside_inward(moving, straight_moving, d.normalized()) ||
+      is_beside_inward(fixed, straight_fixed, -d.normalized()))
     return unsure({FeatureKind::EDGE, straight_moving}, {FeatureKind::EDGE, straight_fixed});
   Contact contact;
   contact.flat_moving = {FeatureKind::EDGE, straight_moving};

@@ -2,17 +2,39 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/geometry/point_triangle.h>
 #include <lmdbench/mesh/feature_corners.h>
+#include <lmdbench/mesh/polar_cone.h>
 #include <lmdbench/methods/certified/flat/flat_mesh.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace lmdbench {
+
+namespace {
+
+/// Height over a region, relative to the coordinates, up to which an edge may be in its plane: ten times what the definition
+/// grants at distances of up to the coordinates (ONE_SET in flat_contacts.cpp).
+constexpr double IN_PLANE = 1e-7;
+
+}  // namespace
 
 FlatMesh FlatMesh::of(const Body& body) {
   FlatMesh mesh;
   mesh.regions = &body.prepared<FlatRegions>();
   mesh.shapes = region_shapes(body.surface(), *mesh.regions);
   mesh.joins_features = !mesh.shapes.shapes.empty();
+  const FlatRegions& regions = *mesh.regions;
+  const double reach = body.surface().mesh.planar_tolerance + IN_PLANE * regions.extent;
+  for (std::int32_t region = 0; region < regions.region_count(); ++region) {
+    const auto border = regions.straight_edges_of_region[region];
+    const Vec3& n = regions.planes[static_cast<std::size_t>(region)].normal;
+    mesh.region_has_inward_edge.push_back(std::ranges::any_of(border, [&](std::int32_t straight) {
+      const auto& ends = regions.straight_edges[static_cast<std::size_t>(straight)].ends;
+      return std::ranges::any_of(ends, [&](std::int32_t vertex) {
+        return mesh.has_inward_edge(body.surface(), vertex, {FeatureKind::FACE, region}, n, reach);
+      });
+    }));
+  }
   return mesh;
 }
 
@@ -94,6 +116,44 @@ bool FlatMesh::is_on(const Surface& surface, const FeatureId& feature, const Fea
       return (ends[0] == feature.index || ends[1] == feature.index) &&
              regions->straight_of_edge[static_cast<std::size_t>(e)] == flat.index;
     });
+  });
+}
+
+bool FlatMesh::straight_has_inward_edge(const Surface& surface, std::int32_t straight, const Vec3& n_S,
+                                        double reach) const {
+  const auto& ends = regions->straight_edges[static_cast<std::size_t>(straight)].ends;
+  return std::ranges::any_of(ends, [&](std::int32_t vertex) {
+    return has_inward_edge(surface, vertex, {FeatureKind::EDGE, straight}, n_S, reach);
+  });
+}
+
+/// Whether an edge at a corner of a flat feature, and no part of it, lies in the plane square to a direction, with no face
+/// round it over that plane, and the direction is not on its outer side. So only where the surface crosses itself: the
+/// edge has no LMD, but makes one set of minimisers of what lies at its ends (minimiser_set.h).
+/// @param n_S  unit length
+/// @param reach  height that counts as none [m]
+bool FlatMesh::has_inward_edge(const Surface& surface, std::int32_t vertex, const FeatureId& flat,
+                               const Vec3& n_S, double reach) const {
+  const auto height = [&](std::int32_t v) {
+    const auto& vertices = surface.mesh.vertices;
+    return n_S.dot(vertices[static_cast<std::size_t>(v)] - vertices[static_cast<std::size_t>(vertex)]);
+  };
+  const auto is_inward = [&](std::int32_t edge) {
+    const auto& ends = surface.adjacency.edges[static_cast<std::size_t>(edge)];
+    if ((ends[0] != vertex && ends[1] != vertex) ||
+        std::abs(height(ends[0] == vertex ? ends[1] : ends[0])) > reach)
+      return false;
+    const FeatureId feature{FeatureKind::EDGE, edge};
+    if (!has_outer_side(surface, feature) || n_S.dot(surface.pseudo_normal(feature)) > 0.0 ||
+        is_on(surface, feature, flat))
+      return false;
+    return std::ranges::all_of(surface.adjacency.edge_triangles[edge], [&](std::int32_t t) {
+      return std::ranges::all_of(surface.mesh.triangles[static_cast<std::size_t>(t)],
+                                 [&](std::int32_t v) { return height(v) <= reach; });
+    });
+  };
+  return std::ranges::any_of(surface.incident_triangles({FeatureKind::VERTEX, vertex}), [&](std::int32_t t) {
+    return std::ranges::any_of(surface.adjacency.triangle_edges[static_cast<std::size_t>(t)], is_inward);
   });
 }
 

@@ -16,6 +16,8 @@ struct FlatMesh {
   const FlatRegions* regions = nullptr;  ///< Of the body, which outlives this.
   RegionShapes shapes;
   bool joins_features = false;  ///< Some region or straight edge has more than one face or edge.
+  std::vector<bool>
+      region_has_inward_edge;  ///< #R; has_inward_edge at a corner of the region, along its normal.
 
   static FlatMesh of(const Body& body);
 
@@ -37,6 +39,13 @@ struct FlatMesh {
   /// Whether a feature of the mesh lies on a region or straight edge (`flat.index` counts those), or on its
   /// border.
   bool is_on(const Surface& surface, const FeatureId& feature, const FeatureId& flat) const;
+  /// Whether has_inward_edge at an end of a straight edge.
+  bool straight_has_inward_edge(const Surface& surface, std::int32_t straight, const Vec3& n_S,
+                                double reach) const;
+
+ private:
+  bool has_inward_edge(const Surface& surface, std::int32_t vertex, const FeatureId& flat, const Vec3& n_S,
+                       double reach) const;
 };
 
 }  // namespace lmdbench
