@@ -330,9 +330,9 @@ void FlatPieces::append_parallel(std::vector<LocalMinimum>& minima, std::size_t 
       least = std::min(least, pieces_[end].least_distance);
       greatest = std::max(greatest, pieces_[end].greatest_distance);
     }
-    // Faces that cross have no distance: their triangles say so.
-    if (least > 0.0 &&
-        rules_[static_cast<std::size_t>(place.body)].is_parallel(pieces_[begin].tilt, greatest - least)) {
+    const ParallelRule& rule = rules_[static_cast<std::size_t>(place.body)];
+    // Features that cross, as far as their planes are known, have no direction: their triangles say so.
+    if (least > rule.allowance && rule.is_parallel(pieces_[begin].tilt, greatest - least)) {
       if (place.moving.kind != place.fixed.kind)
         over_faces.push_back(std::span(pieces_).subspan(begin, end - begin));
       else

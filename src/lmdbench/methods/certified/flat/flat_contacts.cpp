@@ -114,12 +114,9 @@ bool FlatContacts::do_touch(std::size_t one, std::size_t other, double gap) cons
   if (is_segment(b)) return do_touch(other, one, gap);
   const PlanarFrame& frame = frames_[other];
   if (is_segment(a)) {
-    const Vec2 begin = frame.flat(a.end0), end = frame.flat(a.end1);
-    const Vec2 longer = (1.0 + gap / (end - begin).norm()) * (end - begin);
-    return std::ranges::any_of(pieces_of(b), [&](const ConvexPolygon& piece) {
-      const SegmentPart part = piece.part_of(end - longer, begin + longer);
-      return part.end > part.begin;
-    });
+    const ConvexPolygon segment({frame.flat(a.end0), frame.flat(a.end1)});
+    return std::ranges::any_of(pieces_of(b),
+                               [&](const ConvexPolygon& piece) { return touch(segment, piece, gap); });
   }
   return std::ranges::any_of(pieces_of(a), [&](ConvexPolygon own) {
     for (Vec2& corner : own.corners) corner = frame.flat(frames_[one].lifted(corner));
@@ -317,7 +314,7 @@ FlatVerdict FlatContacts::add_edge_face(const FlatSide& of_edge, std::int32_t st
   if (verdict == FlatVerdict::FOUND && rule_.is_exact && follows_border_aslant(of_face, region, x0, u, n))
     return doubt();
   const FeatureId lead_face{FeatureKind::FACE, of_face.mesh.lead_of_region(region)};
-  if (verdict == FlatVerdict::UNSURE || is_beside_inward(of_edge, straight, n) ||
+  if (verdict == FlatVerdict::UNSURE || has_other_beside(of_edge, straight, n) ||
       has_inward_edge(of_face, region) ||
       (of_edge.is_moving ? is_on_unsure(of_edge, lead, of_face, lead_face)
                          : is_on_unsure(of_face, lead_face, of_edge, lead)))
@@ -342,9 +339,11 @@ FlatVerdict FlatContacts::add_edge_face(const FlatSide& of_edge, std::int32_t st
 }
 
 /// Whether a face beside a straight edge lies in the plane of its contact and turns away, as on the border of a sheet, or an edge at
-/// its end does: what is over those is of one set with what is over the edge, although no contact of theirs.
+/// its end does: what is over those is of one set with what is over the edge, although no contact of theirs. Of a triangle
+/// without area other edges may lie on the edge, with faces of their own.
 /// @param n  from the edge to the other mesh
-bool FlatContacts::is_beside_inward(const FlatSide& side, std::int32_t straight, const Vec3& n) const {
+bool FlatContacts::has_other_beside(const FlatSide& side, std::int32_t straight, const Vec3& n) const {
+  if (side.mesh.straight_has_sliver[static_cast<std::size_t>(straight)]) return true;
   const auto& regions = side.mesh.regions->straight_edges[static_cast<std::size_t>(straight)].regions;
   return std::ranges::any_of(regions,
                              [&](std::int32_t region) {
@@ -420,8 +419,8 @@ FlatVerdict FlatContacts::add_edges(const FlatSide& moving, std::int32_t straigh
   if (!in_outward_polar_cone(moving.surface, moving.X_WS, lead_m, p, across_m) ||
       !in_outward_polar_cone(fixed.surface, fixed.X_WS, lead_f, p + d, -across_f))
     return FlatVerdict::UNSURE;
-  if (is_beside_inward(moving, straight_moving, d.normalized()) ||
-      is_beside_inward(fixed, straight_fixed, -d.normalized()))
+  if (has_other_beside(moving, straight_moving, d.normalized()) ||
+      has_other_beside(fixed, straight_fixed, -d.normalized()))
     return unsure({FeatureKind::EDGE, straight_moving}, {FeatureKind::EDGE, straight_fixed});
   Contact contact;
   contact.flat_moving = {FeatureKind::EDGE, straight_moving};

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/geometry/point_triangle.h>
 #include <lmdbench/mesh/feature_corners.h>
-#include <lmdbench/mesh/polar_cone.h>
 #include <lmdbench/methods/certified/flat/flat_mesh.h>
 
 #include <algorithm>
@@ -35,6 +34,13 @@ FlatMesh FlatMesh::of(const Body& body) {
       });
     }));
   }
+  for (std::size_t straight = 0; straight < regions.straight_edges.size(); ++straight)
+    mesh.straight_has_sliver.push_back(
+        std::ranges::any_of(regions.edges_of_straight[straight], [&](std::int32_t edge) {
+          return std::ranges::any_of(body.surface().adjacency.edge_triangles[edge], [&](std::int32_t t) {
+            return regions.region_of_triangle[static_cast<std::size_t>(t)] < 0;
+          });
+        }));
   return mesh;
 }
 
@@ -144,8 +150,9 @@ bool FlatMesh::has_inward_edge(const Surface& surface, std::int32_t vertex, cons
         std::abs(height(ends[0] == vertex ? ends[1] : ends[0])) > reach)
       return false;
     const FeatureId feature{FeatureKind::EDGE, edge};
-    if (!has_outer_side(surface, feature) || n_S.dot(surface.pseudo_normal(feature)) > 0.0 ||
-        is_on(surface, feature, flat))
+    // As in first_order.cpp: the two faces of an edge may be folded onto each other, and have no normal together.
+    if (surface.is_boundary(feature) || surface.edge_is_non_manifold[static_cast<std::size_t>(edge)] ||
+        n_S.dot(surface.pseudo_normal(feature)) > 0.0 || is_on(surface, feature, flat))
       return false;
     return std::ranges::all_of(surface.adjacency.edge_triangles[edge], [&](std::int32_t t) {
       return std::ranges::all_of(surface.mesh.triangles[static_cast<std::size_t>(t)],

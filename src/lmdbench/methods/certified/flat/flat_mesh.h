@@ -19,6 +19,9 @@ struct FlatMesh {
   std::vector<bool>
       region_has_inward_edge;  ///< #R; has_inward_edge at a corner of the region, along its normal.
 
+  std::vector<bool>
+      straight_has_sliver;  ///< #S; a triangle without area is on it: it may coincide with others.
+
   static FlatMesh of(const Body& body);
 
   std::int32_t lead_of_region(std::int32_t region) const { return regions->region_triangles[region].front(); }
