@@ -29,7 +29,9 @@ std::optional<std::string> broken_journal(std::string_view bytes) {
   if (!is_own_journal(file)) return std::nullopt;
   return broken_unless_refused(file.string(), [&]() -> std::string {
     const Journal read(file);
-    return read.find("no such point", 0) == nullptr ? "" : "found what is not there";
+    const nlohmann::json* found = read.find("a", 1);
+    return found == nullptr || (found->at("key") == "a" && found->at("repetition") == 1) ? ""
+                                                                                         : "found another";
   });
 }
 

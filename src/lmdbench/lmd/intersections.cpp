@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/lmd/corner_groups.h>
 #include <lmdbench/lmd/intersections.h>
+#include <lmdbench/lmd/nearer_piece.h>
 #include <lmdbench/mesh/feature_corners.h>
 
 #include <algorithm>
@@ -13,10 +14,6 @@
 namespace lmdbench {
 
 namespace {
-
-/// Pieces whose squared distances from the centroid differ by less than this part are equally near: rounding must
-/// not choose the name of a symmetric contact.
-constexpr double EQUALLY_NEAR = 1e-9;
 
 std::uint64_t number(const FeatureId& feature) {
   return static_cast<std::uint64_t>(feature.kind) << 32 | static_cast<std::uint32_t>(feature.index);
@@ -52,7 +49,7 @@ struct Contact {
   int dimension = 0;
   double measure = 0.0;  ///< Of the pieces of that dimension; of points, their number.
   Vec3 centroid = Vec3::Zero();
-  double squared_distance = std::numeric_limits<double>::infinity();  ///< Of the nearest piece.
+  double distance = std::numeric_limits<double>::infinity();  ///< Of the nearest piece.
   const Intersection* nearest = nullptr;
 
   double weight_of(const Intersection& piece) const { return dimension == 0 ? 1.0 : piece.measure; }
@@ -64,9 +61,9 @@ struct Contact {
   }
   void name(const Intersection& piece) {
     if (piece.dimension < dimension) return;
-    const double squared = (piece.point - centroid).squaredNorm();
-    if (!(squared < squared_distance * (1.0 - EQUALLY_NEAR))) return;
-    squared_distance = squared;
+    const double own = (piece.point - centroid).norm();
+    if (!is_nearer_piece(own, distance, centroid)) return;
+    distance = own;
     nearest = &piece;
   }
 };

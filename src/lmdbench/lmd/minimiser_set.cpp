@@ -18,6 +18,9 @@ namespace {
 /// Gap, relative to the coordinates, that rounding may leave between sets of minimisers that touch.
 constexpr double TOUCHING_SETS = 1e-9;
 
+/// Share of the gap by which polygons are widened, so that rounding does not part what meets along a line.
+constexpr double WIDENING = 0.01;
+
 /// A part that reaches no farther than so many gaps from the minimum's own point is that point.
 constexpr double POINT_GAPS = 10.0;
 
@@ -47,7 +50,21 @@ double area_of(const std::vector<Vec2>& corners) {
   return 0.5 * twice;
 }
 
-/// The corners of a convex polygon, counter-clockwise; one that is narrower than the gap, such as the edge of a steep
+/// A convex polygon whose sides were moved outwards, with blunt corners.
+ConvexPolygon widened(const std::vector<Vec2>& corners, double by) {
+  ConvexPolygon result;
+  for (std::size_t k = 0; k < corners.size(); ++k) {
+    const Vec2 &from = corners[k], &to = corners[(k + 1) % corners.size()];
+    const double length = (to - from).norm();
+    if (!(length > 0.0)) continue;
+    const Vec2 outwards = by / length * Vec2((to - from)[1], (from - to)[0]);
+    result.corners.push_back(from + outwards);
+    result.corners.push_back(to + outwards);
+  }
+  return result;
+}
+
+/// The corners of a convex polygon, counter-clockwise, a little widened; one that is narrower than the gap, such as the edge of a steep
 /// triangle, as a strip of twice that width, because a polygon without area cuts nothing.
 ConvexPolygon with_width(std::vector<Vec2> corners, double gap) {
   double area = area_of(corners);
@@ -63,7 +80,7 @@ ConvexPolygon with_width(std::vector<Vec2> corners, double gap) {
         to = corners[j];
       }
   const double length = (to - from).norm();
-  if (area > gap * length) return ConvexPolygon(std::move(corners));
+  if (area > gap * length) return widened(corners, WIDENING * gap);
   const Vec2 along = length > 0.0 ? Vec2(gap / length * (to - from)) : Vec2(gap, 0.0);
   const Vec2 across(-along[1], along[0]);
   return ConvexPolygon(

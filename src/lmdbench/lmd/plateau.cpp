@@ -3,6 +3,7 @@
 #include <lmdbench/lmd/first_order.h>
 #include <lmdbench/lmd/flat_pieces.h>
 #include <lmdbench/lmd/minimiser_set.h>
+#include <lmdbench/lmd/nearer_piece.h>
 #include <lmdbench/lmd/plateau.h>
 #include <lmdbench/mesh/flat_regions.h>
 
@@ -174,13 +175,13 @@ Lmd representative(const Scene& scene, const RigidTransform& X_WM, std::span<con
   centroid_fixed /= total;
 
   const LocalMinimum* nearest = nullptr;
-  double nearest_squared_distance = 0.0;
+  double nearest_distance = 0.0;
   for (const std::size_t i : plateau) {
     if (minima[i].dimension != dimension) continue;
-    const double squared_distance = (minima[i].lmd.point_moving - centroid_moving).squaredNorm();
-    if (nearest == nullptr || squared_distance < nearest_squared_distance) {
+    const double own = (minima[i].lmd.point_moving - centroid_moving).norm();
+    if (nearest == nullptr || is_nearer_piece(own, nearest_distance, centroid_moving)) {
       nearest = &minima[i];
-      nearest_squared_distance = squared_distance;
+      nearest_distance = own;
     }
   }
   Lmd lmd = nearest->lmd;

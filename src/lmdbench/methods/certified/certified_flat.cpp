@@ -98,9 +98,13 @@ void for_each_face_near(const FlatSide& side, std::int32_t region, std::span<con
 /// @param spare  sine by which the direction may be off
 bool leaves_cone(const FlatSide& side, std::int32_t edge, const Vec3& p0, const Vec3& p1, const Vec3& d_W,
                  double touch, double spare) {
+  const FeatureId feature{FeatureKind::EDGE, edge};
   const double tolerance = CLEARLY_OUTSIDE + DIRECTION_ROUNDING * touch / d_W.norm() + spare;
+  // Turned to the outer side: which side a direction along it is on is a matter of rounding.
+  const Vec3 m_W = side.X_WS.direction(side.surface.pseudo_normal(feature));
+  const Vec3 turned_W = d_W + tolerance * d_W.norm() * m_W;
   const auto is_outside = [&](const Vec3& p) {
-    return !in_outward_polar_cone(side.surface, side.X_WS, {FeatureKind::EDGE, edge}, p, d_W, tolerance);
+    return !in_outward_polar_cone(side.surface, side.X_WS, feature, p, turned_W, 2.0 * tolerance);
   };
   return is_outside(p0) && is_outside(p1);
 }
