@@ -344,10 +344,13 @@ FlatVerdict FlatContacts::add_edge_face(const FlatSide& of_edge, std::int32_t st
 /// @param n  from the edge to the other mesh
 bool FlatContacts::has_other_beside(const FlatSide& side, std::int32_t straight, const Vec3& n) const {
   if (side.mesh.straight_has_sliver[static_cast<std::size_t>(straight)]) return true;
-  const auto& regions = side.mesh.regions->straight_edges[static_cast<std::size_t>(straight)].regions;
-  return std::ranges::any_of(regions,
-                             [&](std::int32_t region) {
-                               return region >= 0 && (side.plane(region).normal + n).norm() <= largest_tilt();
+  // All faces of an edge: there may be more than two.
+  const auto faces = side.surface.adjacency.edge_triangles[side.mesh.lead_of_straight(straight)];
+  return std::ranges::any_of(faces,
+                             [&](std::int32_t face) {
+                               const std::int32_t region =
+                                   side.mesh.regions->region_of_triangle[static_cast<std::size_t>(face)];
+                               return (side.plane(region).normal + n).norm() <= largest_tilt();
                              }) ||
          side.mesh.straight_has_inward_edge(side.surface, straight, side.X_WS.rotation.transpose() * n,
                                             tolerance_ + ONE_SET * coordinates_);
