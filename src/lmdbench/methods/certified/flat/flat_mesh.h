@@ -7,6 +7,7 @@
 #include <lmdbench/mesh/region_shape.h>
 
 #include <span>
+#include <vector>
 
 namespace lmdbench {
 
@@ -16,11 +17,10 @@ struct FlatMesh {
   const FlatRegions* regions = nullptr;  ///< Of the body, which outlives this.
   RegionShapes shapes;
   bool joins_features = false;  ///< Some region or straight edge has more than one face or edge.
-  std::vector<bool>
-      region_has_inward_edge;  ///< #R; has_inward_edge at a corner of the region, along its normal.
-
-  std::vector<bool>
-      straight_has_sliver;  ///< #S; a triangle without area is on it: it may coincide with others.
+  /// #R; whether has_inward_edge at a corner of the region, along its normal.
+  std::vector<bool> region_has_inward_edge;
+  /// #S; whether a triangle without area is on it, of which other edges may lie there too.
+  std::vector<bool> straight_has_sliver;
 
   static FlatMesh of(const Body& body);
 
