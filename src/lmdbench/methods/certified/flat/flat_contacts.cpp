@@ -277,34 +277,38 @@ FlatVerdict FlatContacts::add_edge_face(const FlatSide& of_edge, std::int32_t st
   const PlanarFrame frame(plane.point, n);
   collect_pieces(of_face, region, frame, of_fixed_);
   const double width = rule_.least_width;
-  struct Part {
-    double begin, end;
-    int covers;  ///< 2 inside a piece; 1 along a side: inside the region where
-                 ///< two pieces share the side.
+  struct Change {
+    double place;
+    int covers;  ///< 2 at the begin of what lies inside a piece, 1 along a side: inside the region where two pieces share the
+        ///< side. Negative at the end.
   };
-  std::vector<Part> parts;
+  std::vector<Change> changes;
   const Vec2 flat0 = frame.flat(x0), flat1 = frame.flat(x0 + u);
   for (const ConvexPolygon& piece : of_fixed_) {
     const SegmentPart part = piece.part_of(flat0, flat1);
     if (!((part.end - part.begin) * length > width)) continue;
     const Vec2 middle = flat0 + 0.5 * (part.begin + part.end) * (flat1 - flat0);
-    parts.push_back({part.begin, part.end, is_inside(piece, middle, -width) ? 2 : 1});
+    const int covers = is_inside(piece, middle, -width) ? 2 : 1;
+    changes.push_back({part.begin, covers});
+    changes.push_back({part.end, -covers});
   }
-  std::sort(parts.begin(), parts.end(), [](const Part& a, const Part& b) { return a.begin < b.begin; });
-  std::size_t kept = 0;
-  for (std::size_t i = 0; i < parts.size(); ++i) {
-    if (kept > 0 && (parts[i].begin - parts[kept - 1].end) * length <= TOUCHING * coordinates_) {
-      parts[kept - 1].end = std::max(parts[kept - 1].end, parts[i].end);
-      parts[kept - 1].covers += parts[i].covers;
-    } else {
-      parts[kept++] = parts[i];
-    }
+  std::sort(changes.begin(), changes.end(),
+            [](const Change& a, const Change& b) { return a.place < b.place; });
+  std::vector<SegmentPart> parts;
+  int covers = 0;
+  for (std::size_t i = 0; i + 1 < changes.size(); ++i) {
+    covers += changes[i].covers;
+    const double begin = changes[i].place, end = changes[i + 1].place;
+    const double gap = TOUCHING * coordinates_;
+    if (covers < 2 || (end - begin) * length <= gap) continue;
+    if (!parts.empty() && (begin - parts.back().end) * length <= gap)
+      parts.back().end = end;
+    else
+      parts.push_back({begin, end});
   }
-  parts.resize(kept);
-  std::erase_if(parts, [](const Part& part) { return part.covers < 2; });
   const FeatureId lead{FeatureKind::EDGE, of_edge.mesh.lead_of_straight(straight)};
   Extent distances;
-  for (const Part& part : parts) {
+  for (const SegmentPart& part : parts) {
     distances.add(along(plane, n, x0 + part.begin * u));
     distances.add(along(plane, n, x0 + part.end * u));
   }
@@ -319,7 +323,7 @@ FlatVerdict FlatContacts::add_edge_face(const FlatSide& of_edge, std::int32_t st
       (of_edge.is_moving ? is_on_unsure(of_edge, lead, of_face, lead_face)
                          : is_on_unsure(of_face, lead_face, of_edge, lead)))
     return unsure(flat_moving, flat_fixed);
-  for (const Part& part : parts) {
+  for (const SegmentPart& part : parts) {
     const Vec3 middle = x0 + 0.5 * (part.begin + part.end) * u;
     const auto foot_of = [&](const Vec3& x) { return Vec3(x + along(plane, n, x) * n); };
     const Vec3 foot = foot_of(middle);
