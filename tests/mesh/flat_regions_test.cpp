@@ -30,14 +30,17 @@ TEST(FlatRegions, ABoxHasSixFacesTwelveEdgesAndEightCorners) {
         const auto border = regions.straight_edges_of_region[r];
         EXPECT_EQ(border.size(), 4u);
         for (const std::int32_t s : border) {
-          const auto& sides = regions.straight_edges[static_cast<std::size_t>(s)].regions;
-          EXPECT_TRUE(sides[0] == r || sides[1] == r);
+          const auto beside = surface.adjacency.edge_triangles[regions.edges_of_straight[s].front()];
+          EXPECT_EQ(std::ranges::count(beside, r,
+                                       [&](std::int32_t t) {
+                                         return regions.region_of_triangle[static_cast<std::size_t>(t)];
+                                       }),
+                    1);
         }
       }
       for (std::int32_t s = 0; s < 12; ++s) {
         const StraightEdge& straight = regions.straight_edges[static_cast<std::size_t>(s)];
         EXPECT_EQ(regions.edges_of_straight[s].size(), static_cast<std::size_t>(cells));
-        EXPECT_LT(straight.regions[0], straight.regions[1]);
         // End to end, from the first end to the second.
         std::int32_t at = straight.ends[0];
         for (const std::int32_t e : regions.edges_of_straight[s]) {
@@ -70,11 +73,19 @@ TEST(FlatRegions, OpenSheetsHaveStraightBoundaries) {
   const Surface surface = build_surface(make_patch(1.0, 5, 0.0));
   const FlatRegions regions = FlatRegions::of(surface);
   EXPECT_EQ(regions.region_count(), 1);
-  ASSERT_EQ(regions.straight_edges.size(), 4u);
-  for (const StraightEdge& straight : regions.straight_edges) {
-    EXPECT_EQ(straight.regions[0], -1);
-    EXPECT_EQ(straight.regions[1], 0);
-  }
+  EXPECT_EQ(regions.straight_edges.size(), 4u);
+  EXPECT_EQ(regions.straight_edges_of_region[0].size(), 4u);
+}
+
+TEST(FlatRegions, AnEdgeOfThreeFacesIsOnTheBorderOfEach) {
+  TriangleMesh mesh;
+  mesh.vertices = {{0.0, 0.0, 0.0}, {1.0, 0.0, 0.0}, {0.5, 1.0, 0.0}, {0.5, -1.0, 0.0}, {0.5, 0.0, 1.0}};
+  mesh.triangles = {{0, 1, 2}, {1, 0, 3}, {0, 1, 4}};
+  const Surface surface = build_surface(std::move(mesh));
+  const FlatRegions regions = FlatRegions::of(surface);
+  ASSERT_EQ(regions.region_count(), 3);
+  EXPECT_EQ(regions.straight_edges.size(), 7u);
+  for (std::int32_t r = 0; r < 3; ++r) EXPECT_EQ(regions.straight_edges_of_region[r].size(), 3u);
 }
 
 TEST(FlatRegions, NamesTheFirstFaceOrEdgeAtAPoint) {

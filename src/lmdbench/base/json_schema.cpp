@@ -183,7 +183,8 @@ void refuse_unknown_keys(const Json& document, const Json& schema, const std::st
 void validate_against_schema(const Json& document, const Json& schema_json, const std::string& file) {
   valijson::ValidationResults results;
   const valijson::adapters::NlohmannJsonAdapter target(document);
-  if (valijson::Validator().validate(prepared(schema_json), target, &results)) return;
+  thread_local valijson::Validator validator;  // keeps the patterns that it has compiled
+  if (validator.validate(prepared(schema_json), target, &results)) return;
 
   // The validator reports the innermost violation first, then every enclosing
   // object: only the first one helps.

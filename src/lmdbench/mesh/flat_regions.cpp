@@ -126,9 +126,7 @@ class StraightEdgeFinder {
   void add(const std::vector<std::int32_t>& chain, const std::array<std::int32_t, 2>& chain_ends,
            std::vector<std::pair<std::int32_t, std::int32_t>>& rows) {
     const auto index = static_cast<std::int32_t>(regions_.straight_edges.size());
-    const bool manifold = surface_.adjacency.edge_triangles[chain.front()].size() <= 2;
-    regions_.straight_edges.push_back(
-        {chain_ends, manifold ? regions_of(chain.front()) : std::array<std::int32_t, 2>{-1, -1}});
+    regions_.straight_edges.push_back({chain_ends});
     for (const std::int32_t e : chain) {
       regions_.straight_of_edge[static_cast<std::size_t>(e)] = index;
       rows.emplace_back(index, e);
@@ -137,10 +135,17 @@ class StraightEdgeFinder {
 
   void list_borders() {
     std::vector<std::pair<std::int32_t, std::int32_t>> rows;
+    std::vector<std::int32_t> beside;
     for (std::size_t s = 0; s < regions_.straight_edges.size(); ++s) {
-      const auto& [first, second] = regions_.straight_edges[s].regions;
-      if (first >= 0) rows.emplace_back(first, static_cast<std::int32_t>(s));
-      if (second >= 0 && second != first) rows.emplace_back(second, static_cast<std::int32_t>(s));
+      beside.clear();
+      // All faces of an edge: there may be more than two.
+      const std::int32_t first = regions_.edges_of_straight[static_cast<std::int32_t>(s)].front();
+      for (const std::int32_t t : surface_.adjacency.edge_triangles[first])
+        if (const std::int32_t region = regions_.region_of_triangle[static_cast<std::size_t>(t)]; region >= 0)
+          beside.push_back(region);
+      std::ranges::sort(beside);
+      beside.erase(std::unique(beside.begin(), beside.end()), beside.end());
+      for (const std::int32_t region : beside) rows.emplace_back(region, static_cast<std::int32_t>(s));
     }
     regions_.straight_edges_of_region = CsrRows(regions_.region_count(), rows);
   }

@@ -12,10 +12,9 @@
 
 namespace lmdbench {
 
-/// Edges of a mesh that lie end to end on one line between the same two flat regions.
+/// Edges of a mesh that lie end to end on one line between the same two flat regions, or one edge that borders others.
 struct StraightEdge {
-  std::array<std::int32_t, 2> ends{-1, -1};     ///< Vertices, the smaller one first.
-  std::array<std::int32_t, 2> regions{-1, -1};  ///< Ascending; -1 beyond a boundary.
+  std::array<std::int32_t, 2> ends{-1, -1};  ///< Vertices, the smaller one first.
 };
 
 /// What a mesh looks like without its tessellation: its triangles, joined where they lie in one plane, and
@@ -29,9 +28,10 @@ struct FlatRegions {
   std::vector<StraightEdge> straight_edges;      ///< #S
   std::vector<std::int32_t> straight_of_edge;    ///< #E; -1 for an edge inside a region.
   CsrRows edges_of_straight;                     ///< #S rows of edges, from the first end to the second.
-  CsrRows straight_edges_of_region;              ///< #R rows: the border of each.
-  double extent = 0.0;                           ///< Largest coordinate of the mesh.
-  std::vector<bool> vertex_is_inside;            ///< #V; of a region or of a straight edge.
+  CsrRows
+      straight_edges_of_region;  ///< #R rows: the border of each; of more than two where sheets meet in an edge.
+  double extent = 0.0;           ///< Largest coordinate of the mesh.
+  std::vector<bool> vertex_is_inside;  ///< #V; of a region or of a straight edge.
 
   std::int32_t region_count() const { return static_cast<std::int32_t>(planes.size()); }
 

@@ -113,7 +113,8 @@ Sweep load_sweep(const std::filesystem::path& file, const std::vector<Override>&
 
 Sweep parse_sweep(const std::string& text, const std::filesystem::path& file,
                   const std::vector<Override>& overrides) {
-  JsonDocument document(text, file.string(), Json::parse(sweep_schema_text()), ExitCode::USAGE, overrides);
+  static const Json schema = Json::parse(sweep_schema_text());
+  JsonDocument document(text, file.string(), schema, ExitCode::USAGE, overrides);
   Json& json = document.json();
   fill_labels(json["series"], document);
   Sweep sweep;

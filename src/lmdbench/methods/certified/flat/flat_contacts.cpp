@@ -113,15 +113,14 @@ bool FlatContacts::do_touch(std::size_t one, std::size_t other, double gap) cons
     return segment_distance({a.end0, a.end1}, {b.end0, b.end1}).squared_distance <= gap * gap;
   if (is_segment(b)) return do_touch(other, one, gap);
   const PlanarFrame& frame = frames_[other];
-  if (is_segment(a)) {
-    const ConvexPolygon segment({frame.flat(a.end0), frame.flat(a.end1)});
-    return std::ranges::any_of(pieces_of(b),
-                               [&](const ConvexPolygon& piece) { return touch(segment, piece, gap); });
-  }
-  return std::ranges::any_of(pieces_of(a), [&](ConvexPolygon own) {
-    for (Vec2& corner : own.corners) corner = frame.flat(frames_[one].lifted(corner));
+  const auto touches_other = [&](const ConvexPolygon& own) {
     return std::ranges::any_of(pieces_of(b),
                                [&](const ConvexPolygon& piece) { return touch(own, piece, gap); });
+  };
+  if (is_segment(a)) return touches_other(ConvexPolygon({frame.flat(a.end0), frame.flat(a.end1)}));
+  return std::ranges::any_of(pieces_of(a), [&](ConvexPolygon own) {
+    for (Vec2& corner : own.corners) corner = frame.flat(frames_[one].lifted(corner));
+    return touches_other(own);
   });
 }
 
@@ -295,11 +294,11 @@ FlatVerdict FlatContacts::add_edge_face(const FlatSide& of_edge, std::int32_t st
   std::sort(changes.begin(), changes.end(),
             [](const Change& a, const Change& b) { return a.place < b.place; });
   std::vector<SegmentPart> parts;
+  const double gap = TOUCHING * coordinates_;
   int covers = 0;
   for (std::size_t i = 0; i + 1 < changes.size(); ++i) {
     covers += changes[i].covers;
     const double begin = changes[i].place, end = changes[i + 1].place;
-    const double gap = TOUCHING * coordinates_;
     if (covers < 2 || (end - begin) * length <= gap) continue;
     if (!parts.empty() && (begin - parts.back().end) * length <= gap)
       parts.back().end = end;

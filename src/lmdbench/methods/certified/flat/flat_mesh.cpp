@@ -24,14 +24,13 @@ FlatMesh FlatMesh::of(const Body& body) {
   mesh.joins_features = !mesh.shapes.shapes.empty();
   const FlatRegions& regions = *mesh.regions;
   const double reach = body.surface().mesh.planar_tolerance + IN_PLANE * regions.extent;
+  std::vector<std::int32_t> corners;
   for (std::int32_t region = 0; region < regions.region_count(); ++region) {
-    const auto border = regions.straight_edges_of_region[region];
     const Vec3& n = regions.planes[static_cast<std::size_t>(region)].normal;
-    mesh.region_has_inward_edge.push_back(std::ranges::any_of(border, [&](std::int32_t straight) {
-      const auto& ends = regions.straight_edges[static_cast<std::size_t>(straight)].ends;
-      return std::ranges::any_of(ends, [&](std::int32_t vertex) {
-        return mesh.has_inward_edge(body.surface(), vertex, {FeatureKind::FACE, region}, n, reach);
-      });
+    corners.clear();
+    mesh.append_corners(body.surface(), {FeatureKind::FACE, mesh.lead_of_region(region)}, corners);
+    mesh.region_has_inward_edge.push_back(std::ranges::any_of(corners, [&](std::int32_t vertex) {
+      return mesh.has_inward_edge(body.surface(), vertex, {FeatureKind::FACE, region}, n, reach);
     }));
   }
   for (std::size_t straight = 0; straight < regions.straight_edges.size(); ++straight)
