@@ -30,7 +30,8 @@ void add_overrides(std::vector<Override>& overrides, const Json& values) {
 
 /// Every combination of the axes' values.
 /// @param place of the axes in the sweep file
-std::vector<Axes> combinations(const Json& axes, const JsonDocument& document, const std::string& place) {
+std::vector<Axes> combinations(const Json& axes, const JsonDocument& document, const std::string& place,
+                               std::size_t most_points) {
   std::vector<Axes> result{{}};
   for (std::size_t i = 0; i < axes.size(); ++i) {
     const Json& together = axes[i];
@@ -44,8 +45,8 @@ std::vector<Axes> combinations(const Json& axes, const JsonDocument& document, c
             fmt::format("{}/{}", place, i),
             fmt::format("{} has {} values, another place {}", name, values.size(), length),
             "places of one object take their values together: give them equally many, or an object each");
-    if (result.size() * length > MOST_SWEEP_POINTS)
-      document.fail(fmt::format("{}/{}", place, i), fmt::format("more than {} points", MOST_SWEEP_POINTS),
+    if (result.size() * length > most_points)
+      document.fail(fmt::format("{}/{}", place, i), fmt::format("more than {} points", most_points),
                     "sweep fewer values");
     std::vector<Axes> longer;
     for (const Axes& begun : result)
@@ -112,7 +113,7 @@ Sweep load_sweep(const std::filesystem::path& file, const std::vector<Override>&
 }
 
 Sweep parse_sweep(const std::string& text, const std::filesystem::path& file,
-                  const std::vector<Override>& overrides) {
+                  const std::vector<Override>& overrides, std::size_t most_points) {
   static const Json schema = Json::parse(sweep_schema_text());
   JsonDocument document(text, file.string(), schema, ExitCode::USAGE, overrides);
   Json& json = document.json();
@@ -129,15 +130,15 @@ Sweep parse_sweep(const std::string& text, const std::filesystem::path& file,
         (file.parent_path() / name.get<std::string>()).lexically_normal();
     for (std::size_t i = 0; i < json["series"].size(); ++i) {
       const Json& series = json["series"][i];
-      for (const Axes& axes : combinations(series["axes"], document, fmt::format("/series/{}/axes", i))) {
+      for (const Axes& axes :
+           combinations(series["axes"], document, fmt::format("/series/{}/axes", i), most_points)) {
         try {
           sweep.points.push_back(make_point(experiment, json, series, axes));
         } catch (const Error& error) {
           throw Error(error.code(), file.string(), fmt::format("/series/{}", i), error.what(), "");
         }
-        if (sweep.points.size() > MOST_SWEEP_POINTS)
-          document.fail("/series", fmt::format("more than {} points", MOST_SWEEP_POINTS),
-                        "sweep fewer values");
+        if (sweep.points.size() > most_points)
+          document.fail("/series", fmt::format("more than {} points", most_points), "sweep fewer values");
       }
     }
   }

@@ -48,7 +48,8 @@ inline constexpr std::size_t MOST_SWEEP_POINTS = 100'000;
 Sweep load_sweep(const std::filesystem::path& file, const std::vector<Override>& overrides = {});
 
 /// The same from text; `file` serves messages and relative names.
+/// @param most_points that it may have: each is an experiment to be read
 Sweep parse_sweep(const std::string& text, const std::filesystem::path& file,
-                  const std::vector<Override>& overrides = {});
+                  const std::vector<Override>& overrides = {}, std::size_t most_points = MOST_SWEEP_POINTS);
 
 }  // namespace lmdbench
