@@ -153,10 +153,12 @@ bool FlatContacts::leave_contacts_beside(const FlatSide& moving, const FlatSide&
     const Contact& contact = contacts_[i];
     const bool has_neighbour = std::ranges::any_of(minima, [&](const LocalMinimum& minimum) {
       const Lmd& lmd = minimum.lmd;
-      // A piece with a size is known by its middle alone: at the same height it may touch the contact anywhere.
-      return !lmd.intersecting &&
-             (minimum.dimension > 0 ? is_level_with(contact, lmd.point_moving, lmd.point_fixed)
-                                    : is_at(i, lmd.point_moving, lmd.point_fixed)) &&
+      // A piece with a size is known by its middle alone: at the same height it may touch the contact anywhere. So may a point with a
+      // face in the plane of contact that turns away.
+      return !lmd.intersecting && is_level_with(contact, lmd.point_moving, lmd.point_fixed) &&
+             (minimum.dimension > 0 || is_at(i, lmd.point_moving, lmd.point_fixed) ||
+              has_face_away(moving, lmd.feature_moving, contact.lmd.direction) ||
+              has_face_away(fixed, lmd.feature_fixed, -contact.lmd.direction)) &&
              !(moving.mesh.is_on(moving.surface, lmd.feature_moving, contact.flat_moving) &&
                fixed.mesh.is_on(fixed.surface, lmd.feature_fixed, contact.flat_fixed));
     });
@@ -341,20 +343,22 @@ FlatVerdict FlatContacts::add_edge_face(const FlatSide& of_edge, std::int32_t st
   return FlatVerdict::FOUND;
 }
 
+/// Whether a face round a feature lies in the plane of a contact and turns away. All faces of an edge: there may be more than two.
+/// @param n  from the feature to the other mesh
+bool FlatContacts::has_face_away(const FlatSide& side, const FeatureId& feature, const Vec3& n) const {
+  return std::ranges::any_of(side.surface.incident_triangles(feature), [&](std::int32_t face) {
+    const std::int32_t region = side.mesh.regions->region_of_triangle[static_cast<std::size_t>(face)];
+    return region >= 0 && (side.plane(region).normal + n).norm() <= largest_tilt();
+  });
+}
+
 /// Whether a face beside a straight edge lies in the plane of its contact and turns away, as on the border of a sheet, or an edge at
 /// its end does: what is over those is of one set with what is over the edge, although no contact of theirs. Of a triangle
 /// without area other edges may lie on the edge, with faces of their own.
 /// @param n  from the edge to the other mesh
 bool FlatContacts::has_other_beside(const FlatSide& side, std::int32_t straight, const Vec3& n) const {
   if (side.mesh.straight_has_sliver[static_cast<std::size_t>(straight)]) return true;
-  // All faces of an edge: there may be more than two.
-  const auto faces = side.surface.adjacency.edge_triangles[side.mesh.lead_of_straight(straight)];
-  return std::ranges::any_of(faces,
-                             [&](std::int32_t face) {
-                               const std::int32_t region =
-                                   side.mesh.regions->region_of_triangle[static_cast<std::size_t>(face)];
-                               return (side.plane(region).normal + n).norm() <= largest_tilt();
-                             }) ||
+  return has_face_away(side, {FeatureKind::EDGE, side.mesh.lead_of_straight(straight)}, n) ||
          side.mesh.straight_has_inward_edge(side.surface, straight, side.X_WS.rotation.transpose() * n,
                                             tolerance_ + ONE_SET * coordinates_);
 }

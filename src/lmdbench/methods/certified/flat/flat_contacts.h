@@ -108,6 +108,7 @@ class FlatContacts {
   double acceptable_tilt(double distance) const;
   /// Beyond it nothing is parallel, at whatever distance.
   double largest_tilt() const;
+  bool has_face_away(const FlatSide& side, const FeatureId& feature, const Vec3& n) const;
   bool has_other_beside(const FlatSide& side, std::int32_t straight, const Vec3& n) const;
   bool follows_border_aslant(const FlatSide& of_face, std::int32_t region, const Vec3& x0, const Vec3& u,
                              const Vec3& n) const;
