@@ -74,7 +74,7 @@ std::optional<std::string> broken_import(std::string_view bytes) {
 }
 
 std::optional<std::string> broken_manifest(std::string_view bytes) {
-  static const bool limited = (set_limit("triangles=2000"), true);
+  static const bool limited = (set_limit("triangles=200"), true);
   return broken_unless_refused("fuzz/manifest.json", [&]() -> std::string {
     const Manifest read = parse_manifest(std::string(bytes), "fuzz/manifest.json");
     for (const ManifestEntry& entry : read.entries) {
