@@ -259,7 +259,9 @@ class ResultReader::Implementation {
   /// Number of values, after checking that what is stored can hold as many.
   std::size_t checked_count(const std::string& path, const Hdf5Handle& dataset) const {
     const Hdf5Handle type(H5Dget_type(dataset.get()), &H5Tclose);
-    const hsize_t most = H5Dget_storage_size(dataset.get()) * LARGEST_DEFLATE_RATIO / H5Tget_size(type.get());
+    const std::size_t value_size = H5Tget_size(type.get());
+    if (value_size == 0) fail(path, "is damaged: its values have no size");
+    const hsize_t most = H5Dget_storage_size(dataset.get()) * LARGEST_DEFLATE_RATIO / value_size;
     const std::vector<hsize_t> sizes = extents(path, dataset);
     if (std::find(sizes.begin(), sizes.end(), hsize_t{0}) != sizes.end()) return 0;
     hsize_t count = 1;
