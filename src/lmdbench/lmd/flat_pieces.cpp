@@ -38,7 +38,8 @@ ParallelRule ParallelRule::of(const Surface& moving, const FlatRegions& moving_r
   const bool is_exact = parallel_tolerance(moving, fixed) == 0.0;
   return {flat_to(moving, moving_regions) + flat_to(fixed, fixed_regions),
           is_exact ? LARGEST_EXACT_TILT : LARGEST_PARALLEL_TILT,
-          coincidence_length(moving_regions.extent + fixed_regions.extent), is_exact};
+          coincidence_length(moving_regions.extent + fixed_regions.extent),
+          FLATNESS * (moving_regions.extent + fixed_regions.extent), is_exact};
 }
 
 bool ParallelRule::drifts_sideways(const Vec3& u, const Vec3& v) const {
@@ -331,8 +332,8 @@ void FlatPieces::append_parallel(std::vector<LocalMinimum>& minima, std::size_t 
       greatest = std::max(greatest, pieces_[end].greatest_distance);
     }
     const ParallelRule& rule = rules_[static_cast<std::size_t>(place.body)];
-    // Features that cross, as far as their planes are known, have no direction: their triangles say so.
-    if (least > rule.allowance && rule.is_parallel(pieces_[begin].tilt, greatest - least)) {
+    // Features that cross have no direction: their triangles say so.
+    if (least > rule.least_gap && rule.is_parallel(pieces_[begin].tilt, greatest - least)) {
       if (place.moving.kind != place.fixed.kind)
         over_faces.push_back(std::span(pieces_).subspan(begin, end - begin));
       else

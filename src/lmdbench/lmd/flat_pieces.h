@@ -35,7 +35,9 @@ struct ParallelRule {
   double allowance;
   double largest_tilt;  ///< Sine; beyond it nothing is parallel.
   double least_width;   ///< Thinner places are none [m].
-  bool is_exact;        ///< No mesh has a planar tolerance.
+  double
+      least_gap;  ///< Features that are nearer somewhere, or cross, have no direction [m]: rounding, not the tolerance.
+  bool is_exact;  ///< No mesh has a planar tolerance.
 
   static ParallelRule of(const Surface& moving, const FlatRegions& moving_regions, const Surface& fixed,
                          const FlatRegions& fixed_regions);

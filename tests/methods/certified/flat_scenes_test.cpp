@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/catalogue/sleeve.h>
 #include <lmdbench/mesh/flat_regions.h>
 #include <lmdbench/mesh/flatten.h>
 #include <lmdbench/methods/certified/certified.h>
@@ -155,6 +156,38 @@ TriangleMesh ridge_from_above(const Vec3& from, const Vec3& to) {
 
 // Sets of minimisers that are apart are LMDs of their own, although their triangles share corners on both meshes: the
 // contacts are known by construction.
+
+TEST(FlatScenes, OverlapsOfManyPieces) {
+  // Rings and gears on each other: pieces of one overlap are found in any order, and all of them count.
+  const TriangleMesh ring =
+      make_sleeve(circle_outline(0.1), circle_outline(0.06), {.height = 0.05, .around = 24});
+  const Outline teeth = gear_outline(10, 0.02, 0.0004);
+  const TriangleMesh gear = make_sleeve(teeth, circle_outline(0.04, teeth), {.height = 0.05, .around = 80});
+  const TriangleMesh hexagon =
+      make_sleeve(polygon_outline(6, 0.1), circle_outline(0.05), {.height = 0.05, .around = 24});
+  std::mt19937_64 random(11);
+  for (const auto& [moving, fixed] : {std::pair(ring, ring), {gear, gear}, {hexagon, ring}, {ring, gear}}) {
+    FlatComparison pair(make_scene(moving, fixed, 0.02));
+    for (int i = 0; i < 20; ++i) pair.check(turned_on_top(random, 0.06));
+    EXPECT_GT(pair.found(), 15u);
+  }
+}
+
+TEST(FlatScenes, RoundedBoxesAtGapsDownToTouch) {
+  std::mt19937_64 random(12);
+  const auto file = [](TriangleMesh mesh, std::uint64_t seed) {
+    mesh = testing::rounded_to_floats(testing::turned(std::move(mesh), seed));
+    flatten(mesh);
+    return mesh;
+  };
+  FlatComparison boxes(
+      make_scene(file(make_box({1.0, 1.0, 1.0}, 2), 1), file(make_box({3.0, 3.0, 1.0}, 2), 2), 0.1));
+  for (int i = 0; i < 60; ++i) {
+    Pose on_top = turned_on_top(random, 1.0 + std::pow(10.0, -7.5 + 3.0 * uniform(random)));
+    boxes.check(testing::pose_of_seed(2) * on_top * testing::pose_of_seed(1).inverse());
+  }
+  EXPECT_GT(boxes.found(), 50u);
+}
 
 TEST(FlatScenes, OverlapsThatAreApartAreTwoContactsHoweverLargeTheTriangles) {
   const Scene scene = make_scene(make_l_block(0.1), make_l_block(0.13), 0.02);

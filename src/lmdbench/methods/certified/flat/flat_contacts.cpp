@@ -233,9 +233,11 @@ FlatVerdict FlatContacts::add_faces(const FlatSide& moving, std::int32_t region_
   std::iota(group_.begin(), group_.end(), std::size_t{0});
   for (std::size_t i = 0; i < overlaps_.size(); ++i)
     for (std::size_t j = i + 1; j < overlaps_.size(); ++j)
-      if (group_[i] != group_[j] && touch(overlaps_[i], overlaps_[j], TOUCHING * coordinates_))
-        std::replace(group_.begin(), group_.end(), std::max(group_[i], group_[j]),
-                     std::min(group_[i], group_[j]));
+      if (group_[i] != group_[j] && touch(overlaps_[i], overlaps_[j], TOUCHING * coordinates_)) {
+        // Copies: std::replace takes references, and the labels change while it runs.
+        const std::size_t from = std::max(group_[i], group_[j]), to = std::min(group_[i], group_[j]);
+        std::replace(group_.begin(), group_.end(), from, to);
+      }
   for (std::size_t g = 0; g < overlaps_.size(); ++g) {
     if (group_[g] != g) continue;
     Contact contact;
