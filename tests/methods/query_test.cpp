@@ -34,7 +34,7 @@ TEST(Query, JsonHasTheContractsKeys) {
   EXPECT_EQ(lmd["feature_moving"]["kind"], "vertex");
   EXPECT_TRUE(lmd["feature_fixed"]["index"].is_number_integer());
   EXPECT_TRUE(json["counters"].is_object());
-  EXPECT_GT(json["counters"]["first_order_tests"].get<int>(), 0);
+  EXPECT_GT(json["counters"]["feature_pairs"].get<int>(), 0);
   EXPECT_GE(json["seconds"].get<double>(), 0.0);
   EXPECT_EQ(json.size(), 6u);
   EXPECT_EQ(query_json(query(*method, at_gap(0.04), 0.05)).find('\n'), std::string::npos) << "one line";

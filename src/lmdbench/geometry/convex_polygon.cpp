@@ -33,16 +33,81 @@ ConvexPolygon ConvexPolygon::cut_by(const ConvexPolygon& other) const {
   return ConvexPolygon(std::move(kept));
 }
 
-SegmentPart ConvexPolygon::part_of(const Vec2& p, const Vec2& q) const {
+SegmentPart ConvexPolygon::part_of(const Vec2& p, const Vec2& q, double reach) const {
   SegmentPart part{0.0, corners.empty() ? 0.0 : 1.0};
   for (std::size_t k = 0; k < corners.size(); ++k) {
     const Vec2 side = corners[(k + 1) % corners.size()] - corners[k];
-    const double side_p = cross(side, p - corners[k]), side_q = cross(side, q - corners[k]);
+    const double spare = reach > 0.0 ? reach * side.norm() : 0.0;
+    const double side_p = cross(side, p - corners[k]) + spare, side_q = cross(side, q - corners[k]) + spare;
     if (side_p < 0.0 && side_q < 0.0) return {};
     if (side_p < 0.0) part.begin = std::max(part.begin, side_p / (side_p - side_q));
     if (side_q < 0.0) part.end = std::min(part.end, side_p / (side_p - side_q));
   }
   return part;
+}
+
+Box2 ConvexPolygon::box() const {
+  Box2 box;
+  for (const Vec2& corner : corners) box.add(corner);
+  return box;
+}
+
+bool ConvexPolygon::holds(const Vec2& x, double reach) const {
+  for (std::size_t k = 0; k < corners.size(); ++k) {
+    const Vec2 side = corners[(k + 1) % corners.size()] - corners[k];
+    if (cross(side, x - corners[k]) < -reach * side.norm()) return false;
+  }
+  return !corners.empty();
+}
+
+namespace {
+
+/// Whether all of b is farther than the reach outside some side of a.
+bool side_separates(const ConvexPolygon& a, const ConvexPolygon& b, double reach) {
+  for (std::size_t k = 0; k < a.corners.size(); ++k) {
+    const Vec2 side = a.corners[(k + 1) % a.corners.size()] - a.corners[k];
+    const double limit = -reach * side.norm();
+    if (std::all_of(b.corners.begin(), b.corners.end(),
+                    [&](const Vec2& x) { return cross(side, x - a.corners[k]) < limit; }))
+      return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+bool ConvexPolygon::touches(const ConvexPolygon& other, double reach) const {
+  return !side_separates(*this, other, reach) && !side_separates(other, *this, reach);
+}
+
+std::vector<Vec2> convex_hull(std::vector<Vec2> points) {
+  std::sort(points.begin(), points.end(),
+            [](const Vec2& a, const Vec2& b) { return a[0] < b[0] || (a[0] == b[0] && a[1] < b[1]); });
+  points.erase(std::unique(points.begin(), points.end()), points.end());
+  if (points.size() < 3) return points;
+  std::vector<Vec2> hull;
+  const auto append = [&](const Vec2& x, std::size_t least) {
+    while (hull.size() > least && cross(hull.back() - hull[hull.size() - 2], x - hull.back()) <= 0.0)
+      hull.pop_back();
+    hull.push_back(x);
+  };
+  for (const Vec2& x : points) append(x, 1);
+  const std::size_t lower = hull.size();
+  for (auto x = points.rbegin() + 1; x != points.rend(); ++x) append(*x, lower);
+  hull.pop_back();
+  return hull;
+}
+
+double width_of(std::span<const Vec2> hull) {
+  if (hull.size() < 3) return 0.0;
+  double width = std::numeric_limits<double>::infinity();
+  for (std::size_t k = 0; k < hull.size(); ++k) {
+    const Vec2 side = (hull[(k + 1) % hull.size()] - hull[k]).normalized();
+    double farthest = 0.0;
+    for (const Vec2& x : hull) farthest = std::max(farthest, cross(side, x - hull[k]));
+    width = std::min(width, farthest);
+  }
+  return width;
 }
 
 AreaAndCentroid area_and_centroid(std::span<const Vec2> corners) {

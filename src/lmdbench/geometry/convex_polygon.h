@@ -4,6 +4,7 @@
 
 #include <lmdbench/geometry/types.h>
 
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -15,6 +16,21 @@ using Vec2 = Eigen::Vector2d;
 inline double cross(const Vec2& a, const Vec2& b) {
   return a[0] * b[1] - a[1] * b[0];
 }
+
+/// Axis-aligned box of the plane; empty until a point is added.
+struct Box2 {
+  Vec2 low = Vec2::Constant(std::numeric_limits<double>::infinity());
+  Vec2 high = Vec2::Constant(-std::numeric_limits<double>::infinity());
+
+  void add(const Vec2& x) {
+    low = low.cwiseMin(x);
+    high = high.cwiseMax(x);
+  }
+  bool comes_within(const Box2& other, double reach) const {
+    return low[0] <= other.high[0] + reach && other.low[0] <= high[0] + reach &&
+           low[1] <= other.high[1] + reach && other.low[1] <= high[1] + reach;
+  }
+};
 
 /// Coordinates in a plane square to a direction.
 struct PlanarFrame {
@@ -40,6 +56,13 @@ struct SegmentPart {
   double begin = 0.0, end = 0.0;
 };
 
+/// Corners of the convex hull, counter-clockwise, none of them between two others (Andrew 1979).
+/// @param points  changes their order
+std::vector<Vec2> convex_hull(std::vector<Vec2> points);
+
+/// Least distance of two parallel lines that hold a convex polygon between them [m].
+double width_of(std::span<const Vec2> hull);
+
 /// Convex polygon in a plane, corners counter-clockwise.
 struct ConvexPolygon {
   std::vector<Vec2> corners;
@@ -53,8 +76,14 @@ struct ConvexPolygon {
   /// where there is none.
   ConvexPolygon cut_by(const ConvexPolygon& other) const;
   /// The part of the segment from p to q that lies inside.
-  SegmentPart part_of(const Vec2& p, const Vec2& q) const;
+  /// @param reach  how far outside still counts as inside [m]
+  SegmentPart part_of(const Vec2& p, const Vec2& q, double reach = 0.0) const;
   AreaAndCentroid measure() const { return area_and_centroid(corners); }
+  Box2 box() const;
+  /// Whether a point is inside, or outside by no more than `reach` of every side [m].
+  bool holds(const Vec2& x, double reach) const;
+  /// Whether no side of either keeps the two farther than `reach` apart [m]: true when their distance is no more.
+  bool touches(const ConvexPolygon& other, double reach) const;
 };
 
 }  // namespace lmdbench

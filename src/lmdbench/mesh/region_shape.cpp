@@ -12,6 +12,31 @@ namespace lmdbench {
 
 namespace {
 
+/// How far apart pieces may be that share a side, in tolerances: what the sweep (convex_pieces.cpp) leaves between them.
+constexpr double PIECE_GAP = 8.0;
+
+void find_neighbours(RegionShape& shape, double tolerance) {
+  std::vector<Box2> boxes;
+  for (const ConvexPolygon& piece : shape.pieces) boxes.push_back(piece.box());
+  shape.piece_grid = BoxGrid(boxes);
+  const double gap = PIECE_GAP * tolerance;
+  std::vector<std::pair<std::int32_t, std::int32_t>> rows;
+  std::vector<std::int32_t> near;
+  for (std::size_t i = 0; i < boxes.size(); ++i) {
+    near.clear();
+    shape.piece_grid.for_each_near(boxes[i], gap, [&](std::int32_t j) { near.push_back(j); });
+    std::ranges::sort(near);
+    near.erase(std::unique(near.begin(), near.end()), near.end());
+    for (const std::int32_t j : near) {
+      const auto other = static_cast<std::size_t>(j);
+      if (other != i && boxes[i].comes_within(boxes[other], gap) &&
+          shape.pieces[i].touches(shape.pieces[other], gap))
+        rows.emplace_back(static_cast<std::int32_t>(i), j);
+    }
+  }
+  shape.piece_neighbours = CsrRows(static_cast<std::int32_t>(shape.pieces.size()), rows);
+}
+
 RegionShape shape_of(const Surface& surface, const FlatRegions& regions, std::int32_t region,
                      double tolerance) {
   RegionShape shape;
@@ -24,13 +49,12 @@ RegionShape shape_of(const Surface& surface, const FlatRegions& regions, std::in
 
   // Each straight edge of the border once for each way that triangles run along it.
   std::set<std::pair<std::int32_t, bool>> directed;
-  Vec2 low = Vec2::Constant(std::numeric_limits<double>::infinity()), high = -low;
+  std::vector<Box2> boxes;
   for (const std::int32_t t : triangles) {
     const auto& corners = surface.mesh.triangles[static_cast<std::size_t>(t)];
+    Box2& box = boxes.emplace_back();
     for (std::size_t k = 0; k < 3; ++k) {
-      const Vec2 x = shape.frame.flat(vertex(corners[k]));
-      low = low.cwiseMin(x);
-      high = high.cwiseMax(x);
+      box.add(shape.frame.flat(vertex(corners[k])));
       const std::int32_t edge = surface.adjacency.triangle_edges[static_cast<std::size_t>(t)][k];
       const std::int32_t straight = regions.straight_of_edge[static_cast<std::size_t>(edge)];
       if (straight < 0) continue;
@@ -50,43 +74,15 @@ RegionShape shape_of(const Surface& surface, const FlatRegions& regions, std::in
   }
   shape.pieces = convex_pieces(sides, tolerance);
 
-  // About one triangle a cell.
-  shape.low = low;
-  shape.high = high;
-  const Vec2 size = high - low;
-  const double spacing =
-      std::sqrt(std::max(1e-300, size[0] * size[1]) / static_cast<double>(triangles.size()));
-  const auto cells_of = [&](double length) {
-    return std::clamp(static_cast<int>(std::ceil(length / spacing)), 1, static_cast<int>(triangles.size()));
-  };
-  shape.columns = cells_of(size[0]);
-  shape.rows = cells_of(size[1]);
-  shape.cells_per_metre =
-      Vec2(size[0] > 0.0 ? shape.columns / size[0] : 0.0, size[1] > 0.0 ? shape.rows / size[1] : 0.0);
-  std::vector<std::pair<std::int32_t, std::int32_t>> cells;
-  for (const std::int32_t t : triangles) {
-    Vec2 least = high, most = low;
-    for (const std::int32_t corner : surface.mesh.triangles[static_cast<std::size_t>(t)]) {
-      const Vec2 x = shape.frame.flat(vertex(corner));
-      least = least.cwiseMin(x);
-      most = most.cwiseMax(x);
-    }
-    const auto [x0, y0] = shape.cell_of(least);
-    const auto [x1, y1] = shape.cell_of(most);
-    for (int y = y0; y <= y1; ++y)
-      for (int x = x0; x <= x1; ++x) cells.emplace_back(y * shape.columns + x, t);
-  }
-  shape.cells = CsrRows(shape.columns * shape.rows, cells);
+  shape.triangle_grid = BoxGrid(boxes);
+  find_neighbours(shape, tolerance);
+  std::vector<Vec2> outline;
+  for (const std::int32_t v : shape.corners) outline.push_back(shape.frame.flat(vertex(v)));
+  shape.hull = convex_hull(std::move(outline));
   return shape;
 }
 
 }  // namespace
-
-std::pair<int, int> RegionShape::cell_of(const Vec2& x) const {
-  const Vec2 at = (x - low).cwiseProduct(cells_per_metre);
-  return {static_cast<int>(std::clamp(at[0], 0.0, columns - 1.0)),
-          static_cast<int>(std::clamp(at[1], 0.0, rows - 1.0))};
-}
 
 RegionShapes region_shapes(const Surface& surface, const FlatRegions& regions) {
   RegionShapes result;

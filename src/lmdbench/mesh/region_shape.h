@@ -3,41 +3,27 @@
 #pragma once
 
 #include <lmdbench/geometry/convex_polygon.h>
+#include <lmdbench/mesh/box_grid.h>
 #include <lmdbench/mesh/csr_rows.h>
 #include <lmdbench/mesh/flat_regions.h>
 
 #include <cstdint>
 #include <span>
-#include <utility>
 #include <vector>
 
 namespace lmdbench {
 
 /// A flat region without its tessellation: a polygon, with holes where it has them, as convex pieces; and
-/// where its triangles lie.
+/// where its triangles lie. All in the plane's own frame.
 struct RegionShape {
   PlanarFrame frame{Vec3::Zero(), Vec3::UnitZ()};  ///< In the region's plane, seen against its
                                                    ///< normal; frame S.
   std::vector<ConvexPolygon> pieces;               ///< Side by side; together they are the region.
+  CsrRows piece_neighbours;           ///< #P rows: the other pieces that a piece touches, ascending.
+  BoxGrid piece_grid;                 ///< Of the pieces' boxes.
   std::vector<std::int32_t> corners;  ///< Vertices where straight edges of its border end, ascending.
-
-  /// Triangles whose boxes come within `reach` of a box of the plane. Some come more than once.
-  template <class Visit>
-  void for_each_near(const Vec2& least, const Vec2& most, double reach, Visit&& visit) const {
-    const auto [x0, y0] = cell_of(least - Vec2::Constant(reach));
-    const auto [x1, y1] = cell_of(most + Vec2::Constant(reach));
-    for (int y = y0; y <= y1; ++y)
-      for (int x = x0; x <= x1; ++x)
-        for (const std::int32_t triangle : cells[y * columns + x]) visit(triangle);
-  }
-
-  /// A grid over the region: each cell lists the triangles whose boxes meet it.
-  Vec2 low = Vec2::Zero(), high = Vec2::Zero();
-  Vec2 cells_per_metre = Vec2::Zero();
-  int columns = 1, rows = 1;
-  CsrRows cells;
-  /// Column and row of the cell that holds a point, or of the nearest cell.
-  std::pair<int, int> cell_of(const Vec2& x) const;
+  std::vector<Vec2> hull;             ///< Convex hull of the corners, counter-clockwise.
+  BoxGrid triangle_grid;  ///< Of the triangles' boxes, in the order of FlatRegions::region_triangles.
 };
 
 /// Shapes of the regions of more than one triangle, each a pass over its triangles and a sweep over its

@@ -1,7 +1,9 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/lmd/decide.h>
 #include <lmdbench/mesh/feature_corners.h>
 #include <lmdbench/methods/certified/certified.h>
+#include <lmdbench/methods/certified/filter.h>
 #include <lmdbench/methods/exhaustive/exhaustive.h>
 
 #include <gtest/gtest.h>
@@ -239,6 +241,9 @@ std::pair<Vec3, double> body_of(const Surface& surface, const FeatureId& feature
 TEST(PairFilter, NothingIsAnLmdWhileTheRejectionStands) {
   const Scene scene = make_scene(make_blob(1.0, 0.4, 2), make_blob(1.0, 0.3, 2), 0.0);
   const Surface &moving = scene.moving->surface(), &fixed = scene.fixed[0]->surface();
+  const auto& moving_shape = scene.moving->prepared<ShapeComplex>();
+  const auto& fixed_shape = scene.fixed[0]->prepared<ShapeComplex>();
+  const RigidTransform identity;
   const double cutoff = 0.3;
   std::mt19937_64 random(8);
   WideScratch scratch;
@@ -252,7 +257,7 @@ TEST(PairFilter, NothingIsAnLmdWhileTheRejectionStands) {
     WideCounters counters;
     find_wide_pairs(scene.moving->prepared<WideHierarchy>(), scene.fixed[0]->prepared<WideHierarchy>(), query,
                     WideKernel::VECTOR, scratch, counters);
-    const PairFilter first{moving, before, fixed, cutoff, 1e-9, 1e-5, 1e-8};
+    const PairFilter first{moving, before, fixed, cutoff, 1e-14, 1e-9, 1e-5, 1e-8, moving_shape, fixed_shape};
     for (const WidePair& pair : scratch.lmd_pairs) {
       const auto [centre, radius] = body_of(moving, pair.a.feature_id());
       const PairAnswer answer = first(pair.a.feature_id(), pair.b.feature_id(), radius + 2.0 * cutoff);
@@ -272,8 +277,12 @@ TEST(PairFilter, NothingIsAnLmdWhileTheRejectionStands) {
         after.rotation = (turn * pose.rotation).normalized();
         after.translation = before.point(centre) + displacement - after.rotation * centre;
         const RigidTransform transform(after);
-        const PairFilter second{moving, transform, fixed, cutoff, 1e-9, 1e-5, 1e-8};
-        const bool is_lmd = second(pair.a.feature_id(), pair.b.feature_id(), 0.0).verdict == PairVerdict::LMD;
+        ContactSet contacts;
+        decide({{moving, moving_shape, transform, true},
+                {fixed, fixed_shape, identity, false},
+                ContactTolerance::of(moving, moving_shape, fixed, fixed_shape, transform, cutoff)},
+               pair.a.feature_id(), pair.b.feature_id(), contacts);
+        const bool is_lmd = !contacts.contacts.empty();
         if (left > 0.0 && angle < certificate.turn) {
           ASSERT_FALSE(is_lmd) << to_string(pair.a.feature_id().kind) << " "
                                << to_string(pair.b.feature_id().kind) << " slack " << certificate.slack

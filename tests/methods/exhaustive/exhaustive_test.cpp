@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include <lmdbench/lmd/first_order.h>
+#include <lmdbench/geometry/triangle_distance.h>
+#include <lmdbench/mesh/polar_cone.h>
 #include <lmdbench/methods/exhaustive/exhaustive.h>
 #include <lmdbench/methods/registry.h>
 #include <lmdbench/snch/minimum_distance.h>
@@ -121,13 +122,13 @@ TEST(Exhaustive, EqualsTheLiteralDefinition) {
           const TrianglePairDistance pair =
               triangle_distance(transform.triangle(moving.mesh.triangle(ta)), fixed.mesh.triangle(tb));
           if (pair.squared_distance > scene.cutoff * scene.cutoff) continue;
-          Lmd lmd;
-          lmd.point_moving = pair.point_a, lmd.point_fixed = pair.point_b;
-          lmd.distance = std::sqrt(pair.squared_distance);
-          lmd.feature_moving = moving.feature_of(ta, pair.feature_a);
-          lmd.feature_fixed = fixed.feature_of(tb, pair.feature_b);
-          if (is_local_minimum(moving, transform, fixed, lmd))
-            expected.emplace(lmd.feature_moving, lmd.feature_fixed);
+          const FeatureId on_moving = moving.feature_of(ta, pair.feature_a);
+          const FeatureId on_fixed = fixed.feature_of(tb, pair.feature_b);
+          const Vec3 d = pair.point_b - pair.point_a;
+          const RigidTransform back(pose.inverse());
+          if (in_polar_cone(moving, on_moving, back.point(pair.point_a), back.direction(d), 1e-10) &&
+              in_polar_cone(fixed, on_fixed, pair.point_b, -d, 1e-10))
+            expected.emplace(on_moving, on_fixed);
         }
       }
       total += expected.size();
@@ -170,9 +171,11 @@ TEST(Exhaustive, HoldsTheMinimumDistanceAndIsSortedAndFreeOfDuplicates) {
     const LmdSet lmds = truth(scene, pose);
     ASSERT_FALSE(lmds.empty());
     const Body &moving = *scene.moving, &fixed = *scene.fixed[0];
-    EXPECT_EQ(lmds[0].distance, nearest_pair(moving.surface(), moving.prepared<Hierarchy>(), fixed.surface(),
-                                             fixed.prepared<Hierarchy>(), pose)
-                                    .distance);
+    EXPECT_NEAR(lmds[0].distance,
+                nearest_pair(moving.surface(), moving.prepared<Hierarchy>(), fixed.surface(),
+                             fixed.prepared<Hierarchy>(), pose)
+                    .distance,
+                1e-16);
     EXPECT_TRUE(std::is_sorted(lmds.begin(), lmds.end(), lmd_less));
     EXPECT_EQ(feature_pairs(lmds).size(), lmds.size());
   }

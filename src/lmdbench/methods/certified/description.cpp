@@ -38,11 +38,10 @@ const MethodDescription& certified_method() {
       .counters = traversal_counters_and<Counter>(
           {{Counter::LEAF_PAIRS, "leaf_pairs", "feature or triangle pairs that reached the leaf tests",
             CountedBy::SEARCH},
-           {Counter::REJECTED_CUTOFF, "rejected_cutoff", "triangle pairs beyond the cutoff",
+           {Counter::DECISIONS, "decisions", "feature pairs that the definition of an LMD was asked for",
             CountedBy::SEARCH},
-           {Counter::TRIANGLE_DISTANCES, "triangle_distances", "exact triangle distances", CountedBy::SEARCH},
-           {Counter::FIRST_ORDER_TESTS, "first_order_tests", "first-order tests of the definition of an LMD",
-            CountedBy::SEARCH}}),
+           {Counter::TRIANGLE_DISTANCES, "triangle_distances",
+            "triangle pairs that may touch, decided exactly", CountedBy::SEARCH}}),
       .make = [](const Scene& scene, const nlohmann::json& options) -> std::unique_ptr<Method> {
         return std::make_unique<Certified>(scene, options.get<CertifiedOptions>());
       }};

@@ -1,6 +1,5 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include <lmdbench/mesh/vertex_neighbours.h>
 #include <lmdbench/methods/certified/filter.h>
 
 #include <algorithm>
@@ -29,28 +28,27 @@ constexpr double TURN_FACTOR = 1.05;
 constexpr double LARGEST_TURN = 0.05;
 constexpr double SPREAD = TURN_FACTOR * LARGEST_TURN;
 
-/// Answers combine: one NO_LMD decides, else one BORDERLINE.
 PairAnswer no_lmd(const Certificate& certificate) {
   return {PairVerdict::NO_LMD, certificate};
 }
-const PairAnswer HOLDS{PairVerdict::LMD, {}};
-const PairAnswer CLOSE{PairVerdict::BORDERLINE, {}};
+const PairAnswer ASK{};
 const PairAnswer NEVER = no_lmd(Certificate::turned(std::numeric_limits<double>::infinity()));
 /// Without a word on what it stands.
 const PairAnswer NO_LMD_NOW = no_lmd({});
 
 /// Adds one condition; true when it decides.
 bool settle(PairAnswer& answer, const PairAnswer& condition) {
-  if (condition.verdict != PairVerdict::LMD) answer = condition;
-  return condition.verdict == PairVerdict::NO_LMD;
+  if (condition.verdict != PairVerdict::NO_LMD) return false;
+  answer = condition;
+  return true;
 }
 
 /// One of the two meshes with its pose.
 struct Side {
   const Surface& surface;
+  const ShapeComplex& shape;
   const RigidTransform& X_WM;
   bool is_moving;
-  const FlatMesh* flat;
 
   const Vec3& vertex_S(std::int32_t vertex) const {
     return surface.mesh.vertices[static_cast<std::size_t>(vertex)];
@@ -60,17 +58,23 @@ struct Side {
   }
   Vec3 to_surface(const Vec3& d_W) const { return is_moving ? Vec3(X_WM.rotation.transpose() * d_W) : d_W; }
   Vec3 to_world(const Vec3& d_S) const { return is_moving ? X_WM.direction(d_S) : d_S; }
-  /// Ends of an edge, or of the whole straight edge.
+  std::int32_t chain(std::int32_t edge) const { return shape.chain_of(edge); }
+  /// Ends of the chain that an edge is the lead of.
   const std::array<std::int32_t, 2>& ends(std::int32_t edge) const {
-    const auto e = static_cast<std::size_t>(edge);
-    if (flat == nullptr) return surface.adjacency.edges[e];
-    return flat->regions->straight_edges[static_cast<std::size_t>(flat->regions->straight_of_edge[e])].ends;
+    return shape.is_joined ? shape.ends_of_chain(chain(edge))
+                           : surface.adjacency.edges[static_cast<std::size_t>(edge)];
   }
-  /// Shape of the region that the face is the lead of; null for a face alone.
-  const RegionShape* shape(std::int32_t face) const {
-    if (flat == nullptr) return nullptr;
-    const std::int32_t region = flat->regions->region_of_triangle[static_cast<std::size_t>(face)];
-    return region < 0 ? nullptr : flat->shapes.of_region(region);
+  /// Shape of the region that a face is the lead of; null for a face alone.
+  const RegionShape* region_shape(std::int32_t face) const {
+    if (!shape.is_joined) return nullptr;
+    const std::int32_t region = shape.region_of(face);
+    return region < 0 ? nullptr : shape.shapes.of_region(region);
+  }
+  /// Of the region that a face is the lead of; zero without area.
+  const Vec3& normal_S(std::int32_t face) const {
+    const std::int32_t region = shape.is_joined ? shape.region_of(face) : -1;
+    return region >= 0 ? shape.regions.planes[static_cast<std::size_t>(region)].normal
+                       : surface.face_normals[static_cast<std::size_t>(face)];
   }
   /// By how much a point of this mesh moves against the other for a displacement of 1.
   double sign() const { return is_moving ? 1.0 : -1.0; }
@@ -84,8 +88,8 @@ struct Test {
   Test(const PairFilter& f, double arm_of_turns)
       : filter(f),
         lever_arm(arm_of_turns),
-        moving{f.moving, f.X_WM, true, f.flat_moving},
-        fixed{f.fixed, f.X_WM, false, f.flat_fixed} {}
+        moving{f.moving, f.shape_moving, f.X_WM, true},
+        fixed{f.fixed, f.shape_fixed, f.X_WM, false} {}
 
   /// What is left of a length that must fall to zero before anything changes, less what rounding and the
   /// truth's tolerances take. It loses `gradient` times the displacement.
@@ -94,67 +98,58 @@ struct Test {
   }
 
   /// @param d_W between the points, from the moving mesh to the fixed one
+  PairAnswer within_cutoff(double squared_distance, const Vec3& d_W) const {
+    const double above = filter.reach * (1.0 + CUTOFF_MARGIN);
+    if (squared_distance <= above * above) return ASK;
+    const double distance = std::sqrt(squared_distance);
+    return no_lmd_within(distance - filter.reach, d_W / distance);
+  }
+  /// The same for two points, whose direction is known only beyond touch.
   PairAnswer near(double squared_distance, const Vec3& d_W) const {
-    const double above = filter.cutoff * (1.0 + CUTOFF_MARGIN), below = filter.cutoff * (1.0 - CUTOFF_MARGIN);
-    if (squared_distance > above * above) {
-      const double distance = std::sqrt(squared_distance);
-      return no_lmd_within(distance - filter.cutoff, d_W / distance);
-    }
     if (squared_distance < 0.25 * filter.touch * filter.touch) return NO_LMD_NOW;
-    return squared_distance < below * below ? HOLDS : CLOSE;
+    return within_cutoff(squared_distance, d_W);
   }
 
-  /// Whether d moves away from a corner.
+  /// Whether a direction moves away from what a wing leads to.
   /// @param turn_share angle that a unit of sine stands, for a d that only turns; 0 where d changes like
   ///                   a point
-  PairAnswer away_from(const Side& side, const Vec3& d_S, double squared_d, const Vec3& to_corner,
+  PairAnswer away_from(const Side& side, const Vec3& d_S, double squared_d, const Vec3& wing,
                        double turn_share) const {
-    const double along = d_S.dot(to_corner);
-    const double squared_length = to_corner.squaredNorm();
-    if (squared_length <= filter.tiny * filter.tiny) return CLOSE;
-    if (along * along <= filter.margin * filter.margin * squared_d * squared_length) return CLOSE;
-    if (along < 0.0) return HOLDS;
+    const double along = d_S.dot(wing);
+    if (along <= 0.0) return ASK;
+    const double squared_length = wing.squaredNorm();
+    if (squared_length <= filter.tiny * filter.tiny ||
+        along * along <= filter.margin * filter.margin * squared_d * squared_length)
+      return ASK;
     const double length = std::sqrt(squared_length), component = along / length;
     if (turn_share > 0.0)
       return no_lmd(Certificate::turned(turn_share * (component / std::sqrt(squared_d) - filter.margin)));
-    return no_lmd_within(component, side.sign() / length * side.to_world(to_corner));
+    return no_lmd_within(component, side.sign() / length * side.to_world(wing));
   }
 
   PairAnswer in_vertex_cone(const Side& side, std::int32_t vertex, const Vec3& d_W, double turn_share) const {
     const Vec3 d_S = side.to_surface(d_W);
     const double squared_d = d_S.squaredNorm();
-    const Vec3& p = side.vertex_S(vertex);
-    PairAnswer answer = HOLDS;
-    for_each_neighbour(side.surface, vertex, [&](std::int32_t neighbour) {
-      return !settle(answer, away_from(side, d_S, squared_d, side.vertex_S(neighbour) - p, turn_share));
+    PairAnswer answer = ASK;
+    side.shape.for_each_corner_wing(side.surface, vertex, [&](const Vec3& wing) {
+      return !settle(answer, away_from(side, d_S, squared_d, wing, turn_share));
     });
     return answer;
   }
 
-  /// @param parameter of the foot on the edge, 0 at its first end
-  PairAnswer in_edge_cone(const Side& side, std::int32_t edge, double parameter, const Vec3& d_W,
-                          double turn_share) const {
-    const Surface& surface = side.surface;
-    const auto& ends = surface.adjacency.edges[static_cast<std::size_t>(edge)];
+  PairAnswer in_edge_cone(const Side& side, std::int32_t edge, const Vec3& d_W, double turn_share) const {
     const Vec3 d_S = side.to_surface(d_W);
     const double squared_d = d_S.squaredNorm();
-    const auto& whole = side.ends(edge);
-    const Vec3& p0 = side.vertex_S(whole[0]);
-    const Vec3 p = p0 + parameter * (side.vertex_S(whole[1]) - p0);
-    PairAnswer answer = HOLDS;
-    for (const std::int32_t triangle : surface.adjacency.edge_triangles[edge]) {
-      for (const std::int32_t corner : surface.mesh.triangles[static_cast<std::size_t>(triangle)]) {
-        if (corner == ends[0] || corner == ends[1]) continue;
-        if (settle(answer, away_from(side, d_S, squared_d, side.vertex_S(corner) - p, turn_share)))
-          return answer;
-      }
-    }
+    PairAnswer answer = ASK;
+    side.shape.for_each_chain_wing(side.surface, side.chain(edge), [&](const Vec3& wing) {
+      return !settle(answer, away_from(side, d_S, squared_d, wing, turn_share));
+    });
     return answer;
   }
 
   PairAnswer vertex_vertex(std::int32_t a, std::int32_t b) const {
     const Vec3 d = fixed.vertex_W(b) - moving.vertex_W(a);
-    PairAnswer answer = HOLDS;
+    PairAnswer answer = ASK;
     if (settle(answer, near(d.squaredNorm(), d))) return answer;
     if (settle(answer, in_vertex_cone(moving, a, d, 0.0))) return answer;
     settle(answer, in_vertex_cone(fixed, b, -d, 0.0));
@@ -170,19 +165,19 @@ struct Test {
     const double squared_length = u.squaredNorm();
     const Vec3 to_end = of_vertex.sign() * (e0 - p);
     if (squared_length <= filter.tiny * filter.tiny)
-      return near(to_end.squaredNorm(), to_end).verdict == PairVerdict::NO_LMD ? NO_LMD_NOW : CLOSE;
+      return near(to_end.squaredNorm(), to_end).verdict == PairVerdict::NO_LMD ? NO_LMD_NOW : ASK;
     const double parameter = (p - e0).dot(u) / squared_length;
     const double beyond = std::max(-parameter, parameter - 1.0);
-    if (beyond > filter.margin) {
-      const double length = std::sqrt(squared_length);
+    const double length = std::sqrt(squared_length);
+    if (beyond > filter.margin && beyond * length > 2.0 * filter.rounding) {
       const double inwards = parameter < 0.0 ? of_vertex.sign() : -of_vertex.sign();
       return no_lmd_within(beyond * length, inwards / length * u);
     }
-    PairAnswer answer = beyond < -filter.margin ? HOLDS : CLOSE;
+    PairAnswer answer = ASK;
     const Vec3 d = e0 + parameter * u - p;
     if (settle(answer, near(d.squaredNorm(), of_vertex.sign() * d))) return answer;
     if (!settle(answer, in_vertex_cone(of_vertex, vertex, d, 0.0)))
-      settle(answer, in_edge_cone(of_edge, edge, parameter, -d, 0.0));
+      settle(answer, in_edge_cone(of_edge, edge, -d, 0.0));
     // d stays square to the edge.
     answer.certificate.gradient -= answer.certificate.gradient.dot(u) / squared_length * u;
     return answer;
@@ -190,9 +185,9 @@ struct Test {
 
   PairAnswer vertex_face(const Side& of_vertex, std::int32_t vertex, const Side& of_face,
                          std::int32_t face) const {
-    const Vec3& normal_S = of_face.surface.face_normals[static_cast<std::size_t>(face)];
+    const Vec3& normal_S = of_face.normal_S(face);
     if (normal_S.isZero(0.0)) return NEVER;
-    if (const RegionShape* shape = of_face.shape(face))
+    if (const RegionShape* shape = of_face.region_shape(face))
       return vertex_region(of_vertex, vertex, of_face, face, *shape);
     const auto& corners = of_face.surface.mesh.triangles[static_cast<std::size_t>(face)];
     const Vec3 p = of_vertex.vertex_W(vertex);
@@ -201,49 +196,50 @@ struct Test {
                                 of_face.vertex_W(corners[2])};
     const double height = n.dot(p - x[0]);
     const Vec3 rise = of_vertex.sign() * n;  // of the height, for a displacement
-    if (height < 0.0) return no_lmd_within(-height, rise);
-    PairAnswer answer = HOLDS;
-    if (settle(answer, near(height * height, -height * rise))) return answer;
+    if (height < -filter.touch) return no_lmd_within(-height, rise);
+    PairAnswer answer = ASK;
+    if (settle(answer, within_cutoff(height * height, -height * rise))) return answer;
     for (std::size_t k = 0; k < 3; ++k) {
       const Vec3 side = x[(k + 1) % 3] - x[k];
       const double squared_side = side.squaredNorm();
       const double squared_rise = (x[(k + 2) % 3] - x[k]).squaredNorm();
-      if (squared_side <= filter.tiny * filter.tiny) return CLOSE;
+      if (squared_side <= filter.tiny * filter.tiny) return ASK;
       // Distance from the side times its length, against that of a right angle.
       const double distance = side.cross(p - x[k]).dot(n);
-      const double allowed = filter.margin * std::sqrt(squared_side * squared_rise);
+      const double width =
+          std::max(filter.margin * filter.margin * squared_rise, 4.0 * filter.rounding * filter.rounding);
+      const double allowed = std::sqrt(squared_side * width);
       if (distance < -allowed) {
         const double length = std::sqrt(squared_side);
         return no_lmd_within(-distance / length, rise.cross(side) / length);
       }
-      if (!(distance > allowed)) answer = CLOSE;
     }
-    settle(answer, in_vertex_cone(of_vertex, vertex, -height * n, 1.0));
+    settle(answer, in_vertex_cone(of_vertex, vertex, -n, 1.0));
     return answer;
   }
 
-  /// The outline's bounding box alone; its faces say whether the foot is inside.
+  /// The outline's bounding box alone; the definition says whether the foot is inside.
   PairAnswer vertex_region(const Side& of_vertex, std::int32_t vertex, const Side& of_face, std::int32_t face,
                            const RegionShape& shape) const {
-    const auto region =
-        static_cast<std::size_t>(of_face.flat->regions->region_of_triangle[static_cast<std::size_t>(face)]);
-    const Plane& plane = of_face.flat->regions->planes[region];
+    const Plane& plane =
+        of_face.shape.regions.planes[static_cast<std::size_t>(of_face.shape.region_of(face))];
     const Vec3 p = of_vertex.vertex_W(vertex);
     const Vec3 p_S =
         of_face.is_moving ? Vec3(of_face.X_WM.rotation.transpose() * (p - of_face.X_WM.translation)) : p;
     const Vec3 n = of_face.to_world(plane.normal);
     const double height = plane.height(p_S);
     const Vec3 rise = of_vertex.sign() * n;
-    if (height < 0.0) return no_lmd_within(-height, rise);
-    PairAnswer answer = CLOSE;
-    if (settle(answer, near(height * height, -height * rise))) return answer;
+    if (height < -filter.touch) return no_lmd_within(-height, rise);
+    PairAnswer answer = ASK;
+    if (settle(answer, within_cutoff(height * height, -height * rise))) return answer;
+    const Vec2 low = shape.triangle_grid.low(), high = shape.triangle_grid.high();
     const Vec2 x = shape.frame.flat(p_S);
     for (int k = 0; k < 2; ++k) {
       const Vec3 axis = of_vertex.sign() * of_face.to_world(k == 0 ? shape.frame.u : shape.frame.v);
-      if (x[k] > shape.high[k] + 2.0 * filter.touch) return no_lmd_within(x[k] - shape.high[k], -axis);
-      if (x[k] < shape.low[k] - 2.0 * filter.touch) return no_lmd_within(shape.low[k] - x[k], axis);
+      if (x[k] > high[k] + 2.0 * filter.touch) return no_lmd_within(x[k] - high[k], -axis);
+      if (x[k] < low[k] - 2.0 * filter.touch) return no_lmd_within(low[k] - x[k], axis);
     }
-    if (!settle(answer, in_vertex_cone(of_vertex, vertex, -height * n, 1.0))) answer = CLOSE;
+    settle(answer, in_vertex_cone(of_vertex, vertex, -n, 1.0));
     return answer;
   }
 
@@ -260,19 +256,20 @@ struct Test {
     const double squared_tiny = filter.tiny * filter.tiny;
     if (uu <= squared_tiny || vv <= squared_tiny || determinant <= PARALLEL_SQUARED_SINE * uu * vv) {
       // Nearly parallel: each must come within reach of the other somewhere.
-      const double reach = filter.cutoff + PARALLEL_BAND * (std::sqrt(uu) + std::sqrt(vv));
+      const double reach = filter.reach + PARALLEL_BAND * (std::sqrt(uu) + std::sqrt(vv));
       const Vec3 across = uu >= vv ? Vec3(r - ur / uu * u) : Vec3(r - vr / vv * v);
-      return across.squaredNorm() <= reach * reach ? CLOSE : NO_LMD_NOW;
+      return across.squaredNorm() <= reach * reach ? ASK : NO_LMD_NOW;
     }
     const double s = (uv * vr - vv * ur) / determinant;
     const double t = (uu * vr - uv * ur) / determinant;
-    if (outside(s) || outside(t)) {
-      // The end beyond the other edge's plane through the common perpendicular, and
-      // how fast that plane can turn.
-      const double sine = std::sqrt(determinant / (uu * vv));
+    // The end beyond the other edge's plane through the common perpendicular, and how fast that plane can turn.
+    const double sine = std::sqrt(determinant / (uu * vv));
+    const double length_u = std::sqrt(uu), length_v = std::sqrt(vv);
+    const double beyond_s = std::max(-s, s - 1.0) * length_u, beyond_t = std::max(-t, t - 1.0) * length_v;
+    const double spare = 2.0 * filter.rounding / sine;
+    if (beyond_s > std::max(filter.margin * length_u, spare) ||
+        beyond_t > std::max(filter.margin * length_v, spare)) {
       const Vec3 d = r + s * u - t * v;
-      const double length_u = std::sqrt(uu), length_v = std::sqrt(vv);
-      const double beyond_s = std::max(-s, s - 1.0) * length_u, beyond_t = std::max(-t, t - 1.0) * length_v;
       // Inwards: along the edge that is left behind, square to the other.
       const Vec3 gradient = beyond_s > beyond_t
                                 ? Vec3((s < 0.0 ? -1.0 : 1.0) / (length_u * sine) * (u - uv / vv * v))
@@ -283,14 +280,13 @@ struct Test {
       return no_lmd({beyond * sine - 2.0 * filter.touch, gradient, SPREAD,
                      (1.0 + SPREAD) * lever_arm + TURN_FACTOR * arm / sine, LARGEST_TURN * sine});
     }
-    PairAnswer answer = HOLDS;
-    if (!strictly_inside(s) || !strictly_inside(t)) answer = CLOSE;
+    PairAnswer answer = ASK;
     const Vec3 d = -(r + s * u - t * v);
     const double squared_d = d.squaredNorm();
-    if (settle(answer, near(squared_d, d))) return answer;
-    const double sine = std::sqrt(determinant / (uu * vv));
-    if (settle(answer, in_edge_cone(moving, a, s, d, sine / TURN_FACTOR)) ||
-        settle(answer, in_edge_cone(fixed, b, t, -d, sine / TURN_FACTOR))) {
+    // Next to touch the direction is known from the edges alone.
+    if (squared_d < filter.touch * filter.touch || settle(answer, within_cutoff(squared_d, d))) return answer;
+    if (settle(answer, in_edge_cone(moving, a, d, sine / TURN_FACTOR)) ||
+        settle(answer, in_edge_cone(fixed, b, -d, sine / TURN_FACTOR))) {
       // d turns smoothly as long as the edges do not pass through each other.
       const double distance = std::sqrt(squared_d);
       answer.certificate = {(1.0 - SPREAD) * distance - 2.0 * filter.touch, d / distance, SPREAD,
@@ -300,15 +296,8 @@ struct Test {
     return answer;
   }
 
-  bool outside(double parameter) const {
-    return parameter < -filter.margin || parameter > 1.0 + filter.margin;
-  }
-  bool strictly_inside(double parameter) const {
-    return parameter > filter.margin && parameter < 1.0 - filter.margin;
-  }
-
   PairAnswer edge_face(const Side& of_edge, std::int32_t edge, const Side& of_face, std::int32_t face) const {
-    const Vec3& normal_S = of_face.surface.face_normals[static_cast<std::size_t>(face)];
+    const Vec3& normal_S = of_face.normal_S(face);
     if (normal_S.isZero(0.0)) return NEVER;
     const auto& ends = of_edge.ends(edge);
     const Vec3 e0 = of_edge.vertex_W(ends[0]);
@@ -323,15 +312,15 @@ struct Test {
     const double height = n.dot(e0 - of_face.vertex_W(corners[0]));
     const Vec3 outwards = of_edge.sign() * n;
     if (height < -band) return no_lmd_within(-height, outwards);
-    return height > filter.cutoff + band ? no_lmd_within(height - filter.cutoff, -outwards) : CLOSE;
+    return height > filter.reach + band ? no_lmd_within(height - filter.reach, -outwards) : ASK;
   }
 
   PairAnswer face_face(std::int32_t a, std::int32_t b) const {
-    const Vec3& normal_a = moving.surface.face_normals[static_cast<std::size_t>(a)];
-    const Vec3& normal_b = fixed.surface.face_normals[static_cast<std::size_t>(b)];
+    const Vec3& normal_a = moving.normal_S(a);
+    const Vec3& normal_b = fixed.normal_S(b);
     if (normal_a.isZero(0.0) || normal_b.isZero(0.0)) return NEVER;
     const double apart = (moving.to_world(normal_a) + normal_b).norm();
-    return apart > PARALLEL_BAND ? no_lmd(Certificate::turned(apart - 0.5 * PARALLEL_BAND)) : CLOSE;
+    return apart > PARALLEL_BAND ? no_lmd(Certificate::turned(apart - 0.5 * PARALLEL_BAND)) : ASK;
   }
 };
 

@@ -3,9 +3,9 @@
 #pragma once
 
 #include <lmdbench/geometry/pose.h>
+#include <lmdbench/mesh/shape_complex.h>
 #include <lmdbench/mesh/surface.h>
 #include <lmdbench/methods/certified/coherence/certificate.h>
-#include <lmdbench/methods/certified/flat/flat_mesh.h>
 
 #include <cstdint>
 
@@ -13,16 +13,13 @@ namespace lmdbench {
 
 /// What the closed-form test of a feature pair says.
 enum class PairVerdict : std::uint8_t {
-  NO_LMD,     ///< Some condition fails by more than the margin.
-  LMD,        ///< Every condition holds by more than the margin: any incident triangle
-              ///< pair gives the LMD.
-  BORDERLINE  ///< Some condition is within the margin (ties, parallel features):
-              ///< all incident triangle pairs decide.
+  NO_LMD,  ///< Some condition fails by more than the margin.
+  ASK      ///< The definition has to be asked.
 };
 
 /// What a test answers, and what that stands.
 struct PairAnswer {
-  PairVerdict verdict = PairVerdict::BORDERLINE;
+  PairVerdict verdict = PairVerdict::ASK;
   Certificate certificate;  ///< Of NO_LMD.
 };
 
@@ -31,23 +28,22 @@ struct PairFilter {
   const Surface& moving;
   const RigidTransform& X_WM;
   const Surface& fixed;
-  double cutoff;  ///< metres
-  double touch;   ///< metres; pairs nearer than half of it are not this filter's:
-                  ///< see Certified
-  double margin;  ///< Relative to the lengths compared, or a sine. Far above
-                  ///< rounding, far below geometry.
-  double tiny;    ///< metres; a feature shorter than this is rounding in its size
-                  ///< and always borderline
-  /// Where given, the lead of a region or straight edge means all of it; what is not rejected is borderline.
-  const FlatMesh* flat_moving = nullptr;
-  const FlatMesh* flat_fixed = nullptr;
-  /// Decides by the one candidate point pair that the two features have: two vertices; a vertex and its
-  /// projection on an edge or face; the feet of the common perpendicular of two edges. The conditions are
-  /// those of the ground truth's first-order test (first_order.h) with `margin` in place of its tolerance:
-  /// feet inside their features, distance within the cutoff, direction in both polar cones (the outer side,
-  /// which the caps of the hierarchy have settled for nearly all, is left to the final test). Edges that are
-  /// parallel to an edge or a face within 1e-4, and faces that are parallel, have no single candidate and are
-  /// borderline where they can be near.
+  double reach;     ///< metres; ContactTolerance::reach
+  double rounding;  ///< metres; ContactTolerance::rounding
+  double touch;     ///< metres; pairs nearer than half of it are not this filter's:
+                    ///< see TouchingPairs
+  double margin;    ///< Relative to the lengths compared, or a sine. Far above
+                    ///< rounding, far below geometry.
+  double tiny;      ///< metres; a feature shorter than this is rounding in its size
+                    ///< and always left to the definition
+  const ShapeComplex& shape_moving;
+  const ShapeComplex& shape_fixed;
+  /// Rejects by the one candidate point pair that two features have: two corners; a corner and its projection on a chain or
+  /// region; the feet of the common perpendicular of two chains. The conditions are those of the definition (lmd/decide.h) with
+  /// `margin` in place of its rounding: feet inside their features, distance within the cutoff, direction in both polar cones
+  /// (the outer side, which the caps of the hierarchy have settled for nearly all, is left to the definition). Chains that are
+  /// parallel to a chain or a region within 1e-4, and regions that are parallel, have no single candidate and are left to the
+  /// definition where they can be near.
   ///
   /// How long the rejection stands follows from what rejected the pair (PROOF.md, lemmas 15 and 16):
   /// - too far, or on the inner side of a face: distances of points, lines and planes are convex in a

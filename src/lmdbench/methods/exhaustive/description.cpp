@@ -9,19 +9,16 @@ const MethodDescription& exhaustive_method() {
   using Counter = Exhaustive::Counter;
   static const MethodDescription description{
       .name = "exhaustive",
-      .summary = "ground truth: every triangle pair near enough, judged by the definition of an LMD",
+      .summary = "ground truth: the definition of an LMD, asked for every pair of features near enough",
       .promise = Promise::COMPLETE_SET,
       .tracks_locally = false,
       .trackings_after_search = 0,
       .brute_force = true,
-      .counters = {{Counter::LEAF_PAIRS, "leaf_pairs", "triangle pairs whose boxes are near enough",
+      .counters = {{Counter::FEATURE_PAIRS, "feature_pairs", "pairs of features whose boxes are near enough",
                     CountedBy::SEARCH},
-                   {Counter::REJECTED_CUTOFF, "rejected_cutoff", "triangle pairs beyond the cutoff",
-                    CountedBy::SEARCH},
-                   {Counter::TRIANGLE_DISTANCES, "triangle_distances", "exact triangle distances",
-                    CountedBy::SEARCH},
-                   {Counter::FIRST_ORDER_TESTS, "first_order_tests",
-                    "first-order tests of the definition of an LMD", CountedBy::SEARCH}},
+                   {Counter::CONTACTS, "contacts", "contacts that pairs of features have", CountedBy::SEARCH},
+                   {Counter::TRIANGLE_DISTANCES, "triangle_distances",
+                    "exact distances of triangles whose boxes overlap", CountedBy::SEARCH}},
       .make = [](const Scene& scene, const nlohmann::json&) -> std::unique_ptr<Method> {
         return std::make_unique<Exhaustive>(scene);
       }};

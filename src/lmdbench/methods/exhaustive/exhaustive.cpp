@@ -1,50 +1,122 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/geometry/triangle_distance.h>
-#include <lmdbench/lmd/triangle_pair.h>
+#include <lmdbench/lmd/join_contacts.h>
+#include <lmdbench/lmd/search_counters.h>
+#include <lmdbench/mesh/feature_corners.h>
 #include <lmdbench/methods/exhaustive/exhaustive.h>
 
+#include <algorithm>
 #include <utility>
 
 namespace lmdbench {
 
-Exhaustive::Exhaustive(Scene scene) : scene_(std::move(scene)), flat_pieces_(scene_) {
+namespace {
+
+Eigen::AlignedBox3d placed_box(const ShapeSide& side, const FeatureId& feature) {
+  Eigen::AlignedBox3d box;
+  const FeatureCorners corners(side.surface, feature);
+  for (const std::int32_t v : corners.view()) box.extend(side.vertex(v));
+  return box;
+}
+
+/// The lead of what a face, edge or vertex is part of; index -1 inside of it or of nothing.
+FeatureId lead_of(const ShapeComplex& shape, const FeatureId& feature) {
+  if (feature.kind == FeatureKind::VERTEX) return shape.is_corner(feature.index) ? feature : FeatureId{};
+  if (feature.kind == FeatureKind::EDGE) {
+    const std::int32_t chain = shape.chain_of(feature.index);
+    return chain < 0 ? FeatureId{} : FeatureId{FeatureKind::EDGE, shape.lead_of_chain(chain)};
+  }
+  const std::int32_t region = shape.region_of(feature.index);
+  return region < 0 ? FeatureId{} : FeatureId{FeatureKind::FACE, shape.lead_of_region(region)};
+}
+
+}  // namespace
+
+Exhaustive::Exhaustive(Scene scene) : scene_(std::move(scene)) {
   grids_.reserve(scene_.fixed.size());
-  for (const auto& body : scene_.fixed) grids_.emplace_back(body->surface().mesh);
+  std::size_t vertices = 0, edges = 0, faces = 0;
+  for (const auto& body : scene_.fixed) {
+    const Surface& surface = body->surface();
+    grids_.emplace_back(surface);
+    vertices = std::max(vertices, surface.mesh.vertices.size());
+    edges = std::max(edges, surface.adjacency.edges.size());
+    faces = std::max(faces, surface.mesh.triangles.size());
+  }
+  asked_vertex_.assign(vertices, 0);
+  asked_edge_.assign(edges, 0);
+  asked_face_.assign(faces, 0);
+}
+
+void Exhaustive::decide_features(const ShapePair& pair, FeatureGrid& grid, WorkCounters& counters) {
+  const ShapeSide &moving = pair.moving, &fixed = pair.fixed;
+  // @param parts faces or edges that the feature consists of
+  const auto ask = [&](const FeatureId& lead, std::span<const std::int32_t> parts) {
+    ++asking_;
+    for (const std::int32_t part : parts)
+      grid.for_each_near(
+          placed_box(moving, {lead.kind, part}), pair.tolerance.reach, [&](const FeatureId& near) {
+            const FeatureId other = lead_of(fixed.shape, near);
+            if (other.index < 0) return;
+            std::uint64_t& asked =
+                (other.kind == FeatureKind::VERTEX ? asked_vertex_
+                 : other.kind == FeatureKind::EDGE ? asked_edge_
+                                                   : asked_face_)[static_cast<std::size_t>(other.index)];
+            if (asked == asking_) return;
+            asked = asking_;
+            ++counters[Counter::FEATURE_PAIRS];
+            decide(pair, lead, other, contacts_);
+          });
+  };
+  for (std::int32_t v = 0; v < static_cast<std::int32_t>(moving.surface.mesh.vertices.size()); ++v)
+    if (moving.shape.is_corner(v)) ask({FeatureKind::VERTEX, v}, {&v, 1});
+  const FlatRegions& regions = moving.shape.regions;
+  for (std::int32_t c = 0; c < static_cast<std::int32_t>(regions.straight_edges.size()); ++c)
+    ask({FeatureKind::EDGE, moving.shape.lead_of_chain(c)}, regions.edges_of_straight[c]);
+  for (std::int32_t r = 0; r < regions.region_count(); ++r)
+    ask({FeatureKind::FACE, moving.shape.lead_of_region(r)}, regions.region_triangles[r]);
+}
+
+void Exhaustive::find_intersections(const ShapePair& pair, std::int32_t body, FeatureGrid& grid,
+                                    WorkCounters& counters) {
+  const Surface &moving = pair.moving.surface, &fixed = pair.fixed.surface;
+  for (std::int32_t t = 0; t < static_cast<std::int32_t>(moving.mesh.triangles.size()); ++t) {
+    const Triangle a = pair.moving.X_WS.triangle(moving.mesh.triangle(t));
+    grid.for_each_near(
+        placed_box(pair.moving, {FeatureKind::FACE, t}), pair.tolerance.rounding, [&](const FeatureId& near) {
+          if (near.kind != FeatureKind::FACE) return;
+          ++counters[Counter::TRIANGLE_DISTANCES];
+          const TrianglePairDistance distance = triangle_distance(a, fixed.mesh.triangle(near.index));
+          if (!distance.intersecting) return;
+          intersections_.push_back(
+              {moving.feature_of(t, distance.feature_a), fixed.feature_of(near.index, distance.feature_b), t,
+               near.index, body, distance.minimiser_dimension, distance.minimiser_measure, distance.point_a});
+        });
+  }
 }
 
 void Exhaustive::search(const Pose& X_WM, LmdSet& lmds, WorkCounters& counters) {
+  static const RigidTransform identity;
   const RigidTransform transform(X_WM);
-  const Surface& moving = scene_.moving->surface();
-  const double squared_cutoff = scene_.cutoff * scene_.cutoff;
-  minima_.clear();
+  const ShapeComplex& moving_shape = scene_.moving->prepared<ShapeComplex>();
+  const ShapeSide moving{scene_.moving->surface(), moving_shape, transform, true};
   intersections_.clear();
-  flat_pieces_.clear();
-
-  const auto triangle_count = static_cast<std::int32_t>(moving.mesh.triangles.size());
-  for (std::int32_t t_moving = 0; t_moving < triangle_count; ++t_moving) {
-    const Triangle a = transform.triangle(moving.mesh.triangle(t_moving));
-    const Eigen::AlignedBox3d box = bounding_box(a);
-    for (std::size_t body = 0; body < grids_.size(); ++body) {
-      const Surface& fixed = scene_.fixed[body]->surface();
-      grids_[body].for_each_near(box, scene_.cutoff, [&](std::int32_t t_fixed) {
-        ++counters[Counter::LEAF_PAIRS];
-        ++counters[Counter::TRIANGLE_DISTANCES];
-        const TrianglePairDistance pair = triangle_distance(a, fixed.mesh.triangle(t_fixed));
-        if (!(pair.squared_distance <= squared_cutoff)) {
-          ++counters[Counter::REJECTED_CUTOFF];
-          return;
-        }
-        LocalMinimum minimum =
-            minimum_of_triangle_pair(moving, fixed, static_cast<std::int32_t>(body), t_moving, t_fixed, pair);
-        flat_pieces_.offer(transform, static_cast<std::int32_t>(body), t_moving, t_fixed);
-        ++counters[Counter::FIRST_ORDER_TESTS];
-        if (meets_first_order(moving, transform, fixed, minimum)) minima_.push_back(minimum);
-      });
-    }
+  lmds.clear();
+  for (std::size_t i = 0; i < scene_.fixed.size(); ++i) {
+    const auto body = static_cast<std::int32_t>(i);
+    const ShapeSide fixed{scene_.fixed[i]->surface(), scene_.fixed[i]->prepared<ShapeComplex>(), identity,
+                          false};
+    const ShapePair pair{moving, fixed,
+                         ContactTolerance::of(moving.surface, moving_shape, fixed.surface, fixed.shape,
+                                              transform, scene_.cutoff)};
+    contacts_.clear();
+    find_intersections(pair, body, grids_[i], counters);
+    decide_features(pair, grids_[i], counters);
+    counters[Counter::CONTACTS] += contacts_.contacts.size();
+    join_contacts(pair, body, contacts_, intersections_, lmds);
   }
-  flat_pieces_.append_parallel(minima_);
-  merge_plateaus(scene_, transform, minima_, intersections_, lmds);
+  append_contacts(scene_, intersections_, lmds);
+  std::sort(lmds.begin(), lmds.end(), lmd_less);
 }
 
 }  // namespace lmdbench

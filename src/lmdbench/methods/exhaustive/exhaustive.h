@@ -2,11 +2,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <lmdbench/lmd/flat_pieces.h>
+#include <lmdbench/lmd/contact.h>
+#include <lmdbench/lmd/decide.h>
+#include <lmdbench/lmd/intersections.h>
 #include <lmdbench/lmd/method.h>
-#include <lmdbench/lmd/plateau.h>
 #include <lmdbench/lmd/scene.h>
-#include <lmdbench/methods/exhaustive/triangle_grid.h>
+#include <lmdbench/methods/exhaustive/feature_grid.h>
 
 #include <cstdint>
 #include <vector>
@@ -15,14 +16,13 @@ namespace lmdbench {
 
 const MethodDescription& exhaustive_method();
 
-/// Ground truth (lmd/DEFINITION.md): every triangle pair within the cutoff, exact triangle distance, the
-/// first-order test, one entry per feature pair and per plateau. Slow and simple on purpose; it shares no
-/// search code with what it judges: no hierarchy and no cone, only a uniform grid that lists the fixed
-/// triangles near a box.
+/// Ground truth (lmd/DEFINITION.md): the definition is asked for every pair of features of the shapes whose boxes come
+/// within reach, every pair of triangles whose boxes overlap for a shared point. Slow and simple on purpose: no
+/// hierarchy, no cone and no filter, only a uniform grid that lists what is near a box.
 class Exhaustive : public Method {
  public:
   /// What it counts.
-  enum class Counter : std::uint8_t { LEAF_PAIRS, REJECTED_CUTOFF, TRIANGLE_DISTANCES, FIRST_ORDER_TESTS };
+  enum class Counter : std::uint8_t { FEATURE_PAIRS, CONTACTS, TRIANGLE_DISTANCES };
 
   explicit Exhaustive(Scene scene);
 
@@ -33,11 +33,17 @@ class Exhaustive : public Method {
   }
 
  private:
+  void decide_features(const ShapePair& pair, FeatureGrid& grid, WorkCounters& counters);
+  void find_intersections(const ShapePair& pair, std::int32_t body, FeatureGrid& grid,
+                          WorkCounters& counters);
+
   Scene scene_;
-  std::vector<TriangleGrid> grids_;  ///< One a fixed body.
-  std::vector<LocalMinimum> minima_;
+  std::vector<FeatureGrid> grids_;  ///< One a fixed body.
+  std::vector<std::uint64_t> asked_vertex_, asked_edge_,
+      asked_face_;  ///< Last feature that was asked with each.
+  std::uint64_t asking_ = 0;
+  ContactSet contacts_;
   std::vector<Intersection> intersections_;
-  FlatPieces flat_pieces_;
 };
 
 }  // namespace lmdbench

@@ -77,6 +77,23 @@ struct ClearEdge {
   }
 };
 
+/// All planes hold the edge's normal plane's directions only: the cone is an arc, its ends are square to the
+/// constraints.
+std::optional<PolarCap> cap_of_arc(const Vec3& along, Scratch& work) {
+  for (const Constraint& constraint : work.constraints)
+    work.extremes.slack = std::max(work.extremes.slack, 2.0 * constraint.slack);
+  for (std::size_t k = 0; k < work.constraints.size(); ++k) {
+    Vec3 end = along.cross(work.constraints[k].direction);
+    const double end_length = end.norm();
+    if (!(end_length > LEAST_END)) continue;
+    end /= end_length;
+    for (const Vec3& candidate : {end, Vec3(-end)})
+      if (satisfies(work.constraints, candidate, k, NONE, work.constraints[k].slack))
+        work.extremes.directions.push_back(candidate);
+  }
+  return cap_around(work.extremes);
+}
+
 }  // namespace
 
 std::optional<PolarCap> edge_cap(const Surface& surface, std::int32_t edge) {
@@ -113,20 +130,41 @@ std::optional<PolarCap> edge_cap(const Surface& surface, std::int32_t edge) {
     work.constraints.push_back({-surface.pseudo_normal({FeatureKind::EDGE, edge}), POLAR_SLACK});
   if (work.constraints.empty()) return PolarCap{};
 
-  // All planes contain the edge's normal plane's directions only: the cone is an arc, its ends are
-  // perpendicular to the constraints.
-  for (const Constraint& constraint : work.constraints)
-    work.extremes.slack = std::max(work.extremes.slack, 2.0 * constraint.slack);
-  for (std::size_t k = 0; k < work.constraints.size(); ++k) {
-    Vec3 end = along.cross(work.constraints[k].direction);
-    const double end_length = end.norm();
-    if (!(end_length > LEAST_END)) continue;
-    end /= end_length;
-    for (const Vec3& candidate : {end, Vec3(-end)})
-      if (satisfies(work.constraints, candidate, k, NONE, work.constraints[k].slack))
-        work.extremes.directions.push_back(candidate);
+  return cap_of_arc(along, work);
+}
+
+std::optional<PolarCap> chain_cap(const Surface& surface, const ShapeComplex& shape, std::int32_t chain) {
+  Scratch& work = scratch();
+  const auto& ends = shape.ends_of_chain(chain);
+  const Vec3 from_to = surface.mesh.vertices[static_cast<std::size_t>(ends[1])] -
+                       surface.mesh.vertices[static_cast<std::size_t>(ends[0])];
+  if (!(from_to.squaredNorm() > 0.0)) return std::nullopt;
+  shape.for_each_chain_wing(surface, chain, [&](const Vec3& wing) {
+    const double depth = wing.norm();
+    if (depth > 0.0) work.constraints.push_back({wing / depth, POLAR_SLACK});
+    return true;
+  });
+  const FeatureId lead{FeatureKind::EDGE, shape.lead_of_chain(chain)};
+  if (has_outer_side(surface, lead)) {
+    std::vector<std::int32_t> regions;
+    shape.append_carriers(surface, {FeatureKind::EDGE, chain}, regions);
+    if (regions.size() == 2 && regions[0] >= 0 && work.constraints.size() == 2) {
+      const auto normal = [&](std::size_t k) -> const Vec3& {
+        return shape.regions.planes[static_cast<std::size_t>(regions[k])].normal;
+      };
+      // Of either normal against the other region's wing, whichever that is: its own is square to it.
+      const double rise = normal(0).dot(work.constraints[0].direction + work.constraints[1].direction);
+      if (rise > CLEAR_BEND) return std::nullopt;
+      if (rise < -CLEAR_BEND) {
+        work.extremes.directions = {normal(0), normal(1)};
+        work.extremes.slack = 2.0 * POLAR_SLACK;
+        return cap_around(work.extremes);
+      }
+    }
+    work.constraints.push_back({-surface.pseudo_normal(lead), POLAR_SLACK});
   }
-  return cap_around(work.extremes);
+  if (work.constraints.empty()) return PolarCap{};
+  return cap_of_arc(from_to.normalized(), work);
 }
 
 }  // namespace lmdbench::polar

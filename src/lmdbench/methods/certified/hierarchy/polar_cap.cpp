@@ -109,16 +109,22 @@ bool find_crossings_of_many(Scratch& work) {
   }
 }
 
-std::optional<PolarCap> vertex_cap(const Surface& surface, std::int32_t vertex) {
+std::optional<PolarCap> vertex_cap(const Surface& surface, std::int32_t vertex, const ShapeComplex* shape) {
   if (surface.adjacency.vertex_triangles[vertex].empty()) return std::nullopt;
   Scratch& work = polar::scratch();
-  const Vec3& p = surface.mesh.vertices[static_cast<std::size_t>(vertex)];
-  for_each_neighbour(surface, vertex, [&](std::int32_t neighbour) {
-    const Vec3 direction = surface.mesh.vertices[static_cast<std::size_t>(neighbour)] - p;
-    const double length = direction.norm();
-    if (length > 0.0) work.constraints.push_back({direction / length, POLAR_SLACK});
+  const auto constrain = [&](const Vec3& wing) {
+    const double length = wing.norm();
+    if (length > 0.0) work.constraints.push_back({wing / length, POLAR_SLACK});
     return true;
-  });
+  };
+  if (shape != nullptr) {
+    shape->for_each_corner_wing(surface, vertex, constrain);
+  } else {
+    const Vec3& p = surface.mesh.vertices[static_cast<std::size_t>(vertex)];
+    for_each_neighbour(surface, vertex, [&](std::int32_t neighbour) {
+      return constrain(surface.mesh.vertices[static_cast<std::size_t>(neighbour)] - p);
+    });
+  }
   if (!find_crossings_of_many(work)) return PolarCap{};
   if (work.extremes.directions.empty()) return std::nullopt;
   // Saddles are done here, and so are peaks, all of whose directions are outer ones: whether a vertex has an
@@ -135,18 +141,25 @@ std::optional<PolarCap> vertex_cap(const Surface& surface, std::int32_t vertex) 
 
 }  // namespace
 
-std::optional<PolarCap> polar_cap(const Surface& surface, const FeatureId& feature) {
+std::optional<PolarCap> polar_cap(const Surface& surface, const FeatureId& feature,
+                                  const ShapeComplex* shape) {
+  const auto of_normal = [](const Vec3& normal) {
+    return PolarCap{normal, 1.0 - 0.5 * POLAR_SLACK * POLAR_SLACK, POLAR_SLACK};
+  };
   switch (feature.kind) {
     case FeatureKind::VERTEX:
-      return vertex_cap(surface, feature.index);
+      return vertex_cap(surface, feature.index, shape);
     case FeatureKind::EDGE:
+      if (shape != nullptr && !shape->is_plain_chain(surface, shape->chain_of(feature.index)))
+        return polar::chain_cap(surface, *shape, shape->chain_of(feature.index));
       return polar::edge_cap(surface, feature.index);
     case FeatureKind::FACE:
       break;
   }
   const Vec3& normal = surface.face_normals[static_cast<std::size_t>(feature.index)];
   if (normal.isZero(0.0)) return std::nullopt;
-  return PolarCap{normal, 1.0 - 0.5 * POLAR_SLACK * POLAR_SLACK, POLAR_SLACK};
+  if (shape == nullptr || shape->region_of(feature.index) < 0) return of_normal(normal);
+  return of_normal(shape->regions.planes[static_cast<std::size_t>(shape->region_of(feature.index))].normal);
 }
 
 }  // namespace lmdbench

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <lmdbench/mesh/shape_complex.h>
 #include <lmdbench/mesh/surface.h>
 
 #include <optional>
@@ -19,9 +20,9 @@ struct PolarCap {
   bool is_all_directions() const { return axis.isZero(0.0); }
 };
 
-/// Angle [rad] by which the caps are wider than the polar cones. It covers what the first-order test allows a
-/// direction to leave its cone by: the angle tolerance (1e-10) and the rounding of two points whose distance
-/// is at least 1e-9 of their coordinates (8 * 2.2e-16 / 1e-9 = 1.8e-6).
+/// Angle [rad] by which the caps are wider than the polar cones. It covers what the definition allows a direction to leave its
+/// cone by (lmd/decide.h): rounding over the distance, which is at least RELATIVE_TOUCH of the coordinates
+/// (128 * 2.2e-16 / 2e-8 = 1.5e-6), and rounding over the shortest wing.
 inline constexpr double POLAR_SLACK = 2e-6;
 
 /// Cap of a feature, or nothing when the polar cone is empty even with the slack: such a feature (a reflex
@@ -32,6 +33,8 @@ inline constexpr double POLAR_SLACK = 2e-6;
 /// planes cross; those crossings that satisfy the other constraints up to the slack, amplified by
 /// how obliquely the two planes cross, bound it. Boundary and non-manifold features have no outer
 /// side and usually get all directions.
-std::optional<PolarCap> polar_cap(const Surface& surface, const FeatureId& feature);
+/// @param shape  where given, the cap is that of the region, chain or corner that the feature is the lead of
+std::optional<PolarCap> polar_cap(const Surface& surface, const FeatureId& feature,
+                                  const ShapeComplex* shape = nullptr);
 
 }  // namespace lmdbench

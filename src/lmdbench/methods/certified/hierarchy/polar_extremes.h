@@ -46,4 +46,7 @@ std::optional<PolarCap> cap_around(const Extremes& extremes);
 /// Cap of an edge.
 std::optional<PolarCap> edge_cap(const Surface& surface, std::int32_t edge);
 
+/// Cap of a chain of a shape, from its wings and its regions' normals.
+std::optional<PolarCap> chain_cap(const Surface& surface, const ShapeComplex& shape, std::int32_t chain);
+
 }  // namespace lmdbench::polar

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/base/parallel.h>
 #include <lmdbench/mesh/feature_corners.h>
-#include <lmdbench/methods/certified/flat/flat_mesh.h>
+#include <lmdbench/mesh/shape_complex.h>
 #include <lmdbench/methods/certified/hierarchy/single_precision.h>
 #include <lmdbench/methods/certified/hierarchy/wide_bounds.h>
 #include <lmdbench/methods/certified/hierarchy/wide_hierarchy.h>
@@ -76,11 +76,11 @@ struct Lane {
 class Builder {
  public:
   Builder(const Surface& surface, const WideBuildOptions& options, const std::vector<WideItem>& items,
-          const FlatMesh* flat, WideHierarchy& result)
+          const ShapeComplex* shape, WideHierarchy& result)
       : surface_(surface),
         options_(options),
         items_(items),
-        flat_(flat),
+        shape_(shape),
         result_(result),
         scratch_([&surface] { return BuildScratch(surface.mesh.vertices.size()); }) {}
 
@@ -145,8 +145,8 @@ class Builder {
                    BuildScratch& scratch) {
     if (range.size() > 1) return build_node(node_index, range, vertices, scratch);
     const FeatureId feature = items_[range.begin].ref.feature_id();
-    if (flat_ != nullptr && flat_->is_joined(feature)) {
-      flat_->append_corners(surface_, feature, vertices);
+    if (shape_ != nullptr && shape_->is_lead_of_several(feature)) {
+      shape_->append_corners(surface_, feature, vertices);
       return true;
     }
     const FeatureCorners corners(surface_, feature);
@@ -303,7 +303,7 @@ class Builder {
   const Surface& surface_;
   const WideBuildOptions& options_;
   const std::vector<WideItem>& items_;
-  const FlatMesh* flat_;
+  const ShapeComplex* shape_;
   WideHierarchy& result_;
   PerThread<BuildScratch> scratch_;
 };
@@ -311,7 +311,7 @@ class Builder {
 }  // namespace
 
 WideHierarchy build_wide_hierarchy(const Surface& surface, const WideBuildOptions& options,
-                                   const FlatMesh* flat) {
+                                   const ShapeComplex* shape) {
   WideHierarchy result;
   if (surface.mesh.triangles.empty()) return result;
   result.origin = bounding_box_centre(surface.mesh);
@@ -320,8 +320,8 @@ WideHierarchy build_wide_hierarchy(const Surface& surface, const WideBuildOption
     squared_radius = std::max(squared_radius, (p - result.origin).squaredNorm());
   result.radius = std::sqrt(squared_radius) * (1.0 + 1e-15);
 
-  std::vector<WideItem> items = collect_wide_items(surface, options, flat);
-  partition_wide_items(surface, options, flat, result.origin, result.radius, items);
+  std::vector<WideItem> items = collect_wide_items(surface, options, shape);
+  partition_wide_items(surface, options, shape, result.origin, result.radius, items);
   result.feature_count = items.size();
   double squared_least = std::numeric_limits<double>::infinity();
   for (const auto& ends : surface.adjacency.edges)
@@ -329,16 +329,12 @@ WideHierarchy build_wide_hierarchy(const Surface& surface, const WideBuildOption
                                              surface.mesh.vertices[static_cast<std::size_t>(ends[1])])
                                                 .squaredNorm());
   result.least_edge = std::sqrt(squared_least);
-  Builder(surface, options, items, flat, result).build();
+  Builder(surface, options, items, shape, result).build();
   return result;
 }
 
 WideHierarchy WideHierarchy::of(const Body& body) {
-  return build_wide_hierarchy(body.surface(), {}, &body.prepared<FlatMesh>());
-}
-
-SingleFeatureHierarchy SingleFeatureHierarchy::of(const Body& body) {
-  return {build_wide_hierarchy(body.surface())};
+  return build_wide_hierarchy(body.surface(), {}, &body.prepared<ShapeComplex>());
 }
 
 }  // namespace lmdbench

@@ -12,7 +12,7 @@
 
 namespace lmdbench {
 
-struct FlatMesh;
+class ShapeComplex;
 
 /// Children of a wide node.
 inline constexpr int WIDE_WIDTH = 8;
@@ -124,19 +124,13 @@ struct WideHierarchy {
 
   std::size_t bytes() const { return nodes.size() * sizeof(WideNode); }
 
-  /// Built with the default options over the mesh's flat features: what `certified` prepares for a mesh.
+  /// Built with the default options over the features of the mesh's shape: what `certified` prepares for a mesh.
   static WideHierarchy of(const Body& body);
 };
 
-/// The same over single faces and edges: for frames in which rounding decides about flat features.
-struct SingleFeatureHierarchy {
-  WideHierarchy hierarchy;
-  static SingleFeatureHierarchy of(const Body& body);
-};
-
 /// Deterministic, whatever the number of threads.
-/// @param flat where given, regions and straight edges are features in place of their faces and edges
+/// @param shape where given, its regions and chains are features in place of faces and edges
 WideHierarchy build_wide_hierarchy(const Surface& surface, const WideBuildOptions& options = {},
-                                   const FlatMesh* flat = nullptr);
+                                   const ShapeComplex* shape = nullptr);
 
 }  // namespace lmdbench

@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/base/parallel.h>
 #include <lmdbench/geometry/cone.h>
-#include <lmdbench/lmd/flat_pieces.h>
+#include <lmdbench/lmd/contact_tolerance.h>
 #include <lmdbench/mesh/feature_corners.h>
-#include <lmdbench/methods/certified/flat/flat_mesh.h>
+#include <lmdbench/mesh/shape_complex.h>
 #include <lmdbench/methods/certified/hierarchy/wide_items.h>
 
 #include <algorithm>
@@ -42,24 +42,23 @@ PolarCap widened(const PolarCap& cap, double angle) {
   return result;
 }
 
-void append_item(const Surface& surface, const WideBuildOptions& options, const FeatureId& feature,
-                 std::vector<WideItem>& items) {
-  const std::optional<PolarCap> cap = polar_cap(surface, feature);
+void append_item(const Surface& surface, const WideBuildOptions& options, const ShapeComplex* shape,
+                 const FeatureId& feature, std::vector<WideItem>& items) {
+  const std::optional<PolarCap> cap = polar_cap(surface, feature, shape);
   if (!cap && feature.kind != FeatureKind::FACE) return;
   WideItem& item = items.emplace_back();
   item.ref = WideRef::feature(feature);
   item.carries_lmd = cap.has_value();
   if (!cap) return;
   item.cap = options.tight_caps ? *cap : one_ring_cap(surface, feature);
-  // Flat features of a rounded mesh count as parallel to others at a small tilt.
-  if (surface.mesh.planar_tolerance > 0.0 && feature.kind != FeatureKind::VERTEX)
-    item.cap = widened(item.cap, LARGEST_PARALLEL_TILT);
+  // Regions and chains count as parallel to others at a small tilt (lmd/contact_tolerance.h); the other mesh decides how small.
+  if (feature.kind != FeatureKind::VERTEX) item.cap = widened(item.cap, LARGEST_PARALLEL_TILT);
 }
 
 }  // namespace
 
 std::vector<WideItem> collect_wide_items(const Surface& surface, const WideBuildOptions& options,
-                                         const FlatMesh* flat) {
+                                         const ShapeComplex* shape) {
   const std::size_t vertices = surface.mesh.vertices.size();
   const std::size_t before_faces = vertices + surface.adjacency.edges.size();
   const std::size_t features = before_faces + surface.mesh.triangles.size();
@@ -73,8 +72,8 @@ std::vector<WideItem> collect_wide_items(const Surface& surface, const WideBuild
     blocks[block].reserve(BLOCK);
     const std::size_t end = std::min(features, (block + 1) * BLOCK);
     for (std::size_t i = block * BLOCK; i < end; ++i)
-      if (flat == nullptr || flat->is_feature(feature_at(i)))
-        append_item(surface, options, feature_at(i), blocks[block]);
+      if (shape == nullptr || shape->is_lead(feature_at(i)))
+        append_item(surface, options, shape, feature_at(i), blocks[block]);
   });
 
   std::vector<std::size_t> starts{0};

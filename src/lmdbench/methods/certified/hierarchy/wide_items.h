@@ -19,6 +19,6 @@ struct WideItem {
 
 /// The features that a hierarchy owns: vertices, edges and faces, each by index; flat ones by their leads.
 std::vector<WideItem> collect_wide_items(const Surface& surface, const WideBuildOptions& options,
-                                         const FlatMesh* flat);
+                                         const ShapeComplex* shape);
 
 }  // namespace lmdbench

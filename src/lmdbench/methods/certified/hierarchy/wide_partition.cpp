@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/base/parallel.h>
 #include <lmdbench/mesh/feature_corners.h>
-#include <lmdbench/methods/certified/flat/flat_mesh.h>
+#include <lmdbench/mesh/shape_complex.h>
 #include <lmdbench/methods/certified/hierarchy/wide_partition.h>
 
 #include <Eigen/Core>
@@ -27,14 +27,14 @@ struct Place {
   std::uint32_t item;      ///< index, in the order of features
 };
 
-Place make_place(const Surface& surface, const FlatMesh* flat, const Vec3& origin, const WideItem& item,
+Place make_place(const Surface& surface, const ShapeComplex* shape, const Vec3& origin, const WideItem& item,
                  std::size_t index) {
   constexpr double INFINITE = std::numeric_limits<double>::infinity();
   const FeatureCorners corners(surface, item.ref.feature_id());
   std::span<const std::int32_t> vertices = corners.view();
   std::vector<std::int32_t> of_joined;
-  if (flat != nullptr && flat->is_joined(item.ref.feature_id())) {
-    flat->append_corners(surface, item.ref.feature_id(), of_joined);
+  if (shape != nullptr && shape->is_lead_of_several(item.ref.feature_id())) {
+    shape->append_corners(surface, item.ref.feature_id(), of_joined);
     vertices = of_joined;
   }
   Vec3 low = Vec3::Constant(INFINITE), high = -low;
@@ -206,11 +206,11 @@ std::size_t count_wide_nodes(std::size_t size, const WideBuildOptions& options) 
   return count;
 }
 
-void partition_wide_items(const Surface& surface, const WideBuildOptions& options, const FlatMesh* flat,
+void partition_wide_items(const Surface& surface, const WideBuildOptions& options, const ShapeComplex* shape,
                           const Vec3& origin, double radius, std::vector<WideItem>& items) {
   std::vector<Place> places(items.size());
   parallel_ranges(items.size(), SMALLEST_PARALLEL_SET, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) places[i] = make_place(surface, flat, origin, items[i], i);
+    for (std::size_t i = begin; i < end; ++i) places[i] = make_place(surface, shape, origin, items[i], i);
   });
   Partition(options, items, radius, places).run();
   std::vector<WideItem> ordered(items.size());

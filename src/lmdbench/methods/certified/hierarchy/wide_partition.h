@@ -28,7 +28,7 @@ std::size_t count_wide_nodes(std::size_t size, const WideBuildOptions& options);
 /// Puts the items into the order of the tree: every node's children are consecutive parts of its own range,
 /// as WideDivision has it. Ties are broken by the feature, so that the result depends on the mesh alone.
 /// @param origin, radius of the hierarchy
-void partition_wide_items(const Surface& surface, const WideBuildOptions& options, const FlatMesh* flat,
+void partition_wide_items(const Surface& surface, const WideBuildOptions& options, const ShapeComplex* shape,
                           const Vec3& origin, double radius, std::vector<WideItem>& items);
 
 }  // namespace lmdbench

@@ -4,26 +4,27 @@
 
 #include <lmdbench/geometry/types.h>
 #include <lmdbench/mesh/csr_rows.h>
-#include <lmdbench/mesh/triangle_mesh.h>
+#include <lmdbench/mesh/feature.h>
+#include <lmdbench/mesh/surface.h>
 
 #include <Eigen/Geometry>
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace lmdbench {
 
-/// Axis-aligned bounding box of a triangle.
-Eigen::AlignedBox3d bounding_box(const Triangle& triangle);
+/// Axis-aligned bounding box of some vertices.
+Eigen::AlignedBox3d box_of_vertices(const Surface& surface, std::span<const std::int32_t> vertices);
 
-/// Uniform grid over a mesh's triangles: lists all triangles whose boxes lie within a distance of a query
+/// Uniform grid over the vertices, edges and faces of a mesh: lists those whose boxes lie within a distance of a query
 /// box. Used by one thread at a time.
-class TriangleGrid {
+class FeatureGrid {
  public:
-  explicit TriangleGrid(const TriangleMesh& mesh);
+  explicit FeatureGrid(const Surface& surface);
 
-  /// Calls `visit(triangle)` once for each triangle whose box is within `distance` [m]
-  /// of `box`; order: cell by cell.
+  /// Calls `visit(feature)` once for each feature whose box is within `distance` [m] of `box`; order: cell by cell.
   template <class Visitor>
   void for_each_near(const Eigen::AlignedBox3d& box, double distance, Visitor&& visit) {
     if (boxes_.empty() || bounds_.squaredExteriorDistance(box) > distance * distance) return;
@@ -33,11 +34,11 @@ class TriangleGrid {
     for (int z = first.z(); z <= last.z(); ++z)
       for (int y = first.y(); y <= last.y(); ++y)
         for (int x = first.x(); x <= last.x(); ++x)
-          for (const std::int32_t triangle : cells_[(z * size_.y() + y) * size_.x() + x]) {
-            const auto t = static_cast<std::size_t>(triangle);
-            if (last_query_[t] == query_) continue;
-            last_query_[t] = query_;
-            if (boxes_[t].squaredExteriorDistance(box) <= distance * distance) visit(triangle);
+          for (const std::int32_t entry : cells_[(z * size_.y() + y) * size_.x() + x]) {
+            const auto i = static_cast<std::size_t>(entry);
+            if (last_query_[i] == query_) continue;
+            last_query_[i] = query_;
+            if (boxes_[i].squaredExteriorDistance(box) <= distance * distance) visit(features_[i]);
           }
   }
 
@@ -48,9 +49,10 @@ class TriangleGrid {
   Eigen::AlignedBox3d bounds_;
   Eigen::Array3i size_ = Eigen::Array3i::Ones();
   Vec3 cells_per_metre_ = Vec3::Zero();
+  std::vector<FeatureId> features_;
   std::vector<Eigen::AlignedBox3d> boxes_;
   CsrRows cells_;
-  std::vector<std::uint64_t> last_query_;  ///< Stamp of the query that visited the triangle last.
+  std::vector<std::uint64_t> last_query_;  ///< Stamp of the query that visited the feature last.
   std::uint64_t query_ = 0;
 };
 

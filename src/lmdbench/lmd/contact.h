@@ -1,0 +1,71 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <lmdbench/geometry/convex_polygon.h>
+#include <lmdbench/geometry/pose.h>
+#include <lmdbench/mesh/shape_complex.h>
+#include <lmdbench/mesh/surface.h>
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace lmdbench {
+
+/// One of the two meshes at a pose.
+struct ShapeSide {
+  const Surface& surface;
+  const ShapeComplex& shape;
+  const RigidTransform& X_WS;
+  bool is_moving;  ///< X_WS of the fixed mesh is the identity and is not applied.
+
+  const Vec3& vertex_S(std::int32_t v) const { return surface.mesh.vertices[static_cast<std::size_t>(v)]; }
+  Vec3 vertex(std::int32_t v) const { return is_moving ? X_WS.point(vertex_S(v)) : vertex_S(v); }
+  Vec3 direction(const Vec3& d_S) const { return is_moving ? X_WS.direction(d_S) : d_S; }
+  Vec3 direction_to_surface(const Vec3& d_W) const {
+    return is_moving ? Vec3(X_WS.rotation.transpose() * d_W) : d_W;
+  }
+  Vec3 point_to_surface(const Vec3& p_W) const {
+    return is_moving ? Vec3(X_WS.rotation.transpose() * (p_W - X_WS.translation)) : p_W;
+  }
+  /// Plane of a region in the world.
+  Plane plane(std::int32_t region) const {
+    const Plane& own = shape.regions.planes[static_cast<std::size_t>(region)];
+    return is_moving ? Plane{X_WS.point(own.point), X_WS.direction(own.normal)} : own;
+  }
+};
+
+/// What two features of the shapes share: a point of each, or where they are parallel a segment or polygon of
+/// minimisers of the distance. World coordinates.
+struct Contact {
+  FeatureId moving, fixed;  ///< `index` counts regions, chains or vertices.
+  int dimension = 0;        ///< 0: a pair of points, 1: of segments, 2: of polygons.
+  double distance = 0.0;    ///< Of the points [m].
+  Vec3 point_moving, point_fixed;
+  Vec3 direction;          ///< Unit vector, from the moving mesh to the fixed one.
+  double least_gap = 0.0;  ///< Least distance over the contact, negative where it crosses [m].
+  double measure = 0.0;    ///< Length [m] or area [m^2].
+  std::array<Vec3, 2> ends_moving, ends_fixed;     ///< Of segments.
+  std::uint32_t first_piece = 0, piece_count = 0;  ///< Of polygons: in ContactSet::pieces.
+  std::uint32_t frame = 0;                         ///< Of polygons: in ContactSet::frames.
+};
+
+/// The contacts of two meshes at a pose.
+struct ContactSet {
+  std::vector<Contact> contacts;
+  std::vector<ConvexPolygon> pieces;
+  std::vector<PlanarFrame> frames;
+
+  void clear() {
+    contacts.clear();
+    pieces.clear();
+    frames.clear();
+  }
+  std::span<const ConvexPolygon> pieces_of(const Contact& contact) const {
+    return std::span(pieces).subspan(contact.first_piece, contact.piece_count);
+  }
+};
+
+}  // namespace lmdbench

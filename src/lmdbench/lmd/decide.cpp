@@ -1,0 +1,338 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/geometry/extent.h>
+#include <lmdbench/lmd/decide.h>
+#include <lmdbench/lmd/overlap.h>
+#include <lmdbench/lmd/polar_condition.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace lmdbench {
+
+namespace {
+
+/// A height over a plane, seen along a unit direction, is this many roundings accurate: plane and point are each to one.
+constexpr double HEIGHT_ROUNDINGS = 2.0;
+/// Sideways part of the vector between two crossing chains that the clamping of their feet leaves, in roundings.
+constexpr double SIDEWAYS_ROUNDINGS = 4.0;
+/// The direction square to two chains that cross at a small angle is off by this part of rounding / (sine * length).
+constexpr double CROSSING_ROUNDING = 1.0 / 16.0;
+/// Larger errors of that direction are not granted: hierarchies bound directions to 2e-6 (POLAR_SLACK). Chains for which it is
+/// more are extended contacts where they face each other at all.
+constexpr double LARGEST_CROSSING_SLACK = 1e-6;
+
+struct Line {
+  Vec3 begin, along;  ///< From end to end.
+  double length;
+
+  Line(const ShapeSide& side, std::int32_t chain) {
+    const auto& ends = side.shape.ends_of_chain(chain);
+    begin = side.vertex(ends[0]);
+    along = side.vertex(ends[1]) - begin;
+    length = along.norm();
+  }
+  Vec3 at(double parameter) const { return begin + parameter * along; }
+};
+
+/// Place of a plane along the direction n over the point x.
+double height_to(const Plane& plane, const Vec3& n, const Vec3& x) {
+  return plane.normal.dot(plane.point - x) / plane.normal.dot(n);
+}
+
+class Decision {
+ public:
+  Decision(const ShapePair& pair, ContactSet& found)
+      : moving_(pair.moving), fixed_(pair.fixed), tolerance_(pair.tolerance), found_(found) {}
+
+  void corner_corner(std::int32_t v_moving, std::int32_t v_fixed) {
+    const Vec3 p = moving_.vertex(v_moving), q = fixed_.vertex(v_fixed), d = q - p;
+    const double distance = d.norm();
+    if (!(distance <= tolerance_.reach) || !(distance > 0.0)) return;
+    const Vec3 u = d / distance;
+    if (!corner_admits(moving_, v_moving, u, between_points(distance)) ||
+        !corner_admits(fixed_, v_fixed, -u, between_points(distance)))
+      return;
+    add_points({FeatureKind::VERTEX, v_moving}, {FeatureKind::VERTEX, v_fixed}, p, q, u, distance);
+  }
+
+  void corner_chain(const ShapeSide& of_corner, std::int32_t vertex, const ShapeSide& of_chain,
+                    std::int32_t chain) {
+    const Line line(of_chain, chain);
+    if (!(line.length > 0.0)) return;
+    const Vec3 p = of_corner.vertex(vertex);
+    const double parameter = (p - line.begin).dot(line.along) / (line.length * line.length);
+    if (std::max(-parameter, parameter - 1.0) * line.length > tolerance_.rounding) return;
+    const Vec3 q = line.at(std::clamp(parameter, 0.0, 1.0)), d = q - p;
+    const double distance = d.norm();
+    if (!(distance <= tolerance_.reach) || !(distance > 0.0)) return;
+    const Vec3 u = d / distance;
+    if (!corner_admits(of_corner, vertex, u, between_points(distance)) ||
+        !chain_admits(of_chain, chain, -u, between_points(distance)))
+      return;
+    add_from(of_corner, {FeatureKind::VERTEX, vertex}, {FeatureKind::EDGE, chain}, p, q, u, distance);
+  }
+
+  void corner_region(const ShapeSide& of_corner, std::int32_t vertex, const ShapeSide& of_region,
+                     std::int32_t region) {
+    const Plane plane = of_region.plane(region);
+    const Vec3 p = of_corner.vertex(vertex);
+    const double height = plane.height(p);
+    if (!(height > -tolerance_.rounding) || height > tolerance_.reach) return;
+    if (!corner_admits(of_corner, vertex, -plane.normal, along_normal())) return;
+    const Vec3 q = p - height * plane.normal;
+    if (!region_holds(of_region, region, of_region.point_to_surface(q), tolerance_.rounding)) return;
+    add_from(of_corner, {FeatureKind::VERTEX, vertex}, {FeatureKind::FACE, region}, p, q, -plane.normal,
+             height);
+  }
+
+  void chain_chain(std::int32_t c_moving, std::int32_t c_fixed) {
+    const Line a(moving_, c_moving), b(fixed_, c_fixed);
+    if (!(a.length > 0.0 && b.length > 0.0)) return;
+    const Vec3 product = a.along.cross(b.along);
+    const double sine = product.norm() / (a.length * b.length);
+    if (sine <= tolerance_.largest_tilt) parallel_chains(c_moving, a, c_fixed, b);
+    crossing_chains(c_moving, a, c_fixed, b, product, sine);
+  }
+
+  void chain_region(const ShapeSide& of_chain, std::int32_t chain, const ShapeSide& of_region,
+                    std::int32_t region) {
+    const Line line(of_chain, chain);
+    if (!(line.length > 0.0)) return;
+    const Plane plane = of_region.plane(region);
+    const double slope = line.along.dot(plane.normal) / line.length;
+    if (!(std::abs(slope) <= tolerance_.largest_tilt)) return;
+    // From the chain to the region, square to the chain.
+    const Vec3 n = -(plane.normal - slope / line.length * line.along).normalized();
+    const double h0 = height_to(plane, n, line.begin), h1 = height_to(plane, n, line.at(1.0));
+    if (std::max(h0, h1) < -tolerance_.rounding || std::min(h0, h1) > tolerance_.reach) return;
+    if (!chain_admits(of_chain, chain, n, along_normal())) return;
+    const PlanarFrame frame(plane.point, n);
+    for (const SegmentPart& part :
+         parts_over_region(line.begin, line.at(1.0), of_region, region, frame, tolerance_.rounding)) {
+      const double begin = h0 + part.begin * (h1 - h0), end = h0 + part.end * (h1 - h0);
+      if (std::abs(end - begin) > tolerance_.known || std::max(begin, end) < -tolerance_.rounding ||
+          std::min(begin, end) > tolerance_.reach)
+        continue;
+      Contact& contact = found_.contacts.emplace_back();
+      contact.dimension = 1;
+      contact.least_gap = std::min(begin, end);
+      contact.measure = (part.end - part.begin) * line.length;
+      const std::array<Vec3, 2> on_chain{line.at(part.begin), line.at(part.end)};
+      const std::array<Vec3, 2> on_region{on_chain[0] + begin * n, on_chain[1] + end * n};
+      const bool forward = of_chain.is_moving;
+      contact.moving = forward ? FeatureId{FeatureKind::EDGE, chain} : FeatureId{FeatureKind::FACE, region};
+      contact.fixed = forward ? FeatureId{FeatureKind::FACE, region} : FeatureId{FeatureKind::EDGE, chain};
+      contact.ends_moving = forward ? on_chain : on_region;
+      contact.ends_fixed = forward ? on_region : on_chain;
+      set_middle(contact, forward ? n : Vec3(-n));
+    }
+  }
+
+  void region_region(std::int32_t r_moving, std::int32_t r_fixed) {
+    const Plane plane_m = moving_.plane(r_moving), plane_f = fixed_.plane(r_fixed);
+    if ((plane_m.normal + plane_f.normal).norm() > tolerance_.largest_tilt) return;
+    const Vec3 n = direction_of(plane_m.normal, plane_f.normal);
+    const PlanarFrame frame(plane_f.point, n);
+    const auto gap_at = [&](const Vec3& x) { return height_to(plane_f, n, x) - height_to(plane_m, n, x); };
+    // Nearly parallel planes: their distance somewhere near bounds it all over.
+    const double spread = tolerance_.largest_tilt * 4.0 * tolerance_.coordinates;
+    const double somewhere = gap_at(plane_f.point);
+    if (somewhere < -tolerance_.rounding - spread || somewhere > tolerance_.reach + spread) return;
+    std::vector<Vec2> corners;
+    for (OverlapPart& part :
+         overlap_of_regions(moving_, r_moving, fixed_, r_fixed, frame, SLIVER * tolerance_.rounding)) {
+      Extent gaps;
+      for (const ConvexPolygon& piece : part.pieces)
+        for (const Vec2& corner : piece.corners) gaps.add(gap_at(frame.lifted(corner)));
+      if (gaps.greatest - gaps.least > tolerance_.known || gaps.greatest < -tolerance_.rounding ||
+          gaps.least > tolerance_.reach || is_thin(part))
+        continue;
+      Contact& contact = found_.contacts.emplace_back();
+      contact.moving = {FeatureKind::FACE, r_moving};
+      contact.fixed = {FeatureKind::FACE, r_fixed};
+      contact.dimension = 2;
+      contact.least_gap = gaps.least;
+      contact.measure = part.area;
+      contact.direction = n;
+      const Vec3 x = frame.lifted(part.centroid);
+      const double on_moving = height_to(plane_m, n, x), on_fixed = height_to(plane_f, n, x);
+      contact.point_moving = x + on_moving * n;
+      contact.point_fixed = x + on_fixed * n;
+      contact.distance = std::abs(on_fixed - on_moving);
+      contact.first_piece = static_cast<std::uint32_t>(found_.pieces.size());
+      contact.piece_count = static_cast<std::uint32_t>(part.pieces.size());
+      contact.frame = static_cast<std::uint32_t>(found_.frames.size());
+      found_.frames.push_back(frame);
+      std::ranges::move(part.pieces, std::back_inserter(found_.pieces));
+    }
+  }
+
+ private:
+  /// Cuts of two polygons that are narrower than this part of a rounding are none.
+  static constexpr double SLIVER = 0.125;
+
+  PolarSlack between_points(double distance) const {
+    return {tolerance_.rounding, tolerance_.rounding / distance};
+  }
+  PolarSlack along_normal() const { return {HEIGHT_ROUNDINGS * tolerance_.rounding, 0.0}; }
+
+  /// Direction of contact of two regions: the middle of their normals where both meshes were rounded or neither was,
+  /// else the normal of the one that was not.
+  Vec3 direction_of(const Vec3& normal_moving, const Vec3& normal_fixed) const {
+    const bool moving_is_rounded = moving_.surface.mesh.planar_tolerance > 0.0;
+    if (moving_is_rounded == (fixed_.surface.mesh.planar_tolerance > 0.0))
+      return (normal_moving - normal_fixed).normalized();
+    return moving_is_rounded ? Vec3(-normal_fixed) : normal_moving;
+  }
+
+  /// Whether no place of an overlap is wider than what the meshes are known to: then its borders answer.
+  bool is_thin(const OverlapPart& part) const {
+    const double width = 0.5 * tolerance_.known;
+    std::vector<Vec2> corners;
+    for (const ConvexPolygon& piece : part.pieces) {
+      const Box2 box = piece.box();
+      // A convex polygon is wider than its area over its diameter.
+      if (piece.measure().area > width * (box.high - box.low).norm()) return false;
+      corners.insert(corners.end(), piece.corners.begin(), piece.corners.end());
+    }
+    return width_of(convex_hull(std::move(corners))) <= width;
+  }
+
+  void parallel_chains(std::int32_t c_moving, const Line& a, std::int32_t c_fixed, const Line& b) {
+    const double sense = a.along.dot(b.along) > 0.0 ? 1.0 : -1.0;
+    const Vec3 w = (a.along / a.length + sense / b.length * b.along).normalized();
+    // Places along w, from the moving chain's first end.
+    const double end_a = a.along.dot(w), begin_b = (b.begin - a.begin).dot(w),
+                 end_b = begin_b + b.along.dot(w);
+    const double begin = std::max(0.0, std::min(begin_b, end_b)),
+                 end = std::min(end_a, std::max(begin_b, end_b));
+    if (!(end - begin > tolerance_.rounding)) return;
+    Contact contact;
+    contact.dimension = 1;
+    contact.moving = {FeatureKind::EDGE, c_moving};
+    contact.fixed = {FeatureKind::EDGE, c_fixed};
+    const auto on_moving = [&](double s) { return a.at(s / end_a); };
+    const auto on_fixed = [&](double s) { return b.at((s - begin_b) / (end_b - begin_b)); };
+    contact.ends_moving = {on_moving(begin), on_moving(end)};
+    contact.ends_fixed = {on_fixed(begin), on_fixed(end)};
+    const Vec3 d0 = contact.ends_fixed[0] - contact.ends_moving[0],
+               d1 = contact.ends_fixed[1] - contact.ends_moving[1];
+    if ((d1 - d0).norm() > tolerance_.known) return;
+    const Vec3 between = 0.5 * (d0 + d1), d = between - between.dot(w) * w;
+    const double distance = d.norm();
+    if (!(distance > 0.0) || distance > tolerance_.reach) return;
+    const Vec3 u = d / distance;
+    const PolarSlack slack{tolerance_.rounding, tolerance_.largest_tilt + tolerance_.rounding / distance};
+    if (!chain_admits(moving_, c_moving, u, slack) || !chain_admits(fixed_, c_fixed, -u, slack)) return;
+    contact.least_gap = std::min({d0.norm(), d1.norm(), distance});
+    contact.measure = end - begin;
+    set_middle(contact, u);
+    found_.contacts.push_back(contact);
+  }
+
+  void crossing_chains(std::int32_t c_moving, const Line& a, std::int32_t c_fixed, const Line& b,
+                       const Vec3& product, double sine) {
+    const double shortest = std::min(a.length, b.length);
+    // Nearer to parallel than their directions are known.
+    if (!(sine * shortest > tolerance_.rounding)) return;
+    const double squared = product.squaredNorm();
+    const Vec3 r = b.begin - a.begin;
+    const double s = r.cross(b.along).dot(product) / squared, t = r.cross(a.along).dot(product) / squared;
+    const double spare = tolerance_.rounding / sine;
+    if (std::max(-s, s - 1.0) * a.length > spare || std::max(-t, t - 1.0) * b.length > spare) return;
+    const Vec3 p = a.at(std::clamp(s, 0.0, 1.0)), q = b.at(std::clamp(t, 0.0, 1.0)), d = q - p;
+    // Square to both, also where they all but touch.
+    Vec3 u = product / std::sqrt(squared);
+    double distance = d.dot(u);
+    if (std::abs(distance) <= tolerance_.rounding) {
+      const Vec3 outwards = moving_.direction(
+          moving_.surface.pseudo_normal({FeatureKind::EDGE, moving_.shape.lead_of_chain(c_moving)}));
+      if (u.dot(outwards) < 0.0) u = -u;
+    } else if (distance < 0.0) {
+      u = -u;
+    }
+    distance = d.dot(u);
+    if (distance > tolerance_.reach || (d - distance * u).norm() > SIDEWAYS_ROUNDINGS * tolerance_.rounding)
+      return;
+    const PolarSlack slack{
+        HEIGHT_ROUNDINGS * tolerance_.rounding,
+        std::min(LARGEST_CROSSING_SLACK, CROSSING_ROUNDING * tolerance_.rounding / (sine * shortest))};
+    if (!chain_admits(moving_, c_moving, u, slack) || !chain_admits(fixed_, c_fixed, -u, slack)) return;
+    add_points({FeatureKind::EDGE, c_moving}, {FeatureKind::EDGE, c_fixed}, p, q, u, distance);
+  }
+
+  void set_middle(Contact& contact, const Vec3& u) {
+    contact.point_moving = 0.5 * (contact.ends_moving[0] + contact.ends_moving[1]);
+    contact.point_fixed = 0.5 * (contact.ends_fixed[0] + contact.ends_fixed[1]);
+    contact.distance = (contact.point_fixed - contact.point_moving).norm();
+    contact.direction = u;
+  }
+
+  void add_points(const FeatureId& moving, const FeatureId& fixed, const Vec3& p, const Vec3& q,
+                  const Vec3& u, double gap) {
+    Contact& contact = found_.contacts.emplace_back();
+    contact.moving = moving;
+    contact.fixed = fixed;
+    contact.point_moving = p;
+    contact.point_fixed = q;
+    contact.direction = u;
+    contact.distance = (q - p).norm();
+    contact.least_gap = gap;
+  }
+
+  void add_from(const ShapeSide& of_first, const FeatureId& first, const FeatureId& second, const Vec3& p,
+                const Vec3& q, const Vec3& u, double gap) {
+    if (of_first.is_moving)
+      add_points(first, second, p, q, u, gap);
+    else
+      add_points(second, first, q, p, -u, gap);
+  }
+
+  const ShapeSide& moving_;
+  const ShapeSide& fixed_;
+  const ContactTolerance& tolerance_;
+  ContactSet& found_;
+};
+
+/// The feature of the shape that a mesh feature is the lead of; index -1 where it is part of none.
+FeatureId shape_feature(const ShapeSide& side, const FeatureId& lead) {
+  switch (lead.kind) {
+    case FeatureKind::VERTEX:
+      // A vertex without triangles is no corner either.
+      return side.shape.is_corner(lead.index) && !side.surface.incident_triangles(lead).empty()
+                 ? lead
+                 : FeatureId{FeatureKind::VERTEX, -1};
+    case FeatureKind::EDGE:
+      return {FeatureKind::EDGE, side.shape.chain_of(lead.index)};
+    case FeatureKind::FACE:
+      break;
+  }
+  return {FeatureKind::FACE, side.shape.region_of(lead.index)};
+}
+
+}  // namespace
+
+void decide(const ShapePair& pair, const FeatureId& on_moving, const FeatureId& on_fixed, ContactSet& found) {
+  const FeatureId f = shape_feature(pair.moving, on_moving), g = shape_feature(pair.fixed, on_fixed);
+  if (f.index < 0 || g.index < 0) return;
+  Decision decision(pair, found);
+  using enum FeatureKind;
+  switch (f.kind) {
+    case VERTEX:
+      if (g.kind == VERTEX) return decision.corner_corner(f.index, g.index);
+      if (g.kind == EDGE) return decision.corner_chain(pair.moving, f.index, pair.fixed, g.index);
+      return decision.corner_region(pair.moving, f.index, pair.fixed, g.index);
+    case EDGE:
+      if (g.kind == VERTEX) return decision.corner_chain(pair.fixed, g.index, pair.moving, f.index);
+      if (g.kind == EDGE) return decision.chain_chain(f.index, g.index);
+      return decision.chain_region(pair.moving, f.index, pair.fixed, g.index);
+    case FACE:
+      if (g.kind == VERTEX) return decision.corner_region(pair.fixed, g.index, pair.moving, f.index);
+      if (g.kind == EDGE) return decision.chain_region(pair.fixed, g.index, pair.moving, f.index);
+      return decision.region_region(f.index, g.index);
+  }
+}
+
+}  // namespace lmdbench

@@ -1,0 +1,32 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <lmdbench/lmd/contact.h>
+#include <lmdbench/lmd/decide.h>
+#include <lmdbench/lmd/intersections.h>
+#include <lmdbench/lmd/lmd.h>
+
+#include <cstdint>
+#include <span>
+
+namespace lmdbench {
+
+/// Makes LMDs out of what pairs of features share (DEFINITION.md, "One place, one LMD"). The result depends on the set alone,
+/// never on its order.
+///
+/// - Contacts are one LMD where a way leads from one to the other along which the distance stays the same up to
+///   `ContactTolerance::same_distance`: they lie on one closed pair of features and the segments between their points stay on
+///   it (J1), or both are extended, share a lower pair of features and meet there (J2).
+/// - Extended contacts without a point contact are no minimum (rule S): what the tolerance calls level leads down somewhere.
+/// - Contacts higher than that over the lowest of their LMD go (rule K).
+/// - The LMD is represented by the centroid of its polygons; else of its segments where that lies on one of them; else by the
+///   nearest contact.
+/// - Contacts nearer than rounding whose triangles intersect are reported as such, not here.
+/// @param contacts  of one fixed body, in any order; the same pair of features may come twice; is left in some order
+/// @param intersections  of all bodies
+/// @param lmds  those within the cutoff are appended, unsorted
+void join_contacts(const ShapePair& pair, std::int32_t fixed_body, ContactSet& contacts,
+                   std::span<const Intersection> intersections, LmdSet& lmds);
+
+}  // namespace lmdbench

@@ -1,0 +1,35 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/mesh/box_grid.h>
+
+#include <cstdint>
+#include <vector>
+
+namespace lmdbench {
+
+BoxGrid::BoxGrid(std::span<const Box2> boxes) {
+  if (boxes.empty()) return;
+  for (const Box2& box : boxes) {
+    bounds_.add(box.low);
+    bounds_.add(box.high);
+  }
+  const Vec2 size = bounds_.high - bounds_.low;
+  const auto count = static_cast<double>(boxes.size());
+  const double spacing = std::sqrt(std::max(1e-300, size[0] * size[1]) / count);
+  const auto cells_of = [&](double length) {
+    return static_cast<int>(std::clamp(std::ceil(length / spacing), 1.0, count));
+  };
+  columns_ = cells_of(size[0]);
+  rows_ = cells_of(size[1]);
+  cells_per_metre_ = Vec2(size[0] > 0.0 ? columns_ / size[0] : 0.0, size[1] > 0.0 ? rows_ / size[1] : 0.0);
+  std::vector<std::pair<std::int32_t, std::int32_t>> pairs;
+  for (std::size_t i = 0; i < boxes.size(); ++i) {
+    const auto [x0, y0] = cell_of(boxes[i].low);
+    const auto [x1, y1] = cell_of(boxes[i].high);
+    for (int y = y0; y <= y1; ++y)
+      for (int x = x0; x <= x1; ++x) pairs.emplace_back(y * columns_ + x, static_cast<std::int32_t>(i));
+  }
+  cells_ = CsrRows(columns_ * rows_, pairs);
+}
+
+}  // namespace lmdbench

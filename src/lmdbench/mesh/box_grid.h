@@ -1,0 +1,77 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <lmdbench/geometry/convex_polygon.h>
+#include <lmdbench/mesh/csr_rows.h>
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+#include <utility>
+
+namespace lmdbench {
+
+/// Uniform grid over boxes of a plane, about one a cell: lists those near a box or near a segment.
+class BoxGrid {
+ public:
+  BoxGrid() = default;
+  explicit BoxGrid(std::span<const Box2> boxes);
+
+  const Vec2& low() const { return bounds_.low; }
+  const Vec2& high() const { return bounds_.high; }
+
+  /// Calls visit(index) for every box that comes within `reach` of a box; for some more, and for some more than once.
+  template <class Visit>
+  void for_each_near(const Box2& box, double reach, Visit&& visit) const {
+    const auto [x0, y0] = cell_of(box.low - Vec2::Constant(reach));
+    const auto [x1, y1] = cell_of(box.high + Vec2::Constant(reach));
+    for (int y = y0; y <= y1; ++y)
+      for (int x = x0; x <= x1; ++x)
+        for (const std::int32_t index : cells_[y * columns_ + x]) visit(index);
+  }
+
+  /// The same for the boxes within `reach` of a segment: row by row, only the cells that it passes.
+  template <class Visit>
+  void for_each_near(const Vec2& a, const Vec2& b, double reach, Visit&& visit) const {
+    Box2 all;
+    all.add(a);
+    all.add(b);
+    const int first = cell_of(all.low - Vec2::Constant(reach)).second;
+    const int last = cell_of(all.high + Vec2::Constant(reach)).second;
+    const double rise = b[1] - a[1];
+    for (int y = first; y <= last; ++y) {
+      // The part of the segment in this row, with what is below the first row and above the last one.
+      Box2 part = all;
+      const double bottom = bounds_.low[1] + y / cells_per_metre_[1] - reach;
+      const double top = bounds_.low[1] + (y + 1) / cells_per_metre_[1] + reach;
+      if (rise != 0.0) {
+        const auto clipped = [&](double height) { return std::clamp((height - a[1]) / rise, 0.0, 1.0); };
+        const double at_bottom = clipped(y > 0 ? bottom : all.low[1]);
+        const double at_top = clipped(y + 1 < rows_ ? top : all.high[1]);
+        const double x0 = a[0] + at_bottom * (b[0] - a[0]), x1 = a[0] + at_top * (b[0] - a[0]);
+        part.low[0] = std::min(x0, x1);
+        part.high[0] = std::max(x0, x1);
+      }
+      const int left = cell_of(part.low - Vec2::Constant(reach)).first;
+      const int right = cell_of(part.high + Vec2::Constant(reach)).first;
+      for (int x = left; x <= right; ++x)
+        for (const std::int32_t index : cells_[y * columns_ + x]) visit(index);
+    }
+  }
+
+ private:
+  /// Column and row of the cell that holds a point, or of the nearest cell.
+  std::pair<int, int> cell_of(const Vec2& x) const {
+    const Vec2 at = (x - bounds_.low).cwiseProduct(cells_per_metre_);
+    return {static_cast<int>(std::clamp(at[0], 0.0, columns_ - 1.0)),
+            static_cast<int>(std::clamp(at[1], 0.0, rows_ - 1.0))};
+  }
+
+  Box2 bounds_;
+  Vec2 cells_per_metre_ = Vec2::Zero();
+  int columns_ = 1, rows_ = 1;
+  CsrRows cells_;
+};
+
+}  // namespace lmdbench

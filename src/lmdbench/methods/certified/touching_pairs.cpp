@@ -1,0 +1,308 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/geometry/extent.h>
+#include <lmdbench/geometry/point_triangle.h>
+#include <lmdbench/geometry/triangle_contact_batch.h>
+#include <lmdbench/geometry/triangle_distance.h>
+#include <lmdbench/methods/certified/touch.h>
+#include <lmdbench/methods/certified/touching_pairs.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace lmdbench {
+
+namespace {
+
+/// A feature with more times the corners of the other one is not held against the other's plane
+/// (scripts/tuned_constants.py --only FEW_CORNERS experiments/extreme/gears.json).
+constexpr std::size_t FEW_CORNERS = 4;
+/// Of features with more pairs of corners the sides are not tried as separating axes, because the triangles that are near each
+/// other may be fewer (scripts/tuned_constants.py --only MOST_CORNER_PAIRS experiments/extreme/peg-square.json).
+constexpr std::size_t MOST_CORNER_PAIRS = 64;
+
+/// Gaps that say that two triangles are apart are wider than this many touches.
+constexpr double MARGIN_IN_TOUCHES = 2.0;
+
+Vec3 face_normal(const ShapeSide& side, std::int32_t face) {
+  return side.direction(side.surface.face_normals[static_cast<std::size_t>(face)]);
+}
+
+Triangle triangle_of(const ShapeSide& side, std::int32_t face) {
+  const Triangle t = side.surface.mesh.triangle(face);
+  return side.is_moving ? side.X_WS.triangle(t) : t;
+}
+
+/// Gap between points and a plane, with the axis from the points towards it.
+ClearGap gap_to(const Plane& plane, std::span<const Vec3> points) {
+  Extent heights;
+  for (const Vec3& p : points) heights.add(plane.height(p));
+  return heights.least >= -heights.greatest ? ClearGap{heights.least, -plane.normal}
+                                            : ClearGap{-heights.greatest, plane.normal};
+}
+
+/// Gap of two boxes along the axis that shows the widest.
+ClearGap gap_of_boxes(std::span<const Vec3> a, std::span<const Vec3> b) {
+  const auto bounds = [](std::span<const Vec3> points) {
+    Vec3 low = points.front(), high = low;
+    for (const Vec3& p : points) {
+      low = low.cwiseMin(p);
+      high = high.cwiseMax(p);
+    }
+    return std::pair(low, high);
+  };
+  const auto [low_a, high_a] = bounds(a);
+  const auto [low_b, high_b] = bounds(b);
+  ClearGap widest;
+  for (int k = 0; k < 3; ++k) {
+    const double ahead = low_b[k] - high_a[k], behind = low_a[k] - high_b[k];
+    if (ahead > widest.gap) widest = {ahead, Vec3::Unit(k)};
+    if (behind > widest.gap) widest = {behind, -Vec3::Unit(k)};
+  }
+  return widest;
+}
+
+/// Largest gap between two regions along the products of a side of one and a side of the other: with their own planes the
+/// separating axes of convex polygons. Walls of a box that stands over a box are separated by no plane of theirs.
+ClearGap gap_along_side_products(const ShapeSide& moving, std::int32_t region_moving,
+                                 std::span<const Vec3> corners_moving, const ShapeSide& fixed,
+                                 std::int32_t region_fixed, std::span<const Vec3> corners_fixed) {
+  const auto side_of = [](const ShapeSide& side, std::int32_t chain) {
+    const auto& ends = side.shape.ends_of_chain(chain);
+    return Vec3(side.vertex(ends[1]) - side.vertex(ends[0]));
+  };
+  ClearGap widest;
+  for (const std::int32_t s : moving.shape.regions.straight_edges_of_region[region_moving]) {
+    const Vec3 u = side_of(moving, s);
+    for (const std::int32_t t : fixed.shape.regions.straight_edges_of_region[region_fixed]) {
+      const Vec3 product = u.cross(side_of(fixed, t));
+      const double length = product.norm();
+      if (!(length > 0.0)) continue;
+      const Vec3 axis = product / length;
+      const Extent of_moving = extent_along(corners_moving, axis),
+                   of_fixed = extent_along(corners_fixed, axis);
+      const double ahead = of_fixed.least - of_moving.greatest, behind = of_moving.least - of_fixed.greatest;
+      if (ahead > widest.gap) widest = {ahead, axis};
+      if (behind > widest.gap) widest = {behind, -axis};
+    }
+  }
+  return widest;
+}
+
+/// Asks the definition for what the corners of one triangle share with the corners and chains of another one that is within
+/// touch of them.
+void ask_corners(const TouchingPairs::Frame& frame, const ShapeSide& of_corners, std::int32_t t_corners,
+                 const ShapeSide& other, std::int32_t t_other) {
+  const Triangle triangle = triangle_of(other, t_other);
+  const auto ask = [&](const FeatureId& corner, const FeatureId& feature) {
+    if (of_corners.is_moving)
+      decide(frame.pair, corner, feature, frame.contacts);
+    else
+      decide(frame.pair, feature, corner, frame.contacts);
+  };
+  for (const std::int32_t v : of_corners.surface.mesh.triangles[static_cast<std::size_t>(t_corners)]) {
+    if (!of_corners.shape.is_corner(v)) continue;
+    const double squared = point_triangle_distance(of_corners.vertex(v), triangle).squared_distance;
+    if (squared > frame.touch * frame.touch) continue;
+    const FeatureId corner{FeatureKind::VERTEX, v};
+    // Pairs of corners are asked for once, from the moving mesh.
+    if (of_corners.is_moving)
+      for (const std::int32_t w : other.surface.mesh.triangles[static_cast<std::size_t>(t_other)])
+        ask(corner, {FeatureKind::VERTEX, w});
+    for (const std::int32_t e : other.surface.adjacency.triangle_edges[static_cast<std::size_t>(t_other)])
+      if (const std::int32_t chain = other.shape.chain_of(e); chain >= 0)
+        ask(corner, {FeatureKind::EDGE, other.shape.lead_of_chain(chain)});
+  }
+}
+
+}  // namespace
+
+/// Pairs of triangles that are looked at together, in vectors.
+struct TouchingPairs::Batch {
+  static constexpr std::size_t SIZE = 64;
+  struct Entry {
+    std::int32_t moving, fixed;
+    std::size_t place;  ///< In certificates_.
+  };
+  std::array<Triangle, SIZE> moving, fixed;
+  std::array<Entry, SIZE> entries;
+  std::size_t count = 0;
+
+  bool is_full() const { return count == SIZE; }
+  void push(const Triangle& of_moving, const Triangle& of_fixed, const Entry& entry) {
+    moving[count] = of_moving;
+    fixed[count] = of_fixed;
+    entries[count++] = entry;
+  }
+};
+
+std::span<const Certificate> TouchingPairs::decide(Frame& frame, std::span<const WidePair> pairs) {
+  const ShapeSide &moving = frame.pair.moving, &fixed = frame.pair.fixed;
+  const bool is_joined = moving.shape.is_joined || fixed.shape.is_joined;
+  certificates_.assign(pairs.size(), Certificate{});
+  Batch batch, not_crossing;
+  for (std::size_t k = 0; k < pairs.size(); ++k) {
+    const FeatureId on_moving = pairs[k].a.feature_id(), on_fixed = pairs[k].b.feature_id();
+    ++frame.triangle_pairs;
+    if (is_joined &&
+        (moving.shape.is_lead_of_several(on_moving) || fixed.shape.is_lead_of_several(on_fixed))) {
+      certificates_[k] = decide_regions(frame, pairs[k]);
+      continue;
+    }
+    batch.push(triangle_of(moving, on_moving.index), triangle_of(fixed, on_fixed.index),
+               {on_moving.index, on_fixed.index, k});
+    if (batch.is_full()) decide_batch(frame, batch, not_crossing);
+  }
+  decide_batch(frame, batch, not_crossing);
+  decide_not_crossing(frame, not_crossing);
+  return certificates_;
+}
+
+void TouchingPairs::decide_batch(Frame& frame, Batch& batch, Batch& not_crossing) {
+  std::array<ClearCrossing, Batch::SIZE> crossings;
+  find_clear_crossings(std::span(batch.moving).first(batch.count), std::span(batch.fixed).first(batch.count),
+                       std::span(crossings).first(batch.count));
+  for (std::size_t k = 0; k < batch.count; ++k) {
+    const Batch::Entry& entry = batch.entries[k];
+    if (crossings[k].length > 0.0) {
+      ++frame.triangle_distances;
+      frame.intersections.push_back({{FeatureKind::FACE, entry.moving},
+                                     {FeatureKind::FACE, entry.fixed},
+                                     entry.moving,
+                                     entry.fixed,
+                                     frame.body,
+                                     1,
+                                     crossings[k].length,
+                                     crossings[k].middle});
+      frame.crossing_pairs.push_back({frame.body, entry.moving, entry.fixed});
+      continue;
+    }
+    not_crossing.push(batch.moving[k], batch.fixed[k], entry);
+    if (not_crossing.is_full()) decide_not_crossing(frame, not_crossing);
+  }
+  batch.count = 0;
+}
+
+void TouchingPairs::decide_not_crossing(Frame& frame, Batch& batch) {
+  const double margin = MARGIN_IN_TOUCHES * frame.touch;
+  std::array<ClearGap, Batch::SIZE> gaps;
+  find_clear_gaps(std::span(batch.moving).first(batch.count), std::span(batch.fixed).first(batch.count),
+                  std::span(gaps).first(batch.count));
+  for (std::size_t k = 0; k < batch.count; ++k) {
+    const Batch::Entry& entry = batch.entries[k];
+    certificates_[entry.place] = gaps[k].gap > margin ? Certificate{gaps[k].gap - margin, gaps[k].axis}
+                                                      : decide_triangles(frame, entry.moving, entry.fixed);
+  }
+  batch.count = 0;
+}
+
+/// Decides two triangles exactly.
+Certificate TouchingPairs::decide_triangles(Frame& frame, std::int32_t t_moving, std::int32_t t_fixed) {
+  const ShapeSide &moving = frame.pair.moving, &fixed = frame.pair.fixed;
+  const TrianglePairDistance nearest =
+      triangle_distance(triangle_of(moving, t_moving), triangle_of(fixed, t_fixed));
+  ++frame.triangle_distances;
+  if (nearest.intersecting) {
+    frame.crossing_pairs.push_back({frame.body, t_moving, t_fixed});
+    frame.intersections.push_back({moving.surface.feature_of(t_moving, nearest.feature_a),
+                                   fixed.surface.feature_of(t_fixed, nearest.feature_b), t_moving, t_fixed,
+                                   frame.body, nearest.minimiser_dimension, nearest.minimiser_measure,
+                                   nearest.point_a});
+  }
+  const double distance = std::sqrt(nearest.squared_distance);
+  if (distance <= frame.touch) {
+    ask_corners(frame, moving, t_moving, fixed, t_fixed);
+    ask_corners(frame, fixed, t_fixed, moving, t_moving);
+    return {};
+  }
+  return {distance - MARGIN_IN_TOUCHES * frame.touch, (nearest.point_b - nearest.point_a) / distance};
+}
+
+void TouchingPairs::find_faces_near(const ShapeSide& side, std::int32_t region,
+                                    std::span<const Vec3> points_W, double reach,
+                                    std::vector<std::int32_t>& faces) const {
+  const RegionShape& shape = *side.shape.shapes.of_region(region);
+  Box2 box;
+  for (const Vec3& p : points_W) box.add(shape.frame.flat(side.point_to_surface(p)));
+  faces.clear();
+  side.shape.for_each_face_near(region, box, reach, [&](std::int32_t t) { faces.push_back(t); });
+  std::sort(faces.begin(), faces.end());
+  faces.erase(std::unique(faces.begin(), faces.end()), faces.end());
+}
+
+/// Of a pair of which at least one is a region of several faces: gaps between their outlines, then the triangles of the
+/// one with more corners near the other, against those of the other near each of them.
+Certificate TouchingPairs::decide_regions(Frame& frame, const WidePair& pair) {
+  const ShapeSide &moving = frame.pair.moving, &fixed = frame.pair.fixed;
+  const FeatureId on_moving = pair.a.feature_id(), on_fixed = pair.b.feature_id();
+  const std::int32_t region_m = moving.shape.region_of(on_moving.index);
+  const std::int32_t region_f = fixed.shape.region_of(on_fixed.index);
+  const double margin = MARGIN_IN_TOUCHES * frame.touch;
+  const auto collect = [](const ShapeSide& side, const FeatureId& lead, std::vector<std::int32_t>& corners,
+                          std::vector<Vec3>& points) {
+    corners.clear();
+    points.clear();
+    side.shape.append_corners(side.surface, lead, corners);
+    for (const std::int32_t v : corners) points.push_back(side.vertex(v));
+  };
+  collect(moving, on_moving, corners_moving_, points_moving_);
+  collect(fixed, on_fixed, corners_fixed_, points_fixed_);
+  const std::size_t count_m = points_moving_.size(), count_f = points_fixed_.size();
+  const auto clear = [&](const ClearGap& gap, double sign) {
+    return Certificate{gap.gap - margin, sign * gap.axis};
+  };
+  if (const ClearGap gap = gap_of_boxes(points_moving_, points_fixed_); gap.gap > margin)
+    return clear(gap, 1.0);
+  // The end of a gear has hundreds of corners, and each of its teeth is tested against it in every frame: only the feature
+  // of fewer corners is held against the other's plane. A triangle without area has no plane and separates nothing.
+  if (region_f >= 0 && count_m <= FEW_CORNERS * count_f)
+    if (const ClearGap gap = gap_to(fixed.plane(region_f), points_moving_); gap.gap > margin)
+      return clear(gap, 1.0);
+  if (region_m >= 0 && count_f <= FEW_CORNERS * count_m)
+    if (const ClearGap gap = gap_to(moving.plane(region_m), points_fixed_); gap.gap > margin)
+      return clear(gap, -1.0);
+  if (region_m >= 0 && region_f >= 0 && count_m * count_f <= MOST_CORNER_PAIRS)
+    if (const ClearGap gap =
+            gap_along_side_products(moving, region_m, points_moving_, fixed, region_f, points_fixed_);
+        gap.gap > margin)
+      return clear(gap, 1.0);
+
+  const bool moving_is_large = count_m > count_f;
+  const ShapeSide& large = moving_is_large ? moving : fixed;
+  const ShapeSide& small = moving_is_large ? fixed : moving;
+  const std::int32_t region_large = moving_is_large ? region_m : region_f;
+  const std::int32_t region_small = moving_is_large ? region_f : region_m;
+  const auto is_joined = [](const ShapeSide& side, std::int32_t region) {
+    return region >= 0 && side.shape.shapes.of_region(region) != nullptr;
+  };
+  if (is_joined(large, region_large))
+    find_faces_near(large, region_large, moving_is_large ? points_fixed_ : points_moving_, margin,
+                    faces_of_large_);
+  else
+    faces_of_large_.assign(1, (moving_is_large ? on_moving : on_fixed).index);
+  for (const std::int32_t t_large : faces_of_large_) {
+    const Triangle t = triangle_of(large, t_large);
+    if (region_small >= 0) {
+      // What reaches the plane: a tooth that passes through the plane of a gear's end meets a few of its thousands.
+      if (gap_to(small.plane(region_small), t).gap > margin) continue;
+    }
+    if (is_joined(small, region_small))
+      find_faces_near(small, region_small, t, margin, faces_of_small_);
+    else
+      faces_of_small_.assign(1, (moving_is_large ? on_fixed : on_moving).index);
+    for (const std::int32_t t_small : faces_of_small_) {
+      ++frame.triangle_pairs;
+      const std::int32_t t_moving = moving_is_large ? t_large : t_small;
+      const std::int32_t t_fixed = moving_is_large ? t_small : t_large;
+      if (clear_gap(triangle_of(moving, t_moving), face_normal(moving, t_moving), triangle_of(fixed, t_fixed),
+                    face_normal(fixed, t_fixed), margin)
+              .gap > 0.0)
+        continue;
+      decide_triangles(frame, t_moving, t_fixed);
+    }
+  }
+  return {};
+}
+
+}  // namespace lmdbench
