@@ -19,14 +19,20 @@ std::uint64_t number(const FeatureId& feature) {
   return static_cast<std::uint64_t>(feature.kind) << 32 | static_cast<std::uint32_t>(feature.index);
 }
 
-/// Sorts by body and features, by way of short keys, and leaves the first of those with equal ones.
+/// Which of several pairs of triangles with equal features counts: what shares most, then the first triangles. No order of a
+/// search.
+bool shares_more(const Intersection& a, const Intersection& b) {
+  return std::tuple(-a.dimension, -a.measure, a.triangle_moving, a.triangle_fixed) <
+         std::tuple(-b.dimension, -b.measure, b.triangle_moving, b.triangle_fixed);
+}
+
+/// Sorts by body and features, by way of short keys, and leaves one of those with equal ones.
 void sort_by_features(std::vector<Intersection>& intersections) {
   struct Key {
     std::uint64_t moving, fixed;
     std::size_t index;
     bool operator<(const Key& other) const {
-      if (moving != other.moving) return moving < other.moving;
-      return fixed != other.fixed ? fixed < other.fixed : index < other.index;
+      return moving != other.moving ? moving < other.moving : fixed < other.fixed;
     }
     bool same_features(const Key& other) const { return moving == other.moving && fixed == other.fixed; }
   };
@@ -40,8 +46,13 @@ void sort_by_features(std::vector<Intersection>& intersections) {
   std::sort(keys.begin(), keys.end());
   std::vector<Intersection> sorted;
   sorted.reserve(intersections.size());
-  for (std::size_t i = 0; i < keys.size(); ++i)
-    if (i == 0 || !keys[i].same_features(keys[i - 1])) sorted.push_back(intersections[keys[i].index]);
+  for (std::size_t i = 0; i < keys.size(); ++i) {
+    const Intersection& piece = intersections[keys[i].index];
+    if (i == 0 || !keys[i].same_features(keys[i - 1]))
+      sorted.push_back(piece);
+    else if (shares_more(piece, sorted.back()))
+      sorted.back() = piece;
+  }
   intersections.swap(sorted);
 }
 

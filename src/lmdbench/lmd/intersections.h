@@ -25,7 +25,7 @@ struct Intersection {
 /// their features share corners on both meshes (DEFINITION.md). It is represented by the centroid of what the
 /// triangles share, of the highest dimension among them, on the features of the piece that lies nearest to
 /// that. The result depends on the set alone, not on its order, which is lost; the work is that of sorting it.
-/// @param intersections of several with equal features the first counts
+/// @param intersections of several with equal features the one that shares most counts
 void append_contacts(const Scene& scene, std::vector<Intersection>& intersections, LmdSet& lmds);
 
 }  // namespace lmdbench

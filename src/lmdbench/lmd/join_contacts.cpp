@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/geometry/extent.h>
 #include <lmdbench/geometry/segment_distance.h>
 #include <lmdbench/lmd/join_contacts.h>
 #include <lmdbench/lmd/overlap.h>
@@ -372,15 +373,36 @@ class Joining {
     int dimension = 0;
     for (const std::size_t i : set)
       if (contacts_[i].distance <= highest) dimension = std::max(dimension, contacts_[i].dimension);
-    std::vector<const Contact*> pieces;
-    for (const std::size_t i : set)
-      if (contacts_[i].distance <= highest && contacts_[i].dimension == dimension)
-        pieces.push_back(&contacts_[i]);
-    if (dimension == 0 || pieces.size() == 1) {
-      report(nearest_contact(pieces), lmds);
+    std::vector<const Contact*> pieces, points;
+    for (const std::size_t i : set) {
+      if (contacts_[i].distance > highest) continue;
+      if (contacts_[i].dimension == dimension) pieces.push_back(&contacts_[i]);
+      if (contacts_[i].dimension == 0) points.push_back(&contacts_[i]);
+    }
+    std::optional<Contact> whole;
+    if (dimension == 2) whole = middle_of_polygons(pieces);
+    if (dimension == 1) whole = middle_of_segments(pieces);
+    if (!whole) {
+      report(nearest_contact(points.empty() ? pieces : points), lmds);
       return;
     }
+    const Contact* namesake = nullptr;
+    double nearest = std::numeric_limits<double>::infinity();
+    for (const Contact* piece : pieces) {
+      const double apart = (nearest_place(*piece, whole->point_fixed) - whole->point_fixed).norm();
+      const double spare = EQUALLY_NEAR * nearest + tolerance_.rounding;
+      if (namesake != nullptr && !(apart < nearest - spare) &&
+          !(apart <= nearest + spare && name_of(*piece) < name_of(*namesake)))
+        continue;
+      nearest = namesake == nullptr ? apart : std::min(apart, nearest);
+      namesake = piece;
+    }
+    report(*whole, *namesake, lmds);
+  }
+
+  static Contact middle_of_polygons(const std::vector<const Contact*>& pieces) {
     Contact whole = *pieces.front();
+    if (pieces.size() == 1) return whole;
     double total = 0.0;
     whole.point_moving = whole.point_fixed = whole.direction = Vec3::Zero();
     whole.distance = 0.0;
@@ -395,27 +417,46 @@ class Joining {
     whole.point_fixed /= total;
     whole.distance /= total;
     whole.direction.normalize();
-    if (dimension == 1 && std::ranges::none_of(pieces, [&](const Contact* piece) {
-          return is_on_segment(whole.point_moving, piece->ends_moving) &&
-                 is_on_segment(whole.point_fixed, piece->ends_fixed);
-        })) {
-      report(nearest_contact(pieces), lmds);
-      return;
-    }
-    const Contact* namesake = nullptr;
-    double nearest = std::numeric_limits<double>::infinity();
+    return whole;
+  }
+
+  /// The centroid of what segments on one line cover, each part once; nothing where they are on several lines or it is on none
+  /// of them.
+  std::optional<Contact> middle_of_segments(const std::vector<const Contact*>& pieces) const {
+    const Contact& longest =
+        **std::ranges::max_element(pieces, {}, [](const Contact* c) { return c->measure; });
+    if (pieces.size() == 1) return longest;
+    const Vec3 origin = longest.ends_fixed[0], along = (longest.ends_fixed[1] - origin).normalized();
+    std::vector<std::pair<double, double>> parts;
     for (const Contact* piece : pieces) {
-      const double apart = distance_from(*piece, whole);
-      const double spare = EQUALLY_NEAR * nearest + tolerance_.rounding;
-      if (namesake != nullptr && !(apart < nearest - spare) &&
-          !(apart <= nearest + spare && name_of(*piece) < name_of(*namesake)))
-        continue;
-      nearest = namesake == nullptr ? apart : std::min(apart, nearest);
-      namesake = piece;
+      Extent part;
+      for (const Vec3& end : piece->ends_fixed) {
+        const double place = along.dot(end - origin);
+        if ((origin + place * along - end).norm() > tolerance_.known) return std::nullopt;
+        part.add(place);
+      }
+      parts.emplace_back(part.least, part.greatest);
     }
-    whole.moving = namesake->moving;
-    whole.fixed = namesake->fixed;
-    report(whole, lmds);
+    std::ranges::sort(parts);
+    double covered = 0.0, moment = 0.0, reached = parts.front().first;
+    for (const auto& [begin, end] : parts) {
+      const double from = std::max(begin, reached);
+      if (end <= from) continue;
+      covered += end - from;
+      moment += 0.5 * (end + from) * (end - from);
+      reached = end;
+    }
+    const double middle = moment / covered;
+    if (std::ranges::none_of(parts, [&](const auto& part) {
+          return part.first - tolerance_.known <= middle && middle <= part.second + tolerance_.known;
+        }))
+      return std::nullopt;
+    Contact whole = longest;
+    const double share = middle / longest.measure;
+    whole.point_fixed = origin + middle * along;
+    whole.point_moving = longest.ends_moving[0] + share * (longest.ends_moving[1] - longest.ends_moving[0]);
+    whole.distance = (whole.point_fixed - whole.point_moving).norm();
+    return whole;
   }
 
   /// The nearest. Of several at one distance that are apart, one between features of the highest kind, which is where the
@@ -436,31 +477,34 @@ class Joining {
         contacts, {}, [](const Contact* contact) { return std::pair(contact->moving, contact->fixed); });
   }
 
-  bool is_on_segment(const Vec3& x, const std::array<Vec3, 2>& ends) const {
-    return (point_segment_distance(x, {ends[0], ends[1]}).point - x).norm() <= tolerance_.known;
-  }
-
-  /// Of a piece's place from a point [m].
-  double distance_from(const Contact& piece, const Contact& whole) const {
+  /// The point of a piece's place that is nearest to a point of the fixed mesh. It lies on the piece's features, as a centroid need
+  /// not; and the parts of one overlap are convex where they lie on one pair of triangles, so that no two have one name.
+  Vec3 nearest_place(const Contact& piece, const Vec3& q) const {
+    if (piece.dimension == 0) return piece.point_fixed;
     if (piece.dimension == 1)
-      return (point_segment_distance(whole.point_fixed, {piece.ends_fixed[0], piece.ends_fixed[1]}).point -
-              whole.point_fixed)
-          .norm();
-    const Vec2 x = set_.frames[piece.frame].flat(whole.point_fixed);
+      return point_segment_distance(q, {piece.ends_fixed[0], piece.ends_fixed[1]}).point;
+    const PlanarFrame& frame = set_.frames[piece.frame];
+    const Vec2 x = frame.flat(q);
+    Vec2 nearest = x;
     double least = std::numeric_limits<double>::infinity();
     for (const ConvexPolygon& polygon : set_.pieces_of(piece)) {
-      if (polygon.holds(x, 0.0)) return 0.0;
+      if (polygon.holds(x, 0.0)) return q;
       for (std::size_t k = 0; k < polygon.corners.size(); ++k) {
         const Vec2 &from = polygon.corners[k],
                    side = polygon.corners[(k + 1) % polygon.corners.size()] - from;
-        const double t = std::clamp((x - from).dot(side) / side.squaredNorm(), 0.0, 1.0);
-        least = std::min(least, (from + t * side - x).norm());
+        const Vec2 on_side = from + std::clamp((x - from).dot(side) / side.squaredNorm(), 0.0, 1.0) * side;
+        if ((on_side - x).norm() >= least) continue;
+        least = (on_side - x).norm();
+        nearest = on_side;
       }
     }
-    return least;
+    return q + frame.lifted(nearest) - frame.lifted(x);
   }
 
-  void report(const Contact& contact, LmdSet& lmds) const {
+  void report(const Contact& contact, LmdSet& lmds) const { report(contact, contact, lmds); }
+
+  /// @param namesake  the contact whose features name the LMD
+  void report(const Contact& contact, const Contact& namesake, LmdSet& lmds) const {
     if (contact.distance > tolerance_.cutoff) return;
     Lmd& lmd = lmds.emplace_back();
     lmd.distance = contact.distance;
@@ -468,10 +512,10 @@ class Joining {
     lmd.point_fixed = contact.point_fixed;
     lmd.direction = contact.direction;
     lmd.fixed_body = body_;
-    std::tie(lmd.feature_moving, lmd.triangle_moving) =
-        name_at(pair_.moving, contact.moving, contact.point_moving);
-    std::tie(lmd.feature_fixed, lmd.triangle_fixed) =
-        name_at(pair_.fixed, contact.fixed, contact.point_fixed);
+    const Vec3 q = nearest_place(namesake, contact.point_fixed);
+    const Vec3 p = contact.point_moving + (q - contact.point_fixed);
+    std::tie(lmd.feature_moving, lmd.triangle_moving) = name_at(pair_.moving, namesake.moving, p);
+    std::tie(lmd.feature_fixed, lmd.triangle_fixed) = name_at(pair_.fixed, namesake.fixed, q);
   }
 
   /// The face, edge or vertex that names a point of a feature, and a triangle with it.
