@@ -26,6 +26,7 @@ void add_integrators(CLI::App& app, Run& chosen);
 void add_stability(CLI::App& app, Run& chosen);
 void add_passivity(CLI::App& app, Run& chosen);
 void add_leave_out(CLI::App& app, Run& chosen);
+void add_parts(CLI::App& app, Run& chosen);
 void add_roles(CLI::App& app, Run& chosen);
 
 }  // namespace lmdbench::study

@@ -1,0 +1,113 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <fmt/format.h>
+#include <study/completeness/parts_study.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <optional>
+
+namespace lmdbench::completeness {
+namespace {
+
+LmdSet search(Method& method, const Pose& X_WM) {
+  LmdSet lmds;
+  WorkCounters counters;
+  method.search(X_WM, lmds, counters);
+  return lmds;
+}
+
+std::string upper_case(std::string text) {
+  std::transform(text.begin(), text.end(), text.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
+  return text;
+}
+
+/// Kinds, distances and places, for a person who looks for the difference.
+std::string contacts_text(const LmdSet& lmds) {
+  std::string text;
+  for (const Lmd& lmd : lmds)
+    text += fmt::format("  {}-{} {:.9g} at {:.6f} {:.6f} {:.6f}\n", to_string(lmd.feature_moving.kind),
+                        to_string(lmd.feature_fixed.kind), lmd.distance, lmd.point_fixed.x(),
+                        lmd.point_fixed.y(), lmd.point_fixed.z());
+  return text;
+}
+
+}  // namespace
+
+bool same_contacts(const LmdSet& a, const LmdSet& b, double scale) {
+  constexpr double SAME = 1e-9;
+  LmdSet left;
+  std::copy_if(b.begin(), b.end(), std::back_inserter(left),
+               [](const Lmd& lmd) { return !lmd.intersecting; });
+  for (const Lmd& lmd : a) {
+    if (lmd.intersecting) continue;
+    const auto partner = std::find_if(left.begin(), left.end(), [&](const Lmd& other) {
+      return lmd.feature_moving.kind == other.feature_moving.kind &&
+             lmd.feature_fixed.kind == other.feature_fixed.kind &&
+             std::abs(lmd.distance - other.distance) <= SAME * scale &&
+             (lmd.point_moving - other.point_moving).norm() <= SAME * scale &&
+             (lmd.point_fixed - other.point_fixed).norm() <= SAME * scale;
+    });
+    if (partner == left.end()) return false;
+    left.erase(partner);
+  }
+  return left.empty();
+}
+
+std::string test_line(const parts::PartsChoice& choice, const Pose& X_WM) {
+  const Vec3& p = X_WM.translation;
+  const Eigen::Quaterniond& q = X_WM.rotation;
+  return fmt::format(
+      "expect_right({{\"{}\", Coordinates::{}, {}, {}{}}}, {{Vec3({:.17g}, {:.17g}, {:.17g}), "
+      "Eigen::Quaterniond({:.17g}, {:.17g}, {:.17g}, {:.17g})}});",
+      choice.kind, upper_case(name_of(choice.coordinates)), choice.seed, choice.index,
+      choice.poses == parts::PoseFamily::FLUSH ? ", PoseFamily::FLUSH" : "", p.x(), p.y(), p.z(), q.w(),
+      q.x(), q.y(), q.z());
+}
+
+PartsResult judge_parts(const PartsStudy& study, const std::string& kind, parts::Coordinates coordinates,
+                        const Complain& complain) {
+  PartsResult result{kind, coordinates, 0, 0, 0, std::vector<Judgement>(variants().size()), 0};
+  for (std::size_t index = 0; index * parts::POSES_A_SCENE < study.poses; ++index) {
+    parts::PartsChoice choice{kind, coordinates, study.seed, index, study.family};
+    const parts::PartsScene scene = make_parts_scene(choice);
+    const auto exhaustive = make_method("exhaustive", scene.scene);
+    std::vector<std::unique_ptr<Method>> methods;
+    for (const Variant& variant : variants()) methods.push_back(variant.make(scene.scene));
+    std::optional<parts::PartsScene> uncut;
+    if (coordinates == parts::Coordinates::RECUT) {
+      choice.coordinates = parts::Coordinates::EXACT;
+      uncut = make_parts_scene(choice);
+      choice.coordinates = coordinates;
+    }
+    const auto of_uncut = uncut ? make_method("exhaustive", uncut->scene) : nullptr;
+    for (const Pose& pose : scene.poses) {
+      const LmdSet truth = search(*exhaustive, pose);
+      ++result.poses;
+      result.true_lmds += truth.size();
+      std::string wrong, first;
+      for (std::size_t v = 0; v < methods.size(); ++v) {
+        std::string objection;
+        result.judgements[v] +=
+            judge(truth, search(*methods[v], pose), scene.scene, scene.diagonal, objection);
+        if (objection.empty()) continue;
+        wrong +=
+            (wrong.empty() ? "" : ", ") + variants()[v].label + (objection == first ? "" : ": " + objection);
+        first = objection;
+      }
+      if (!wrong.empty()) complain(test_line(choice, pose) + "  // " + wrong);
+      result.wrong_poses += !wrong.empty();
+      if (!uncut) continue;
+      const LmdSet truth_of_uncut = search(*of_uncut, pose);
+      if (same_contacts(truth, truth_of_uncut, scene.diagonal)) continue;
+      ++result.poses_that_show_cut;
+      complain(fmt::format("{}  // the cut shows; exact:\n{}recut:\n{}", test_line(choice, pose),
+                           contacts_text(truth_of_uncut), contacts_text(truth)));
+    }
+  }
+  return result;
+}
+
+}  // namespace lmdbench::completeness

@@ -1,0 +1,121 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/base/error.h>
+
+#include <CLI/CLI.hpp>
+#include <fmt/core.h>
+#include <nlohmann/json.hpp>
+#include <study/completeness/parts_study.h>
+#include <study/studies.h>
+#include <support/context.h>
+#include <support/program.h>
+
+#include <cstdio>
+#include <memory>
+
+/// lmdbench-study parts [--poses N] [--seed S] [--kind K]... [--json FILE]: `certified` against `exhaustive` on random
+/// poses of machine parts. Markdown on standard output; every wrong pose as a line that goes into
+/// completeness/tests/parts_study_test.cpp on standard error. Exit code 1 where something is wrong.
+namespace lmdbench::completeness {
+namespace {
+
+struct PartsChoiceOfUser {
+  PartsStudy study;
+  std::size_t complaints = 20;
+  std::string json;
+};
+
+nlohmann::json to_json(const PartsResult& result) {
+  nlohmann::json row = {{"kind", result.kind},
+                        {"coordinates", name_of(result.coordinates)},
+                        {"poses", result.poses},
+                        {"true_lmds", result.true_lmds},
+                        {"wrong_poses", result.wrong_poses},
+                        {"poses_that_show_cut", result.poses_that_show_cut}};
+  for (std::size_t v = 0; v < variants().size(); ++v) {
+    const Judgement& judgement = result.judgements[v];
+    row["variants"][variants()[v].label] = {
+        {"wrong_poses", judgement.wrong_poses},
+        {"set", experiments::error_json(judgement.same, judgement.neighbours)},
+        {"duplicates", judgement.duplicates},
+        {"worst_distance_difference_diagonals", judgement.worst_distance_difference},
+        {"worst_point_difference_diagonals", judgement.worst_point_difference}};
+  }
+  return row;
+}
+
+void print_row(const PartsResult& result) {
+  Judgement all;
+  for (const Judgement& judgement : result.judgements) all += judgement;
+  fmt::print(
+      "| {} | {} | {} | {} | {} | {} | {} | {} | {:.1e} | {:.1e} | {} |\n", result.kind,
+      name_of(result.coordinates), result.poses, result.true_lmds, result.wrong_poses, all.same.missed(),
+      all.same.wrong(), all.duplicates, all.worst_distance_difference, all.worst_point_difference,
+      result.coordinates == parts::Coordinates::RECUT ? fmt::format("{}", result.poses_that_show_cut) : "");
+  std::fflush(stdout);
+}
+
+int judge_all(const PartsChoiceOfUser& choice) {
+  std::size_t told = 0, poses = 0, wrong = 0, show_cut = 0;
+  const Complain complain = [&](const std::string& what) {
+    if (++told <= choice.complaints) fmt::print(stderr, "{}\n", what);
+  };
+  fmt::print(
+      "| kind | coordinates | poses | true LMDs | wrong poses | missed | wrong | duplicates | distance off, "
+      "diagonals "
+      "| points off, diagonals | the cut shows |\n|---|---|---|---|---|---|---|---|---|---|---|\n");
+  nlohmann::json report = {{"format", "lmdbench-parts"},
+                           {"format_version", 1},
+                           {"context", experiments::run_context()},
+                           {"seed", choice.study.seed},
+                           {"kinds", nlohmann::json::array()}};
+  for (const std::string& kind : choice.study.kinds) {
+    for (const parts::Coordinates coordinates : choice.study.coordinates) {
+      const PartsResult result = judge_parts(choice.study, kind, coordinates, complain);
+      print_row(result);
+      report["kinds"].push_back(to_json(result));
+      experiments::write_report(choice.json, report);
+      poses += result.poses;
+      wrong += result.wrong_poses;
+      show_cut += result.poses_that_show_cut;
+    }
+  }
+  fmt::print("\n{} of {} poses are wrong; at {} the cut into triangles shows.\n", wrong, poses, show_cut);
+  return static_cast<int>(wrong + show_cut == 0 ? ExitCode::DONE : ExitCode::CHECK_FAILED);
+}
+
+}  // namespace
+}  // namespace lmdbench::completeness
+
+void lmdbench::study::add_parts(CLI::App& app, Run& chosen) {
+  using namespace completeness;
+  CLI::App* command =
+      app.add_subcommand("parts", "Is certified right on machine parts that lie on and in each other?");
+  const auto choice = std::make_shared<PartsChoiceOfUser>();
+  const auto coordinates = std::make_shared<std::vector<std::string>>();
+  const auto flush = std::make_shared<bool>(false);
+  choice->study.poses = 100;
+  command
+      ->add_option("--poses", choice->study.poses, "Poses of each kind of parts in each kind of coordinates")
+      ->capture_default_str();
+  command->add_option("--seed", choice->study.seed, "Of the random numbers")->capture_default_str();
+  command->add_option("--kind", choice->study.kinds,
+                      "Such as 'ring on ring', may be repeated; all without it");
+  command->add_option("--coordinates", *coordinates,
+                      "exact, turned, rounded or recut, may be repeated; all without it");
+  command->add_flag("--flush", *flush, "Only poses without tilt, whose flat contacts are exact");
+  command->add_option("--complaints", choice->complaints, "Wrong poses that are told")->capture_default_str();
+  command->add_option("--json", choice->json, "File that the table is written to as well");
+  command->callback([&chosen, choice, coordinates, flush] {
+    if (*flush) choice->study.family = parts::PoseFamily::FLUSH;
+    for (const std::string& kind : choice->study.kinds) parts::parts_kind(kind);
+    if (choice->study.kinds.empty())
+      for (const parts::PartsKind& kind : parts::parts_kinds()) choice->study.kinds.emplace_back(kind.name);
+    for (const parts::Coordinates each : parts::ALL_COORDINATES)
+      if (coordinates->empty() ||
+          std::find(coordinates->begin(), coordinates->end(), name_of(each)) != coordinates->end())
+        choice->study.coordinates.push_back(each);
+    chosen = [choice] { return judge_all(*choice); };
+  });
+  command->get_option("--coordinates")->check(CLI::IsMember({"exact", "turned", "rounded", "recut"}));
+}

@@ -1,0 +1,584 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/base/error.h>
+#include <lmdbench/catalogue/rounded_circle.h>
+#include <lmdbench/catalogue/sleeve.h>
+#include <lmdbench/mesh/triangle_mesh.h>
+
+#include <support/parts/machine_parts.h>
+#include <support/parts/prism_complex.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <initializer_list>
+#include <string>
+#include <vector>
+
+namespace lmdbench::parts {
+namespace {
+
+using Lines = std::vector<double>;
+
+/// `count` equal steps; exact where the step is dyadic.
+Lines steps(int count, double from, double to) {
+  Lines result;
+  for (int i = 0; i <= count; ++i) result.push_back(from + (to - from) * i / count);
+  return result;
+}
+
+/// The sides of `count` bars with gaps between them, about the middle: even steps are bars.
+Lines bars(int count, double bar, double gap) {
+  Lines result = {0.0};
+  for (int i = 0; i < 2 * count - 1; ++i) result.push_back(result.back() + (i % 2 == 0 ? bar : gap));
+  const double half = 0.5 * result.back();
+  for (double& x : result) x -= half;
+  return result;
+}
+
+Outline circle(int count, double radius) {
+  Outline result;
+  for (int i = 0; i < count; ++i) {
+    const auto [x, y] = circle_point(i, count);
+    result.emplace_back(radius * x, radius * y);
+  }
+  return result;
+}
+
+/// Regular polygon with `a_side` points a side: a power of two, so that they lie on it exactly.
+Outline polygon(int sides, double circumradius, int a_side = 1) {
+  const Outline corners = circle(sides, circumradius);
+  Outline result;
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    const Point &a = corners[i], &b = corners[(i + 1) % corners.size()];
+    for (int k = 0; k < a_side; ++k) result.emplace_back(a + (b - a) * (static_cast<double>(k) / a_side));
+  }
+  return result;
+}
+
+bool even(std::size_t i) {
+  return i % 2 == 0;
+}
+
+/// From a profile in the plane of x and height to its extrusion along y.
+Vec3 laid_down(const Vec3& p) {
+  return {p.x(), -p.z(), p.y()};
+}
+
+/// An upright prism of one cell.
+TriangleMesh prism(const Outline& outline, Lines levels) {
+  PrismComplex solid(std::move(levels));
+  solid.add_cell(outline);
+  return solid.mesh();
+}
+
+TriangleMesh box(double x, double y, double z) {
+  return prism({{-x / 2, -y / 2}, {x / 2, -y / 2}, {x / 2, y / 2}, {-x / 2, y / 2}}, {-z / 2, z / 2});
+}
+
+/// Grid of columns; `layers` says which are solid.
+TriangleMesh columns(const Lines& xs, const Lines& ys, const Lines& levels,
+                     const std::function<Layers(std::size_t, std::size_t)>& layers = nullptr,
+                     const std::function<Vec3(const Vec3&)>& place = nullptr) {
+  PrismComplex solid(levels);
+  solid.add_grid(xs, ys, layers);
+  return solid.mesh(place);
+}
+
+/// Extrusion along y of a profile drawn in rows from the highest down: '#' is solid.
+TriangleMesh drawn(const Lines& xs, const Lines& heights, std::initializer_list<const char*> rows,
+                   double length = 1.0) {
+  const std::vector<std::string> picture(rows.begin(), rows.end());
+  return columns(
+      xs, heights, {-length / 2, length / 2},
+      [&](std::size_t i, std::size_t j) {
+        return picture[picture.size() - 1 - j][i] == '#' ? ALL_LAYERS : NO_LAYER;
+      },
+      laid_down);
+}
+
+TriangleMesh tube(const Outline& inner, const Outline& outer, Lines levels,
+                  const std::function<Layers(std::size_t)>& layers = nullptr,
+                  const std::function<Vec3(const Vec3&)>& place = nullptr) {
+  PrismComplex solid(std::move(levels));
+  solid.add_ring(inner, outer, layers);
+  return solid.mesh(place);
+}
+
+/// Discs of decreasing radius, the widest in all layers, the next in those above the first, and so on.
+TriangleMesh tower(int count, const Lines& radii, Lines levels) {
+  PrismComplex solid(std::move(levels));
+  for (std::size_t i = 0; i + 1 < radii.size(); ++i)
+    solid.add_ring(circle(count, radii[i + 1]), circle(count, radii[i]),
+                   [&](std::size_t) { return (Layers{2} << i) - 1; });
+  solid.add_cell(circle(count, radii.back()));
+  return solid.mesh();
+}
+
+/// Straight teeth round a ring or disc: a tooth stands on half of its share of the root.
+TriangleMesh toothed(int teeth, double bore, double root, double tip, Lines levels) {
+  PrismComplex solid(std::move(levels));
+  const Outline foot = circle(4 * teeth, root), head = circle(8 * teeth, tip);
+  if (bore > 0.0)
+    solid.add_ring(circle(4 * teeth, bore), foot);
+  else
+    solid.add_cell(foot);
+  for (std::size_t i = 0; i < foot.size(); i += 4) {
+    solid.add_cell({foot[i], head[2 * i + 1], head[2 * i + 2], foot[i + 1]});
+    solid.add_cell({foot[i + 1], head[2 * i + 2], head[2 * i + 3], foot[i + 2]});
+  }
+  return solid.mesh();
+}
+
+/// The hub that goes round `toothed`.
+TriangleMesh toothed_hub(int teeth, double root, double tip, double outside, Lines levels) {
+  PrismComplex solid(std::move(levels));
+  const Outline foot = circle(4 * teeth, root), head = circle(8 * teeth, tip),
+                rim = circle(8 * teeth, outside);
+  Outline inner, outer;
+  for (std::size_t i = 0; i < foot.size(); i += 4) {
+    inner.insert(inner.end(),
+                 {foot[i], head[2 * i + 1], head[2 * i + 2], head[2 * i + 3], foot[i + 2], foot[i + 3]});
+    for (const std::size_t k : {0, 1, 2, 3, 4, 6}) outer.push_back(rim[2 * i + k]);
+  }
+  solid.add_ring(inner, outer);
+  return solid.mesh();
+}
+
+/// Pointed teeth: `lean` is where between two points of the root a tip stands, from 0 to 1.
+TriangleMesh pointed(int teeth, double bore, double root, double tip, double lean, Lines levels) {
+  PrismComplex solid(std::move(levels));
+  const Outline foot = circle(teeth, root), heads = circle(8 * teeth, tip);
+  solid.add_ring(circle(teeth, bore), foot);
+  const auto at = static_cast<std::size_t>(lean * 8.0);
+  for (std::size_t i = 0; i < foot.size(); ++i)
+    solid.add_cell({foot[i], heads[8 * i + at], foot[(i + 1) % foot.size()]});
+  return solid.mesh();
+}
+
+/// `count` by `count` square tiles with an eight-sided hole each.
+TriangleMesh perforated(int count, double side, double hole, double height) {
+  PrismComplex solid({-height / 2, height / 2});
+  const Lines lines = steps(count, -0.5 * side * count, 0.5 * side * count);
+  for (int j = 0; j < count; ++j) {
+    for (int i = 0; i < count; ++i) {
+      const double x = lines[static_cast<std::size_t>(i)], y = lines[static_cast<std::size_t>(j)];
+      Outline inner = circle(8, hole), outer;
+      for (const Point& p : inner) {
+        const auto onto = [&](double c) {
+          return c > 0.25 * hole ? side : c < -0.25 * hole ? 0.0 : 0.5 * side;
+        };
+        outer.emplace_back(x + onto(p.x()), y + onto(p.y()));
+      }
+      for (Point& p : inner) p += Point(x + 0.5 * side, y + 0.5 * side);
+      solid.add_ring(inner, outer);
+    }
+  }
+  return solid.mesh();
+}
+
+/// Six-sided cells of width 2 `half` with walls of half the thickness each.
+TriangleMesh honeycomb(int columns_of_cells, int rows, double half, double hole) {
+  PrismComplex solid({-0.125, 0.125});
+  const std::array<Point, 6> corner = {{{1, 0.5}, {0, 1}, {-1, 0.5}, {-1, -0.5}, {0, -1}, {1, -0.5}}};
+  for (int j = 0; j < rows; ++j) {
+    for (int i = 0; i < columns_of_cells; ++i) {
+      const Point centre(half * (2 * i + j % 2 - columns_of_cells), half * (1.5 * j - rows));
+      Outline inner, outer;
+      for (const Point& p : corner) {
+        outer.emplace_back(centre + half * p);
+        inner.emplace_back(centre + hole * p);
+      }
+      solid.add_ring(inner, outer);
+    }
+  }
+  return solid.mesh();
+}
+
+/// A frame in which slats lean: holes sheared along x.
+TriangleMesh louvres() {
+  const Lines xs = bars(5, 0.125, 0.09375);
+  return columns(
+      xs, {-0.5, -0.375, 0.375, 0.5}, {-0.0625, 0.0625},
+      [&](std::size_t i, std::size_t j) { return j == 1 && !even(i) ? NO_LAYER : ALL_LAYERS; },
+      [](const Vec3& p) { return Vec3(p.x() + 0.5 * p.z(), p.y(), p.z()); });
+}
+
+/// The twelve edges of a cube.
+TriangleMesh cube_frame(const Lines& at) {
+  return columns(at, at, at, [](std::size_t i, std::size_t j) -> Layers {
+    const int inside = (i == 1) + (j == 1);
+    return inside == 0 ? 0b111 : inside == 1 ? 0b101 : 0b000;
+  });
+}
+
+/// Scales circles by a factor that depends on the height.
+std::function<Vec3(const Vec3&)> turned_on_a_lathe(double (*factor)(double height)) {
+  return [factor](const Vec3& p) { return Vec3(p.x() * factor(p.z()), p.y() * factor(p.z()), p.z()); };
+}
+
+double cone(double height) {
+  return 1.0 - 0.5 * height;
+}
+
+TriangleMesh dome() {
+  PrismComplex solid(steps(4, 0.0, 0.25));
+  solid.add_cell(circle(12, 0.5));
+  return solid.mesh(turned_on_a_lathe([](double height) {
+    return std::ldexp(std::round(std::ldexp(std::sqrt(1.0 - 9.0 * height * height), 10)), -10);
+  }));
+}
+
+TriangleMesh grooved_shaft() {
+  PrismComplex solid({-0.5, -0.25, -0.125, 0.125, 0.25, 0.5});
+  solid.add_cell(circle(16, 0.25));
+  return solid.mesh(turned_on_a_lathe([](double height) { return std::abs(height) < 0.2 ? 0.75 : 1.0; }));
+}
+
+TriangleMesh slotted_tube() {
+  return tube(circle(16, 0.25), circle(16, 0.375), {-0.375, -0.25, 0.25, 0.375},
+              [](std::size_t i) -> Layers { return i % 4 == 0 ? 0b101 : 0b111; });
+}
+
+TriangleMesh castellated_nut() {
+  return tube(circle(24, 0.25), polygon(6, 0.5, 4), {-0.25, 0.0625, 0.25},
+              [](std::size_t i) -> Layers { return i % 4 == 0 ? 0b01 : 0b11; });
+}
+
+TriangleMesh hex_bolt() {
+  PrismComplex solid({-0.5, 0.25, 0.5});
+  const Outline shank = circle(24, 0.25);
+  solid.add_cell(shank);
+  solid.add_ring(shank, polygon(6, 0.5, 4), [](std::size_t) -> Layers { return 0b10; });
+  return solid.mesh();
+}
+
+TriangleMesh cup() {
+  PrismComplex solid({-0.25, -0.125, 0.375});
+  const Outline inner = circle(16, 0.25);
+  solid.add_cell(inner, 0b01);
+  solid.add_ring(inner, circle(16, 0.375));
+  return solid.mesh();
+}
+
+TriangleMesh half_pipe() {
+  // Profile: the lower half of a circle in a block, as a ring of quads.
+  PrismComplex solid({-0.5, 0.5});
+  const Outline round = circle(16, 0.375);
+  for (std::size_t i = 8; i < 16; ++i) {
+    const Point &a = round[i], &b = round[(i + 1) % 16];
+    solid.add_cell({{a.x(), -0.5}, {b.x(), -0.5}, b, a});
+  }
+  return solid.mesh(laid_down);
+}
+
+/// Profile of quads between two outlines of points, from left to right, extruded along y.
+TriangleMesh between(const Outline& low, const Outline& high, double length = 1.0) {
+  PrismComplex solid({-length / 2, length / 2});
+  for (std::size_t i = 0; i + 1 < low.size(); ++i) {
+    Outline cell = {low[i], low[i + 1]};
+    if (high[i + 1] != low[i + 1]) cell.push_back(high[i + 1]);
+    if (high[i] != low[i]) cell.push_back(high[i]);
+    solid.add_cell(cell);
+  }
+  return solid.mesh(laid_down);
+}
+
+/// Teeth along x: corners of one tooth's upper line, repeated.
+TriangleMesh rack(int teeth, const Outline& tooth, double pitch) {
+  Outline low, high;
+  for (int i = 0; i < teeth; ++i)
+    for (const Point& p : tooth) high.emplace_back(p.x() + pitch * (i - 0.5 * teeth), p.y());
+  high.emplace_back(pitch * 0.5 * teeth, tooth.front().y());
+  for (const Point& p : high) low.emplace_back(p.x(), -0.25);
+  return between(low, high);
+}
+
+/// Narrower at the top; its flanks are parallel to those of the way.
+TriangleMesh dovetail() {
+  const double foot = 0.25 - 2.0 * CLEARANCE, head = 0.15625 - 1.5 * CLEARANCE;
+  return between({{-foot, CLEARANCE}, {foot, CLEARANCE}}, {{-head, 0.1875}, {head, 0.1875}}, 0.75);
+}
+
+/// A block with two cheeks that lean over a groove.
+TriangleMesh dovetail_way() {
+  PrismComplex solid({-0.5, 0.5});
+  const double floor = 0.0, top = 0.125, bottom = -0.25;
+  solid.add_cell({{-0.5, bottom}, {-0.25, bottom}, {-0.25, floor}, {-0.5, floor}});
+  solid.add_cell({{-0.25, bottom}, {0.25, bottom}, {0.25, floor}, {-0.25, floor}});
+  solid.add_cell({{0.25, bottom}, {0.5, bottom}, {0.5, floor}, {0.25, floor}});
+  solid.add_cell({{-0.5, floor}, {-0.25, floor}, {-0.1875, top}, {-0.5, top}});
+  solid.add_cell({{0.25, floor}, {0.5, floor}, {0.5, top}, {0.1875, top}});
+  return solid.mesh(laid_down);
+}
+
+TriangleMesh star(int points, double inner, double outer) {
+  PrismComplex solid({-0.0625, 0.0625});
+  const Outline valleys = circle(2 * points, inner), tips = circle(2 * points, outer);
+  solid.add_cell([&] {
+    Outline middle;
+    for (std::size_t i = 1; i < valleys.size(); i += 2) middle.push_back(valleys[i]);
+    return middle;
+  }());
+  for (std::size_t i = 0; i < tips.size(); i += 2)
+    solid.add_cell({valleys[(i + tips.size() - 1) % tips.size()], tips[i], valleys[i + 1]});
+  return solid.mesh();
+}
+
+TriangleMesh involute_gear() {
+  const auto teeth = gear_outline(10, 0.1, 0.002);
+  return make_sleeve(teeth, circle_outline(0.2, teeth), {.height = 0.2, .around = 80});
+}
+
+TriangleMesh peg(int sides) {
+  return prism(polygon(sides, 0.25 - CLEARANCE), {-0.5, 0.5});
+}
+
+TriangleMesh bore(int sides) {
+  return tube(polygon(sides, 0.25), polygon(sides, 0.5), {-0.25, 0.25});
+}
+
+const std::array PARTS = {
+    Part{"plate",
+         [] {
+           return columns(steps(4, -0.5, 0.5), steps(4, -0.5, 0.5), {-0.0625, 0.0625});
+         }},
+    Part{"block", [] { return box(0.5, 0.375, 0.25); }},
+    Part{"ring",
+         [] {
+           return tube(circle(24, 0.25), circle(24, 0.5), {-0.0625, 0.0625});
+         }},
+    Part{"thin ring",
+         [] {
+           return tube(circle(32, 0.375), circle(32, 0.4375), {-0.0625, 0.0625});
+         }},
+    Part{"retaining ring",
+         [] {
+           return tube(circle(24, 0.375), circle(24, 0.5), {-0.0625, 0.0625},
+                       [](std::size_t i) { return i < 3 ? NO_LAYER : ALL_LAYERS; });
+         }},
+    Part{"bush",
+         [] {
+           return tube(circle(16, 0.25), circle(16, 0.375), {-0.375, 0.375});
+         }},
+    Part{"spoked wheel",
+         [] {
+           PrismComplex solid({-0.0625, 0.0625});
+           solid.add_ring(circle(16, 0.0625), circle(16, 0.125));
+           solid.add_ring(circle(16, 0.125), circle(16, 0.375),
+                          [](std::size_t i) { return i % 4 == 0 ? ALL_LAYERS : NO_LAYER; });
+           solid.add_ring(circle(16, 0.375), circle(16, 0.5));
+           return solid.mesh();
+         }},
+    Part{"slit plate",
+         [] {
+           return columns(
+               bars(6, 0.125, 0.0625), {-0.5, -0.375, 0.375, 0.5}, {-0.0625, 0.0625},
+               [](std::size_t i, std::size_t j) { return j == 1 && !even(i) ? NO_LAYER : ALL_LAYERS; });
+         }},
+    Part{"slotted plate",
+         [] {
+           return columns(
+               {-0.5, -0.25, -0.125, 0.125, 0.25, 0.5}, {-0.5, -0.125, 0.5}, {-0.0625, 0.0625},
+               [](std::size_t i, std::size_t j) { return j == 1 && !even(i) ? NO_LAYER : ALL_LAYERS; });
+         }},
+    Part{"comb",
+         [] {
+           return columns(
+               bars(8, 0.0625, 0.0625), {-0.375, -0.25, 0.375}, {-0.0625, 0.0625},
+               [](std::size_t i, std::size_t j) { return j == 1 && !even(i) ? NO_LAYER : ALL_LAYERS; });
+         }},
+    Part{"ribbed plate",
+         [] {
+           return columns(bars(5, 0.0625, 0.125), {-0.5, 0.5}, {-0.125, 0.0, 0.125},
+                          [](std::size_t i, std::size_t) -> Layers { return even(i) ? 0b11 : 0b01; });
+         }},
+    Part{"waffle",
+         [] {
+           return columns(
+               bars(4, 0.0625, 0.1875), bars(4, 0.0625, 0.1875), {-0.125, 0.0, 0.125},
+               [](std::size_t i, std::size_t j) -> Layers { return even(i) || even(j) ? 0b11 : 0b01; });
+         }},
+    Part{"egg crate",
+         [] {
+           return columns(
+               bars(5, 0.03125, 0.1875), bars(5, 0.03125, 0.1875), {-0.125, 0.125},
+               [](std::size_t i, std::size_t j) { return even(i) || even(j) ? ALL_LAYERS : NO_LAYER; });
+         }},
+    Part{"perforated sheet", [] { return perforated(4, 0.25, 0.09375, 0.0625); }},
+    Part{"honeycomb", [] { return honeycomb(3, 4, 0.15625, 0.125); }},
+    Part{"louvres", louvres},
+    Part{"gear",
+         [] {
+           return toothed(12, 0.1875, 0.375, 0.5, {-0.0625, 0.0625});
+         }},
+    Part{"involute gear", involute_gear},
+    Part{"sprocket",
+         [] {
+           return pointed(16, 0.25, 0.375, 0.5, 0.5, {-0.0625, 0.0625});
+         }},
+    Part{"ratchet",
+         [] {
+           return pointed(12, 0.25, 0.375, 0.5, 0.875, {-0.0625, 0.0625});
+         }},
+    Part{"nut",
+         [] {
+           return tube(circle(24, 0.25), polygon(6, 0.5, 4), {-0.125, 0.125});
+         }},
+    Part{"castellated nut", castellated_nut},
+    Part{"hex bolt", hex_bolt},
+    Part{"threaded rod",
+         [] {
+           return make_sleeve(thread_outline(0.25 - CLEARANCE, 0.0625, 0.125), nullptr,
+                              {.height = 0.5, .around = 24, .layers = 16});
+         }},
+    Part{"threaded nut",
+         [] {
+           return make_sleeve(polygon_outline(6, 0.4), thread_outline(0.25, 0.0625, 0.125),
+                              {.height = 0.25, .around = 24, .layers = 8});
+         }},
+    Part{"stepped shaft",
+         [] {
+           return tower(16, {0.375, 0.25, 0.125}, {-0.5, -0.25, 0.125, 0.5});
+         }},
+    Part{"grooved shaft", grooved_shaft},
+    Part{"plain shaft",
+         [] {
+           return prism(circle(16, 0.25 - CLEARANCE), {-0.5, 0.5});
+         }},
+    Part{"square peg", [] { return peg(4); }},
+    Part{"square bore", [] { return bore(4); }},
+    Part{"hexagonal peg", [] { return peg(6); }},
+    Part{"hexagonal bore", [] { return bore(6); }},
+    Part{"peg of 32 sides", [] { return peg(32); }},
+    Part{"bore of 32 sides", [] { return bore(32); }},
+    Part{"key", [] { return box(0.25 - 2.0 * CLEARANCE, 0.5, 0.25); }},
+    Part{"keyway",
+         [] {
+           return drawn({-0.5, -0.125, 0.125, 0.5}, {-0.375, -0.125 - CLEARANCE, 0.125}, {"# #", "###"});
+         }},
+    Part{"T-slot",
+         [] {
+           return drawn({-0.5, -0.25, -0.125, 0.125, 0.25, 0.5}, {-0.25, -0.125, 0.0, 0.125},
+                        {"## ##", "#   #", "#####"});
+         }},
+    Part{"T-nut",
+         [] {
+           return drawn({-0.25 + CLEARANCE, -0.125 + CLEARANCE, 0.125 - CLEARANCE, 0.25 - CLEARANCE},
+                        {-0.125 + CLEARANCE, 0.0 - CLEARANCE, 0.1875}, {" # ", "###"}, 0.5);
+         }},
+    Part{"dovetail", dovetail},
+    Part{"dovetail way", dovetail_way},
+    Part{"L bracket",
+         [] {
+           return drawn({-0.5, -0.375, 0.0, 0.5}, {-0.5, -0.375, 0.0, 0.5}, {"#  ", "#  ", "###"}, 0.5);
+         }},
+    Part{"U channel",
+         [] {
+           return drawn({-0.375, -0.25, 0.25, 0.375}, {-0.25, -0.125, 0.25}, {"# #", "###"});
+         }},
+    Part{"I beam",
+         [] {
+           return drawn({-0.25, -0.0625, 0.0625, 0.25}, {-0.375, -0.25, 0.25, 0.375}, {"###", " # ", "###"});
+         }},
+    Part{"cross",
+         [] {
+           const Lines at = {-0.5, -0.125, 0.125, 0.5};
+           return columns(at, at, {-0.125, 0.125}, [](std::size_t i, std::size_t j) {
+             return i == 1 || j == 1 ? ALL_LAYERS : NO_LAYER;
+           });
+         }},
+    Part{"star", [] { return star(5, 0.25, 0.5); }},
+    Part{"stairs",
+         [] {
+           return drawn(steps(4, -0.5, 0.5), steps(4, -0.25, 0.25), {"#   ", "##  ", "### ", "####"}, 0.5);
+         }},
+    Part{"crenellated wall",
+         [] {
+           return drawn(bars(6, 0.125, 0.0625), {-0.25, 0.0, 0.1875}, {"# # # # # #", "###########"}, 0.125);
+         }},
+    Part{"wedge",
+         [] {
+           return between({{-0.25, 0.0}, {0.25, 0.0}}, {{-0.25, 0.375}, {0.25, 0.0}}, 0.5);
+         }},
+    Part{"ridge",
+         [] {
+           return between({{-0.25, 0.0}, {0.0, -0.25}, {0.25, 0.0}},
+                          {{-0.25, 0.125}, {0.0, 0.125}, {0.25, 0.125}}, 0.75);
+         }},
+    Part{"V-block",
+         [] {
+           const double reach = 0.25 + CLEARANCE;
+           return between({{-0.5, -0.5}, {-reach, -0.5}, {0.0, -0.5}, {reach, -0.5}, {0.5, -0.5}},
+                          {{-0.5, 0.0}, {-reach, 0.0}, {0.0, -reach}, {reach, 0.0}, {0.5, 0.0}});
+         }},
+    Part{"rack",
+         [] {
+           return rack(5, {{0.0, 0.0}, {0.0625, 0.0}, {0.09375, 0.125}, {0.15625, 0.125}}, 0.1875);
+         }},
+    Part{"sawtooth",
+         [] {
+           return rack(6, {{0.0, 0.0}, {0.125, 0.125}}, 0.1875);
+         }},
+    Part{"frustum",
+         [] {
+           PrismComplex solid({-0.25, 0.25});
+           solid.add_cell(circle(12, 0.375));
+           return solid.mesh(turned_on_a_lathe(cone));
+         }},
+    Part{"funnel",
+         [] {
+           return tube(circle(12, 0.375 + CLEARANCE), circle(12, 0.5), {-0.1875, 0.1875}, nullptr,
+                       turned_on_a_lathe(cone));
+         }},
+    Part{"dome", dome},
+    Part{"cup", cup},
+    Part{"slotted tube", slotted_tube},
+    Part{"tray",
+         [] {
+           return columns(
+               {-0.5, -0.375, 0.375, 0.5}, {-0.375, -0.25, 0.25, 0.375}, {-0.25, -0.125, 0.125},
+               [](std::size_t i, std::size_t j) -> Layers { return i == 1 && j == 1 ? 0b01 : 0b11; });
+         }},
+    Part{"box for the tray",
+         [] { return box(0.75 - 2.0 * CLEARANCE, 0.5 - 2.0 * CLEARANCE, 0.25 - 2.0 * CLEARANCE); }},
+    Part{"spline shaft",
+         [] {
+           return toothed(8, 0.0, 0.1875 - CLEARANCE, 0.25 - CLEARANCE, {-0.375, 0.375});
+         }},
+    Part{"spline hub",
+         [] {
+           return toothed_hub(8, 0.1875, 0.25, 0.375, {-0.125, 0.125});
+         }},
+    Part{"cage",
+         [] {
+           return cube_frame({-0.5, -0.375, 0.375, 0.5});
+         }},
+    Part{"cross-drilled cube", [] { return cube_frame(steps(3, -0.375, 0.375)); }},
+    Part{"pyramid of steps",
+         [] {
+           return columns(steps(6, -0.375, 0.375), steps(6, -0.375, 0.375),
+                          {-0.1875, -0.0625, 0.0625, 0.1875}, [](std::size_t i, std::size_t j) -> Layers {
+                            const std::size_t in = std::min({i, j, 5 - i, 5 - j});
+                            return (Layers{2} << in) - 1;
+                          });
+         }},
+    Part{"half pipe", half_pipe},
+};
+
+}  // namespace
+
+std::span<const Part> machine_parts() {
+  return PARTS;
+}
+
+TriangleMesh make_machine_part(std::string_view name) {
+  const auto* const part =
+      std::find_if(PARTS.begin(), PARTS.end(), [&](const Part& p) { return name == p.name; });
+  if (part == PARTS.end())
+    throw UsageError("", "part", "there is no machine part '" + std::string(name) + "'",
+                     "see machine_parts.cpp");
+  return part->make();
+}
+
+}  // namespace lmdbench::parts

@@ -1,0 +1,29 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <lmdbench/mesh/triangle_mesh.h>
+
+#include <span>
+#include <string_view>
+
+/// Machine parts as exact meshes: plates with holes and slots, rings, gears, threads, ribs, shafts, and what goes into
+/// what. About a metre large, closed manifolds without T-junctions; the same bits on every processor. Coordinates are
+/// dyadic fractions or multiples of the sines of rounded_circle.h, so that faces square to the axes are flat to the bit.
+namespace lmdbench::parts {
+
+struct Part {
+  const char* name;
+  TriangleMesh (*make)();
+};
+
+/// All of them, by name.
+std::span<const Part> machine_parts();
+
+/// @throws UsageError for an unknown name
+TriangleMesh make_machine_part(std::string_view name);
+
+/// Play between a part and the one that it goes into [m].
+inline constexpr double CLEARANCE = 1.0 / 128.0;
+
+}  // namespace lmdbench::parts

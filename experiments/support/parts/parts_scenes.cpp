@@ -1,0 +1,396 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/base/error.h>
+#include <lmdbench/catalogue/shapes.h>
+#include <lmdbench/mesh/flatten.h>
+#include <lmdbench/snch/minimum_distance.h>
+
+#include <support/parts/machine_parts.h>
+#include <support/parts/parts_scenes.h>
+#include <support/parts/recut.h>
+#include <support/random.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <numbers>
+#include <utility>
+
+namespace lmdbench::parts {
+namespace {
+
+using experiments::Random;
+
+/// The parts are about 1 m large.
+constexpr double CUTOFF = 0.04;
+constexpr double TAU = 2.0 * std::numbers::pi;
+
+const std::array KINDS = {
+    PartsKind{"plate on plate", "plate", "plate"},
+    PartsKind{"block on block", "block", "block"},
+    PartsKind{"ring on ring", "ring", "ring"},
+    PartsKind{"gear on gear", "gear", "gear"},
+    PartsKind{"involute gear on involute gear", "involute gear", "involute gear"},
+    PartsKind{"slit plate on ring", "slit plate", "ring"},
+    PartsKind{"slit plate on slit plate", "slit plate", "slit plate"},
+    PartsKind{"nut on slotted plate", "nut", "slotted plate"},
+    PartsKind{"comb on comb", "comb", "comb"},
+    PartsKind{"ribbed plate on ribbed plate", "ribbed plate", "ribbed plate"},
+    PartsKind{"waffle on egg crate", "waffle", "egg crate"},
+    PartsKind{"egg crate on egg crate", "egg crate", "egg crate"},
+    PartsKind{"perforated sheet on perforated sheet", "perforated sheet", "perforated sheet"},
+    PartsKind{"block on perforated sheet", "block", "perforated sheet"},
+    PartsKind{"honeycomb on louvres", "honeycomb", "louvres"},
+    PartsKind{"honeycomb on honeycomb", "honeycomb", "honeycomb"},
+    PartsKind{"thin ring on spoked wheel", "thin ring", "spoked wheel"},
+    PartsKind{"retaining ring on gear", "retaining ring", "gear"},
+    PartsKind{"sprocket on ratchet", "sprocket", "ratchet"},
+    PartsKind{"castellated nut on nut", "castellated nut", "nut"},
+    PartsKind{"hex bolt on ring", "hex bolt", "ring"},
+    PartsKind{"stepped shaft on plate", "stepped shaft", "plate"},
+    PartsKind{"grooved shaft on U channel", "grooved shaft", "U channel"},
+    PartsKind{"bush on cross", "bush", "cross"},
+    PartsKind{"T-nut on keyway", "T-nut", "keyway"},
+    PartsKind{"L bracket on I beam", "L bracket", "I beam"},
+    PartsKind{"star on star", "star", "star"},
+    PartsKind{"cross on star", "cross", "star"},
+    PartsKind{"stairs on stairs", "stairs", "stairs"},
+    PartsKind{"crenellated wall on crenellated wall", "crenellated wall", "crenellated wall"},
+    PartsKind{"wedge on stairs", "wedge", "stairs"},
+    PartsKind{"frustum on perforated sheet", "frustum", "perforated sheet"},
+    PartsKind{"dome on egg crate", "dome", "egg crate"},
+    PartsKind{"cup on tray", "cup", "tray"},
+    PartsKind{"slotted tube on slotted plate", "slotted tube", "slotted plate"},
+    PartsKind{"cage on cage", "cage", "cage"},
+    PartsKind{"cross-drilled cube on waffle", "cross-drilled cube", "waffle"},
+    PartsKind{"pyramid on pyramid", "pyramid of steps", "pyramid of steps"},
+    PartsKind{"half pipe on rack", "half pipe", "rack"},
+    PartsKind{"rack on rack", "rack", "rack"},
+    PartsKind{"sawtooth on sawtooth", "sawtooth", "sawtooth"},
+    PartsKind{"louvres on comb", "louvres", "comb"},
+    PartsKind{"V-block on ridge", "V-block", "ridge"},
+    PartsKind{"threaded rod on V-block", "threaded rod", "V-block"},
+    PartsKind{"spline shaft on ring", "spline shaft", "ring"},
+    PartsKind{"funnel on frustum", "funnel", "frustum"},
+    PartsKind{"square peg in its bore", "square peg", "square bore", true},
+    PartsKind{"hexagonal peg in its bore", "hexagonal peg", "hexagonal bore", true},
+    PartsKind{"peg of 32 sides in its bore", "peg of 32 sides", "bore of 32 sides", true},
+    PartsKind{"shaft in bush", "plain shaft", "bush", true},
+    PartsKind{"key in keyway", "key", "keyway", true},
+    PartsKind{"T-nut in T-slot", "T-nut", "T-slot", true},
+    PartsKind{"dovetail in its way", "dovetail", "dovetail way", true},
+    PartsKind{"box in tray", "box for the tray", "tray", true},
+    PartsKind{"spline shaft in its hub", "spline shaft", "spline hub", true},
+    PartsKind{"threaded rod in threaded nut", "threaded rod", "threaded nut", true},
+    PartsKind{"frustum in funnel", "frustum", "funnel", true},
+    PartsKind{"ridge in V-block", "ridge", "V-block", true},
+    PartsKind{"any part on any part", "", ""},
+};
+
+std::size_t pick(std::size_t count, Random& random) {
+  return static_cast<std::size_t>(random.uniform() * static_cast<double>(count));
+}
+
+bool chance(double probability, Random& random) {
+  return random.uniform() < probability;
+}
+
+/// 10^U(low, high), of either sign.
+double decades(double low, double high, Random& random) {
+  const double size = std::pow(10.0, random.uniform(low, high));
+  return chance(0.5, random) ? size : -size;
+}
+
+/// One of the 24 turns of a cube: exact.
+Mat3 quarter_turns(Random& random) {
+  std::array<Eigen::Index, 3> axis = {0, 1, 2};
+  for (std::size_t i = 3; i > 1; --i) std::swap(axis[i - 1], axis[pick(i, random)]);
+  Mat3 turn = Mat3::Zero();
+  for (Eigen::Index i = 0; i < 3; ++i)
+    turn(i, axis[static_cast<std::size_t>(i)]) = chance(0.5, random) ? 1.0 : -1.0;
+  if (turn.determinant() < 0.0) turn.row(0) *= -1.0;
+  return turn;
+}
+
+/// As it is made, turned about the vertical axis, or on any of its sides.
+TriangleMesh on_some_side(TriangleMesh mesh, Random& random) {
+  const Mat3 turn = quarter_turns(random);
+  if (chance(0.6, random)) return mesh;
+  for (Vec3& p : mesh.vertices) p = turn * p;
+  return mesh;
+}
+
+/// Height of the highest vertices in a direction along z, and what lies there.
+struct Level {
+  double height = 0.0;
+  std::vector<Vec3> corners;
+  std::vector<std::array<Vec3, 2>> borders;
+};
+
+/// @param up 1 for the upper side, -1 for the lower one
+Level level_of(const TriangleMesh& mesh, const Eigen::Quaterniond& rotation, double up) {
+  std::vector<Vec3> vertices;
+  for (const Vec3& p : mesh.vertices) vertices.push_back(rotation * p);
+  double height = -std::numeric_limits<double>::infinity();
+  for (const Vec3& p : vertices) height = std::max(height, up * p.z());
+  const auto there = [&](std::int32_t v) {
+    return up * vertices[static_cast<std::size_t>(v)].z() >= height - 1e-9;
+  };
+  Level level{up * height, {}, {}};
+  for (const auto& corners : mesh.triangles) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      const std::int32_t a = corners[i], b = corners[(i + 1) % 3];
+      if (!there(a)) continue;
+      level.corners.push_back(vertices[static_cast<std::size_t>(a)]);
+      if (there(b)) level.borders.push_back({level.corners.back(), vertices[static_cast<std::size_t>(b)]});
+    }
+  }
+  return level;
+}
+
+double angle_of(const std::array<Vec3, 2>& border) {
+  const Vec3 way = border[1] - border[0];
+  return std::atan2(way.y(), way.x());
+}
+
+Eigen::Quaterniond about_z(double angle) {
+  // So that no turn is none to the bit.
+  return angle == 0.0 ? Eigen::Quaterniond::Identity()
+                      : Eigen::Quaterniond(Eigen::AngleAxisd(angle, Vec3::UnitZ()));
+}
+
+Vec3 level_direction(Random& random) {
+  if (chance(0.3, random)) return pick(2, random) == 0 ? Vec3::UnitX() : Vec3::UnitY();
+  const double angle = TAU * random.uniform();
+  return {std::cos(angle), std::sin(angle), 0.0};
+}
+
+/// None, or tiny.
+double tiny(double share, double low, double high, Random& random) {
+  return chance(share, random) ? decades(low, high, random) : 0.0;
+}
+
+/// From overlap over touch to the cutoff.
+double draw_gap(Random& random) {
+  const double kind = random.uniform();
+  if (kind < 0.08) return 0.0;
+  if (kind < 0.16) return -std::pow(10.0, random.uniform(-9.0, -2.0));
+  if (kind < 0.6) return CUTOFF * std::pow(10.0, random.uniform(-9.0, 0.0));
+  return CUTOFF * random.uniform();
+}
+
+/// Multiples of 2^-24.
+double dyadic(double x) {
+  return std::ldexp(std::round(std::ldexp(x, 24)), -24);
+}
+
+class PoseMaker {
+ public:
+  PoseMaker(const PartsDesign& design, bool nested, PoseFamily family)
+      : design_(design),
+        nested_(nested),
+        flush_(family == PoseFamily::FLUSH),
+        moving_("moving", build_surface(design.moving)),
+        fixed_("fixed", build_surface(design.fixed)) {}
+
+  Pose unrelated(Random& random) const {
+    Pose pose = nested_ ? in_it(random) : on_it(random);
+    if (flush_)
+      for (double& x : pose.translation) x = dyadic(x);
+    return pose;
+  }
+
+ private:
+  /// A side lies over the other's.
+  Pose on_it(Random& random) const {
+    Pose pose;
+    const double alignment = random.uniform();
+    double spin = chance(0.4, random) ? 0.0 : TAU * random.uniform();
+    if (!flush_ && spin == 0.0) spin += tiny(0.3, -14.0, -4.0, random);
+    const Level above = level_of(design_.fixed, Eigen::Quaterniond::Identity(), 1.0);
+    Level below = level_of(design_.moving, about_z(spin), -1.0);
+    const double reach =
+        0.4 * (bounding_box_diagonal(design_.moving) + bounding_box_diagonal(design_.fixed)) / 2.0;
+    const double offset = tiny(0.6, -16.0, -5.0, random);
+    if (alignment < 0.15) {
+      // A corner over a corner.
+      const Vec3 &on = above.corners[pick(above.corners.size(), random)],
+                 &at = below.corners[pick(below.corners.size(), random)];
+      pose.translation = on - at + offset * level_direction(random);
+    } else if (alignment < 0.35 && !above.borders.empty() && !below.borders.empty()) {
+      // A border along a border.
+      const auto& on = above.borders[pick(above.borders.size(), random)];
+      const std::size_t which = pick(below.borders.size(), random);
+      if (spin != 0.0 && !flush_) {
+        spin += angle_of(on) - angle_of(below.borders[which]) + (chance(0.5, random) ? 0.0 : 0.5 * TAU) +
+                tiny(0.5, -14.0, -4.0, random);
+        below = level_of(design_.moving, about_z(spin), -1.0);
+      }
+      const auto& at = below.borders[std::min(which, below.borders.size() - 1)];
+      const Vec3 along = (on[1] - on[0]).normalized();
+      pose.translation = on[0] + random.uniform() * (on[1] - on[0]) - at[0] -
+                         random.uniform() * (at[1] - at[0]) + offset * along.cross(Vec3::UnitZ());
+    } else if (alignment < 0.5) {
+      // Steps of a sixteenth: what the parts are made of.
+      for (double& x : pose.translation) x = std::round(random.uniform(-8.0, 8.0)) / 16.0 + offset;
+    } else {
+      for (double& x : pose.translation) x = random.uniform(-reach, reach);
+    }
+    pose.rotation = about_z(spin);
+    const double tilt = flush_ ? 0.0 : tiny(0.6, -13.0, -3.0, random);
+    if (tilt != 0.0) pose.rotation = Eigen::AngleAxisd(tilt, level_direction(random)) * pose.rotation;
+    const double gap = flush_ ? CUTOFF * std::pow(10.0, random.uniform(-5.0, 0.0)) : draw_gap(random);
+    pose.translation.z() = above.height - below.height + std::max(gap, std::abs(tilt));
+    if (gap > 0.0) descend(pose, gap);
+    if (gap <= 0.0 || chance(0.5, random)) pose.translation.z() = above.height - below.height + gap;
+    return pose;
+  }
+
+  /// Distance is 1-Lipschitz in translation: a few steps of what is left come near enough.
+  void descend(Pose& pose, double gap) const {
+    for (int step = 0; step < 6; ++step) {
+      const double left = nearest_pair(moving_.surface(), moving_.prepared<Hierarchy>(), fixed_.surface(),
+                                       fixed_.prepared<Hierarchy>(), pose)
+                              .distance -
+                          gap;
+      if (!(left > 1e-3 * gap)) break;
+      pose.translation.z() -= left;
+    }
+  }
+
+  /// Off its seat by some of the clearance.
+  Pose in_it(Random& random) const {
+    Pose pose;
+    const double how = random.uniform();
+    double off = CLEARANCE * random.uniform();
+    if (how < 0.3) off = 0.0;
+    if (!flush_ && how > 0.6) off = CLEARANCE * (1.0 - decades(-9.0, -2.0, random));
+    if (!flush_ && how > 0.9) off = CLEARANCE;
+    pose.translation = off * level_direction(random);
+    const double lift = random.uniform();
+    if (lift > 0.3) pose.translation.z() = CLEARANCE * random.uniform(-1.0, 1.0);
+    if (lift > 0.6) pose.translation.z() = random.uniform(-0.25, 0.25);
+    if (flush_) return pose;
+    pose.rotation = about_z(tiny(0.5, -13.0, -2.0, random));
+    const double tilt = tiny(0.5, -13.0, -2.5, random);
+    if (tilt != 0.0) pose.rotation = Eigen::AngleAxisd(tilt, level_direction(random)) * pose.rotation;
+    return pose;
+  }
+
+  const PartsDesign& design_;
+  bool nested_, flush_;
+  Body moving_, fixed_;
+};
+
+/// A mesh as its file holds it, and the turn that brings it there.
+struct File {
+  std::shared_ptr<const Body> body;
+  Pose X_FD;  ///< From the frame of the design to that of the file.
+};
+
+File file_of(const char* name, TriangleMesh mesh, Coordinates coordinates, Random& random) {
+  File file;
+  if (coordinates == Coordinates::RECUT) mesh = recut(std::move(mesh), random);
+  if (coordinates == Coordinates::TURNED || coordinates == Coordinates::ROUNDED) {
+    file.X_FD.rotation = random.rotation();
+    for (double& x : file.X_FD.translation) x = random.uniform(-0.5, 0.5);
+    const RigidTransform X(file.X_FD);
+    for (Vec3& p : mesh.vertices) p = X.point(p);
+  }
+  if (coordinates == Coordinates::ROUNDED) {
+    mesh = turned_to_floats(std::move(mesh), Eigen::Quaterniond::Identity());
+    flatten(mesh);
+  }
+  file.body = std::make_shared<const Body>(name, build_surface(std::move(mesh)));
+  return file;
+}
+
+std::size_t number_of(const PartsKind& kind) {
+  return static_cast<std::size_t>(&kind - KINDS.data());
+}
+
+/// Far from each other, so that no two scenes draw the same numbers.
+Random random_of(const PartsChoice& choice, std::uint64_t stream) {
+  const std::uint64_t scene =
+      (choice.seed * KINDS.size() + number_of(parts_kind(choice.kind))) * 0x9E3779B97F4A7C15ULL;
+  return Random(scene + 8 * choice.index + stream);
+}
+
+}  // namespace
+
+const char* name_of(Coordinates coordinates) {
+  switch (coordinates) {
+    case Coordinates::EXACT:
+      return "exact";
+    case Coordinates::TURNED:
+      return "turned";
+    case Coordinates::ROUNDED:
+      return "rounded";
+    case Coordinates::RECUT:
+      break;
+  }
+  return "recut";
+}
+
+std::span<const PartsKind> parts_kinds() {
+  return KINDS;
+}
+
+const PartsKind& parts_kind(std::string_view name) {
+  const auto found =
+      std::find_if(KINDS.begin(), KINDS.end(), [&](const PartsKind& kind) { return name == kind.name; });
+  if (found == KINDS.end()) {
+    std::string names;
+    for (const PartsKind& kind : KINDS) names += std::string(names.empty() ? "" : ", ") + kind.name;
+    throw UsageError("", "--kind", "there is no kind '" + std::string(name) + "'", "one of: " + names);
+  }
+  return *found;
+}
+
+PartsDesign make_parts_design(const PartsChoice& choice) {
+  const PartsKind& kind = parts_kind(choice.kind);
+  Random random = random_of(choice, choice.poses == PoseFamily::FLUSH ? 1 : 0);
+  const auto part = [&](const char* name) {
+    return *name != '\0' ? make_machine_part(name)
+                         : machine_parts()[pick(machine_parts().size(), random)].make();
+  };
+  PartsDesign design{part(kind.moving), part(kind.fixed), {}};
+  if (!kind.nested) {
+    design.moving = on_some_side(std::move(design.moving), random);
+    design.fixed = on_some_side(std::move(design.fixed), random);
+  }
+  const PoseMaker maker(design, kind.nested, choice.poses);
+  const bool slides = choice.poses == PoseFamily::ANY && chance(0.5, random);
+  const double step = std::pow(10.0, random.uniform(-6.0, -2.0));
+  const Vec3 way = step * level_direction(random);
+  const Eigen::Quaterniond turn = about_z(tiny(0.5, std::log10(step) - 2.0, std::log10(step), random));
+  for (std::size_t i = 0; i < POSES_A_SCENE; ++i) {
+    if (!slides || i == 0) {
+      design.poses.push_back(maker.unrelated(random));
+      continue;
+    }
+    Pose next = design.poses.back();
+    next.translation += way;
+    if (turn.w() != 1.0 || turn.z() != 0.0) next.rotation = (turn * next.rotation).normalized();
+    design.poses.push_back(next);
+  }
+  return design;
+}
+
+PartsScene make_parts_scene(const PartsChoice& choice) {
+  PartsDesign design = make_parts_design(choice);
+  Random random = random_of(choice, 2 + static_cast<std::uint64_t>(choice.coordinates));
+  PartsScene result;
+  result.diagonal = bounding_box_diagonal(design.fixed);
+  const File moving = file_of("moving", std::move(design.moving), choice.coordinates, random);
+  const File fixed = file_of("fixed", std::move(design.fixed), choice.coordinates, random);
+  result.scene = {moving.body, {fixed.body}, CUTOFF};
+  const bool moved = choice.coordinates == Coordinates::TURNED || choice.coordinates == Coordinates::ROUNDED;
+  for (const Pose& X_DA : design.poses)
+    result.poses.push_back(moved ? fixed.X_FD * X_DA * moving.X_FD.inverse() : X_DA);
+  return result;
+}
+
+}  // namespace lmdbench::parts

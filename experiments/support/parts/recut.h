@@ -1,0 +1,16 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <lmdbench/mesh/triangle_mesh.h>
+
+#include <support/random.h>
+
+namespace lmdbench::parts {
+
+/// The same shape cut into other triangles: some edges are halved, diagonals of flat quadrilaterals turned, and vertices
+/// and triangles stand in another order. Closed where the mesh is, and exact where its coordinates have bits to spare.
+/// @pre every edge has two triangles that agree on orientation
+TriangleMesh recut(TriangleMesh mesh, experiments::Random& random);
+
+}  // namespace lmdbench::parts
