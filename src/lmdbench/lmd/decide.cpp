@@ -134,13 +134,12 @@ class Decision {
     const Plane plane_m = moving_.plane(r_moving), plane_f = fixed_.plane(r_fixed);
     if ((plane_m.normal + plane_f.normal).norm() > tolerance_.largest_tilt) return;
     const Vec3 n = direction_of(plane_m.normal, plane_f.normal);
-    const PlanarFrame frame(plane_f.point, n);
+    const PlanarFrame frame = frame_of_overlap(moving_, r_moving, fixed_, r_fixed, plane_f.point, n);
     const auto gap_at = [&](const Vec3& x) { return height_to(plane_f, n, x) - height_to(plane_m, n, x); };
     // Nearly parallel planes: their distance somewhere near bounds it all over.
     const double spread = tolerance_.largest_tilt * 4.0 * tolerance_.coordinates;
     const double somewhere = gap_at(plane_f.point);
     if (somewhere < -tolerance_.rounding - spread || somewhere > tolerance_.reach + spread) return;
-    std::vector<Vec2> corners;
     for (OverlapPart& part :
          overlap_of_regions(moving_, r_moving, fixed_, r_fixed, frame, SLIVER * tolerance_.rounding)) {
       Extent gaps;

@@ -23,6 +23,8 @@ namespace {
 
 /// Pairs of features that a contact lies on, beyond which it is not looked for in buckets: hubs of fans.
 constexpr std::size_t MOST_CARRIER_PAIRS = 256;
+/// Polygons of more pieces get a grid of them.
+constexpr std::size_t PIECES_WITHOUT_GRID = 8;
 /// Relative difference within which two pieces are equally near to a centroid: rounding must not choose the name of a
 /// symmetric contact.
 constexpr double EQUALLY_NEAR = 1e-9;
@@ -85,6 +87,7 @@ class Joining {
     std::iota(parents_.begin(), parents_.end(), std::size_t{0});
     carriers_moving_.resize(contacts_.size());
     carriers_fixed_.resize(contacts_.size());
+    grids_.resize(set_.frames.size());
     join_what_meets();
     join_over_level_ways();
     report_all(lmds);
@@ -255,7 +258,7 @@ class Joining {
   }
 
   /// Whether the places of two contacts come within the tolerance of each other.
-  bool meet(const Contact& a, const Contact& b) const {
+  bool meet(const Contact& a, const Contact& b) {
     if (a.dimension < b.dimension) return meet(b, a);
     const double reach = tolerance_.known;
     if (a.dimension == 0)
@@ -274,13 +277,14 @@ class Joining {
     }
     const PlanarFrame& frame = set_.frames[a.frame];
     const auto touches = [&](const ConvexPolygon& other) {
-      return std::ranges::any_of(set_.pieces_of(a),
-                                 [&](const ConvexPolygon& piece) { return piece.touches(other, reach); });
+      return any_piece_near(a, other.box(), reach,
+                            [&](const ConvexPolygon& piece) { return piece.touches(other, reach); });
     };
     if (b.dimension == 0) {
+      Box2 box;
       const Vec2 x = frame.flat(b.point_fixed);
-      return std::ranges::any_of(set_.pieces_of(a),
-                                 [&](const ConvexPolygon& piece) { return piece.holds(x, reach); });
+      box.add(x);
+      return any_piece_near(a, box, reach, [&](const ConvexPolygon& piece) { return piece.holds(x, reach); });
     }
     if (b.dimension == 1)
       return touches(ConvexPolygon({frame.flat(b.ends_fixed[0]), frame.flat(b.ends_fixed[1])}));
@@ -289,6 +293,24 @@ class Joining {
       for (Vec2& corner : piece.corners) corner = frame.flat(other.lifted(corner));
       return touches(piece);
     });
+  }
+
+  /// Whether a piece of a polygon that may come within reach of a box fits.
+  template <class Fits>
+  bool any_piece_near(const Contact& contact, const Box2& box, double reach, Fits&& fits) {
+    const auto pieces = set_.pieces_of(contact);
+    if (pieces.size() <= PIECES_WITHOUT_GRID) return std::ranges::any_of(pieces, fits);
+    // Asked for by each corner and chain of a large contact.
+    std::optional<BoxGrid>& grid = grids_[contact.frame];
+    if (!grid) {
+      std::vector<Box2> boxes;
+      for (const ConvexPolygon& piece : pieces) boxes.push_back(piece.box());
+      grid.emplace(boxes);
+    }
+    bool found = false;
+    grid->for_each_near(box, reach,
+                        [&](std::int32_t i) { found = found || fits(pieces[static_cast<std::size_t>(i)]); });
+    return found;
   }
 
   /// Joins points and segments apart from each other between which the distance stays the same: next to touch, where the ends of
@@ -308,15 +330,35 @@ class Joining {
       while (end < entries.size() && entries[end].moving == entries[begin].moving &&
              entries[end].fixed == entries[begin].fixed)
         ++end;
-      // In the order of distance, as contacts_ are.
-      for (std::size_t k = begin; k < end; ++k)
-        for (std::size_t l = k + 1; l < end; ++l) {
-          const Contact &a = contacts_[entries[k].contact], &b = contacts_[entries[l].contact];
-          if (b.distance - a.distance > granted(a, b)) break;
-          if (root_of(entries[k].contact) == root_of(entries[l].contact)) continue;
-          if (is_level_way(entries[begin], a, b)) join(entries[k].contact, entries[l].contact);
-        }
+      join_in_bucket(std::span(entries).subspan(begin, end - begin));
       begin = end;
+    }
+  }
+
+  /// Of contacts on one pair of features nearly all are one already, those of a face that lies on another one by the thousand:
+  /// only the others look for a way.
+  void join_in_bucket(std::span<const OnCarriers> bucket) {
+    std::vector<std::size_t> roots;
+    for (const OnCarriers& entry : bucket) roots.push_back(root_of(entry.contact));
+    std::vector<std::size_t> sorted = roots;
+    std::ranges::sort(sorted);
+    std::size_t most = sorted.front(), count = 0;
+    for (std::size_t i = 0, run = 0; i < sorted.size(); ++i) {
+      run = i > 0 && sorted[i] == sorted[i - 1] ? run + 1 : 1;
+      if (run > count) {
+        count = run;
+        most = sorted[i];
+      }
+    }
+    for (std::size_t k = 0; k < bucket.size(); ++k) {
+      if (roots[k] == most) continue;
+      const std::size_t i = bucket[k].contact;
+      for (const OnCarriers& other : bucket) {
+        const Contact &a = contacts_[i], &b = contacts_[other.contact];
+        if (root_of(i) == root_of(other.contact) || std::abs(a.distance - b.distance) > granted(a, b))
+          continue;
+        if (is_level_way(bucket.front(), a, b)) join(i, other.contact);
+      }
     }
   }
 
@@ -461,7 +503,7 @@ class Joining {
 
   /// The nearest. Of several at one distance that are apart, one between features of the highest kind, which is where the
   /// minimum stays when the meshes are tilted further; of those in one place the first by name.
-  const Contact& nearest_contact(std::vector<const Contact*> contacts) const {
+  const Contact& nearest_contact(std::vector<const Contact*> contacts) {
     const double least =
         (*std::ranges::min_element(contacts, {}, [](const Contact* c) { return c->distance; }))->distance;
     std::erase_if(contacts,
@@ -539,6 +581,7 @@ class Joining {
   std::vector<Contact>& contacts_;
   double last_granted_ = 0.0;
   std::vector<std::size_t> company_, parents_;
+  std::vector<std::optional<BoxGrid>> grids_;  ///< Of the polygons of many pieces, one a frame.
   std::vector<std::optional<std::vector<std::int32_t>>> carriers_moving_, carriers_fixed_;
 };
 

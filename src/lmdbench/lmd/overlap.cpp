@@ -6,9 +6,6 @@
 #include <Eigen/LU>
 
 #include <algorithm>
-#include <array>
-#include <map>
-#include <numeric>
 #include <utility>
 
 namespace lmdbench {
@@ -19,7 +16,12 @@ namespace {
 /// small angle to the side it moves the segment's ends by as much over that angle.
 constexpr double SIDE_ROUNDING = 0.125;
 
-/// A region's pieces in the frame of an overlap.
+void append_sides_of(const ConvexPolygon& polygon, std::vector<PolygonSide>& sides) {
+  for (std::size_t k = 0; k < polygon.corners.size(); ++k)
+    sides.push_back({polygon.corners[k], polygon.corners[(k + 1) % polygon.corners.size()]});
+}
+
+/// A region in the frame of an overlap.
 class PlacedRegion {
  public:
   PlacedRegion(const ShapeSide& side, std::int32_t region, const PlanarFrame& frame_W)
@@ -75,8 +77,16 @@ class PlacedRegion {
     near.erase(std::unique(near.begin(), near.end()), near.end());
   }
 
-  std::span<const std::int32_t> neighbours(std::int32_t piece) const {
-    return shape_ == nullptr ? std::span<const std::int32_t>() : shape_->piece_neighbours[piece];
+  /// Appends the sides of the border.
+  void append_sides(std::vector<PolygonSide>& sides) const {
+    if (shape_ == nullptr) {
+      append_sides_of(single_, sides);
+      return;
+    }
+    for (const PolygonSide& side : shape_->sides) {
+      const Vec2 from = origin_ + turn_ * side.from, to = origin_ + turn_ * side.to;
+      sides.push_back(is_turned_over_ ? PolygonSide{to, from} : PolygonSide{from, to});
+    }
   }
 
  private:
@@ -87,25 +97,8 @@ class PlacedRegion {
   bool is_turned_over_ = false;
 };
 
-struct Cut {
-  std::int32_t of_moving, of_fixed;
-  ConvexPolygon polygon;
-  Box2 box;
-};
-
-/// Whether a polygon is no wider than a length: by its area, over its longest side.
-bool is_no_wider(const ConvexPolygon& polygon, double area, double width) {
-  double longest = 0.0;
-  for (std::size_t k = 0; k < polygon.corners.size(); ++k)
-    longest =
-        std::max(longest, (polygon.corners[(k + 1) % polygon.corners.size()] - polygon.corners[k]).norm());
-  return !(area > width * longest);
-}
-
-std::size_t root_of(std::vector<std::size_t>& parents, std::size_t i) {
-  while (parents[i] != i) i = parents[i] = parents[parents[i]];
-  return i;
-}
+/// Regions of more pieces hand on only those near the other region.
+constexpr std::size_t FEW_PIECES = 16;
 
 }  // namespace
 
@@ -113,66 +106,53 @@ std::vector<OverlapPart> overlap_of_regions(const ShapeSide& moving, std::int32_
                                             const ShapeSide& fixed, std::int32_t region_fixed,
                                             const PlanarFrame& frame_W, double rounding) {
   const PlacedRegion a(moving, region_moving, frame_W), b(fixed, region_fixed, frame_W);
-  const bool ask_b = a.size() <= b.size();
-  const PlacedRegion &few = ask_b ? a : b, &many = ask_b ? b : a;
-  std::vector<Cut> cuts;
-  std::vector<std::int32_t> near;
-  for (std::size_t i = 0; i < few.size(); ++i) {
-    const ConvexPolygon own = few.piece(i);
-    many.find_near(own.corners, rounding, near);
-    for (const std::int32_t j : near) {
-      const ConvexPolygon other = many.piece(static_cast<std::size_t>(j));
-      if (!own.touches(other, 0.0)) continue;
-      ConvexPolygon cut = ask_b ? own.cut_by(other) : other.cut_by(own);
-      if (is_no_wider(cut, cut.measure().area, rounding)) continue;
-      const auto index = static_cast<std::int32_t>(i);
-      const Box2 box = cut.box();
-      cuts.push_back({ask_b ? index : j, ask_b ? j : index, std::move(cut), box});
-    }
+  const PlacedRegion &few = a.size() <= b.size() ? a : b, &many = a.size() <= b.size() ? b : a;
+  std::vector<PolygonSide> of_few, of_many;
+  few.append_sides(of_few);
+  if (many.size() <= FEW_PIECES) {
+    many.append_sides(of_many);
+  } else {
+    std::vector<Vec2> corners;
+    for (const PolygonSide& side : of_few) corners.push_back(side.from);
+    std::vector<std::int32_t> near;
+    many.find_near(corners, rounding, near);
+    // All that is near is more than the border.
+    if (2 * near.size() > many.size())
+      many.append_sides(of_many);
+    else
+      for (const std::int32_t j : near) append_sides_of(many.piece(static_cast<std::size_t>(j)), of_many);
   }
-  const auto key = [](const Cut& cut) { return std::pair(cut.of_moving, cut.of_fixed); };
-  std::ranges::sort(cuts, [&](const Cut& x, const Cut& y) { return key(x) < key(y); });
-
-  std::vector<std::size_t> parents(cuts.size());
-  std::iota(parents.begin(), parents.end(), std::size_t{0});
-  const auto join_with = [&](std::size_t k, std::int32_t i, std::int32_t j) {
-    const std::pair wanted(i, j);
-    const auto found = std::lower_bound(cuts.begin(), cuts.end(), wanted,
-                                        [&](const Cut& cut, const auto& pair) { return key(cut) < pair; });
-    if (found == cuts.end() || key(*found) != wanted) return;
-    const auto other = static_cast<std::size_t>(found - cuts.begin());
-    if (other >= k) return;
-    const std::size_t root_k = root_of(parents, k), root_other = root_of(parents, other);
-    if (root_k == root_other || !cuts[k].box.comes_within(cuts[other].box, rounding) ||
-        !cuts[k].polygon.touches(cuts[other].polygon, rounding))
-      return;
-    parents[std::max(root_k, root_other)] = std::min(root_k, root_other);
-  };
-  for (std::size_t k = 0; k < cuts.size(); ++k) {
-    const auto of_fixed = b.neighbours(cuts[k].of_fixed);
-    for (const std::int32_t j : of_fixed) join_with(k, cuts[k].of_moving, j);
-    for (const std::int32_t i : a.neighbours(cuts[k].of_moving)) {
-      join_with(k, i, cuts[k].of_fixed);
-      for (const std::int32_t j : of_fixed) join_with(k, i, j);
-    }
-  }
-
   std::vector<OverlapPart> parts;
-  std::vector<std::size_t> part_of_root(cuts.size());
-  for (std::size_t k = 0; k < cuts.size(); ++k) {
-    const std::size_t root = root_of(parents, k);
-    if (root == k) {
-      part_of_root[k] = parts.size();
-      parts.emplace_back();
+  for (SharedPart& shared : shared_parts(of_few, of_many, rounding)) {
+    OverlapPart part;
+    for (const ConvexPolygon& piece : shared) {
+      const AreaAndCentroid measure = piece.measure();
+      part.area += measure.area;
+      part.centroid += measure.area * measure.centroid;
     }
-    OverlapPart& part = parts[part_of_root[root]];
-    const AreaAndCentroid measure = cuts[k].polygon.measure();
-    part.area += measure.area;
-    part.centroid += measure.area * measure.centroid;
-    part.pieces.push_back(std::move(cuts[k].polygon));
+    if (!(part.area > 0.0)) continue;
+    part.centroid /= part.area;
+    part.pieces = std::move(shared);
+    parts.push_back(std::move(part));
   }
-  for (OverlapPart& part : parts) part.centroid /= part.area;
   return parts;
+}
+
+PlanarFrame frame_of_overlap(const ShapeSide& moving, std::int32_t region_moving, const ShapeSide& fixed,
+                             std::int32_t region_fixed, const Vec3& point, const Vec3& n) {
+  const auto pieces = [](const ShapeSide& side, std::int32_t region) {
+    const RegionShape* shape = side.shape.shapes.of_region(region);
+    return shape == nullptr ? std::size_t{0} : shape->pieces.size();
+  };
+  PlanarFrame frame(point, n);
+  const bool of_moving = pieces(moving, region_moving) > pieces(fixed, region_fixed);
+  const ShapeSide& side = of_moving ? moving : fixed;
+  const RegionShape* shape = side.shape.shapes.of_region(of_moving ? region_moving : region_fixed);
+  if (shape == nullptr) return frame;
+  const Vec3 u = side.direction(shape->frame.u);
+  frame.u = (u - u.dot(n) * n).normalized();
+  frame.v = n.cross(frame.u);
+  return frame;
 }
 
 std::vector<SegmentPart> parts_over_region(const Vec3& begin, const Vec3& end, const ShapeSide& side,

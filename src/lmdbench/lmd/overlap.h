@@ -18,11 +18,15 @@ struct OverlapPart {
   Vec2 centroid = Vec2::Zero();
 };
 
-/// What two regions share, seen along the normal of `frame_W`: each convex piece of one cut by those of the other near it
-/// (Sutherland and Hodgman 1974), and the cuts joined where their pieces are neighbours and they touch. Convex cuts
-/// cannot go wrong topologically: rounding adds or loses a sliver, and centroids are continuous.
-/// The work is that of the pieces that meet.
-/// @param rounding  cuts that are no wider are none; cuts that come this near touch [m]
+/// A frame square to a direction in which the overlap of two regions is swept: its first axis is that of the region of more
+/// pieces, so that pieces that lie on top of each other share level sides, which the sweep passes over.
+PlanarFrame frame_of_overlap(const ShapeSide& moving, std::int32_t region_moving, const ShapeSide& fixed,
+                             std::int32_t region_fixed, const Vec3& point, const Vec3& n);
+
+/// What two regions share, seen along the normal of `frame_W` (frame_of_overlap): one sweep over the borders of both
+/// (polygon_sweep.h), of a large region only the pieces near the other one. Rounding adds or loses a sliver and nothing else, and
+/// centroids are continuous.
+/// @param rounding  what is no wider is none; what comes this near touches [m]
 std::vector<OverlapPart> overlap_of_regions(const ShapeSide& moving, std::int32_t region_moving,
                                             const ShapeSide& fixed, std::int32_t region_fixed,
                                             const PlanarFrame& frame_W, double rounding);

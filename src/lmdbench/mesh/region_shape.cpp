@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/geometry/extent.h>
 #include <lmdbench/geometry/tolerance.h>
 #include <lmdbench/mesh/region_shape.h>
 
@@ -12,29 +13,22 @@ namespace lmdbench {
 
 namespace {
 
-/// How far apart pieces may be that share a side, in tolerances: what the sweep (convex_pieces.cpp) leaves between them.
-constexpr double PIECE_GAP = 8.0;
-
-void find_neighbours(RegionShape& shape, double tolerance) {
-  std::vector<Box2> boxes;
-  for (const ConvexPolygon& piece : shape.pieces) boxes.push_back(piece.box());
-  shape.piece_grid = BoxGrid(boxes);
-  const double gap = PIECE_GAP * tolerance;
-  std::vector<std::pair<std::int32_t, std::int32_t>> rows;
-  std::vector<std::int32_t> near;
-  for (std::size_t i = 0; i < boxes.size(); ++i) {
-    near.clear();
-    shape.piece_grid.for_each_near(boxes[i], gap, [&](std::int32_t j) { near.push_back(j); });
-    std::ranges::sort(near);
-    near.erase(std::unique(near.begin(), near.end()), near.end());
-    for (const std::int32_t j : near) {
-      const auto other = static_cast<std::size_t>(j);
-      if (other != i && boxes[i].comes_within(boxes[other], gap) &&
-          shape.pieces[i].touches(shape.pieces[other], gap))
-        rows.emplace_back(static_cast<std::int32_t>(i), j);
-    }
+/// The bar along the longest side of the hull.
+void find_bar(RegionShape& shape) {
+  if (shape.hull.empty()) return;
+  Vec2 longest = Vec2::Zero();
+  for (std::size_t k = 0; k < shape.hull.size(); ++k) {
+    const Vec2 side = shape.hull[(k + 1) % shape.hull.size()] - shape.hull[k];
+    if (side.squaredNorm() > longest.squaredNorm()) longest = side;
   }
-  shape.piece_neighbours = CsrRows(static_cast<std::int32_t>(shape.pieces.size()), rows);
+  const Vec2 along = longest.normalized(), across(-along[1], along[0]);
+  const Extent of_length = extent_along(shape.hull, along), of_width = extent_along(shape.hull, across);
+  const Vec2 centre = 0.5 * (of_length.least + of_length.greatest) * along +
+                      0.5 * (of_width.least + of_width.greatest) * across;
+  shape.bar_centre = shape.frame.lifted(centre);
+  shape.bar_half =
+      0.5 * (of_length.greatest - of_length.least) * (along[0] * shape.frame.u + along[1] * shape.frame.v);
+  shape.bar_radius = 0.5 * (of_width.greatest - of_width.least);
 }
 
 RegionShape shape_of(const Surface& surface, const FlatRegions& regions, std::int32_t region,
@@ -66,19 +60,21 @@ RegionShape shape_of(const Surface& surface, const FlatRegions& regions, std::in
   }
   std::sort(shape.corners.begin(), shape.corners.end());
   shape.corners.erase(std::unique(shape.corners.begin(), shape.corners.end()), shape.corners.end());
-  std::vector<PolygonSide> sides;
   for (const auto& [straight, forward] : directed) {
     const auto& ends = regions.straight_edges[static_cast<std::size_t>(straight)].ends;
     const Vec2 a = shape.frame.flat(vertex(ends[0])), b = shape.frame.flat(vertex(ends[1]));
-    sides.push_back(forward ? PolygonSide{a, b} : PolygonSide{b, a});
+    shape.sides.push_back(forward ? PolygonSide{a, b} : PolygonSide{b, a});
   }
-  shape.pieces = convex_pieces(sides, tolerance);
+  shape.pieces = convex_pieces(shape.sides, tolerance);
+  std::vector<Box2> piece_boxes;
+  for (const ConvexPolygon& piece : shape.pieces) piece_boxes.push_back(piece.box());
+  shape.piece_grid = BoxGrid(piece_boxes);
 
   shape.triangle_grid = BoxGrid(boxes);
-  find_neighbours(shape, tolerance);
   std::vector<Vec2> outline;
   for (const std::int32_t v : shape.corners) outline.push_back(shape.frame.flat(vertex(v)));
   shape.hull = convex_hull(std::move(outline));
+  find_bar(shape);
   return shape;
 }
 

@@ -6,6 +6,7 @@
 #include <lmdbench/mesh/box_grid.h>
 #include <lmdbench/mesh/csr_rows.h>
 #include <lmdbench/mesh/flat_regions.h>
+#include <lmdbench/mesh/polygon_sweep.h>
 
 #include <cstdint>
 #include <span>
@@ -18,11 +19,14 @@ namespace lmdbench {
 struct RegionShape {
   PlanarFrame frame{Vec3::Zero(), Vec3::UnitZ()};  ///< In the region's plane, seen against its
                                                    ///< normal; frame S.
+  std::vector<PolygonSide> sides;                  ///< Of the border.
   std::vector<ConvexPolygon> pieces;               ///< Side by side; together they are the region.
-  CsrRows piece_neighbours;           ///< #P rows: the other pieces that a piece touches, ascending.
-  BoxGrid piece_grid;                 ///< Of the pieces' boxes.
+  BoxGrid piece_grid;                              ///< Of the pieces' boxes.
   std::vector<std::int32_t> corners;  ///< Vertices where straight edges of its border end, ascending.
   std::vector<Vec2> hull;             ///< Convex hull of the corners, counter-clockwise.
+  /// A bar that holds the region: its points are within `bar_radius` [m] of the segment bar_centre +- bar_half; frame S.
+  Vec3 bar_centre = Vec3::Zero(), bar_half = Vec3::Zero();
+  double bar_radius = 0.0;
   BoxGrid triangle_grid;  ///< Of the triangles' boxes, in the order of FlatRegions::region_triangles.
 };
 
@@ -39,17 +43,5 @@ struct RegionShapes {
 };
 
 RegionShapes region_shapes(const Surface& surface, const FlatRegions& regions);
-
-/// A directed side of a polygon, the inside to its left.
-struct PolygonSide {
-  Vec2 from, to;
-};
-
-/// Cuts a polygon into convex pieces: a line sweeps upwards over its corners; between two of them the inside
-/// is a row of trapezoids, and one that goes on in the next row is joined to it while the piece stays convex
-/// (so a convex polygon is one piece). Sides may touch or lie on each other: what counts is how often a point
-/// is wound round. Corners whose heights differ by no more than the tolerance are level, and what is between
-/// them is left out.
-std::vector<ConvexPolygon> convex_pieces(std::span<const PolygonSide> sides, double tolerance);
 
 }  // namespace lmdbench

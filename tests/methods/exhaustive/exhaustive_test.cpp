@@ -175,7 +175,7 @@ TEST(Exhaustive, HoldsTheMinimumDistanceAndIsSortedAndFreeOfDuplicates) {
                 nearest_pair(moving.surface(), moving.prepared<Hierarchy>(), fixed.surface(),
                              fixed.prepared<Hierarchy>(), pose)
                     .distance,
-                1e-16);
+                1e-15);
     EXPECT_TRUE(std::is_sorted(lmds.begin(), lmds.end(), lmd_less));
     EXPECT_EQ(feature_pairs(lmds).size(), lmds.size());
   }

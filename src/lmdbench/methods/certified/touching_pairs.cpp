@@ -15,9 +15,6 @@ namespace lmdbench {
 
 namespace {
 
-/// A feature with more times the corners of the other one is not held against the other's plane
-/// (scripts/tuned_constants.py --only FEW_CORNERS experiments/extreme/gears.json).
-constexpr std::size_t FEW_CORNERS = 4;
 /// Of features with more pairs of corners the sides are not tried as separating axes, because the triangles that are near each
 /// other may be fewer (scripts/tuned_constants.py --only MOST_CORNER_PAIRS experiments/extreme/peg-square.json).
 constexpr std::size_t MOST_CORNER_PAIRS = 64;
@@ -42,25 +39,31 @@ ClearGap gap_to(const Plane& plane, std::span<const Vec3> points) {
                                             : ClearGap{-heights.greatest, plane.normal};
 }
 
-/// Gap of two boxes along the axis that shows the widest.
-ClearGap gap_of_boxes(std::span<const Vec3> a, std::span<const Vec3> b) {
-  const auto bounds = [](std::span<const Vec3> points) {
-    Vec3 low = points.front(), high = low;
-    for (const Vec3& p : points) {
-      low = low.cwiseMin(p);
-      high = high.cwiseMax(p);
-    }
-    return std::pair(low, high);
-  };
-  const auto [low_a, high_a] = bounds(a);
-  const auto [low_b, high_b] = bounds(b);
-  ClearGap widest;
-  for (int k = 0; k < 3; ++k) {
-    const double ahead = low_b[k] - high_a[k], behind = low_a[k] - high_b[k];
-    if (ahead > widest.gap) widest = {ahead, Vec3::Unit(k)};
-    if (behind > widest.gap) widest = {behind, -Vec3::Unit(k)};
-  }
-  return widest;
+/// The same for a region, by its hull: a gear's end has thousands of corners and a hull of some eighty.
+ClearGap gap_to(const Plane& plane, const ShapeSide& side, const RegionShape& shape) {
+  const Vec3& origin = shape.frame.origin;
+  const double height = plane.height(side.is_moving ? side.X_WS.point(origin) : origin);
+  const Vec2 rise(plane.normal.dot(side.direction(shape.frame.u)),
+                  plane.normal.dot(side.direction(shape.frame.v)));
+  const Extent along = extent_along(shape.hull, rise);
+  const double least = height + along.least, greatest = height + along.greatest;
+  return least >= -greatest ? ClearGap{least, -plane.normal} : ClearGap{-greatest, plane.normal};
+}
+
+/// Gap of the bars that hold two regions, square to the longer one: walls of a peg and of its bore stand side by side, and a disc
+/// round a wall meets half of the others.
+ClearGap gap_of_bars(const ShapeSide& moving, const RegionShape& a, const ShapeSide& fixed,
+                     const RegionShape& b) {
+  const Vec3 centre = moving.is_moving ? moving.X_WS.point(a.bar_centre) : a.bar_centre;
+  const Vec3 half_a = moving.direction(a.bar_half), half_b = fixed.direction(b.bar_half);
+  const bool a_is_longer = half_a.squaredNorm() > half_b.squaredNorm();
+  const Vec3 &longer = a_is_longer ? half_a : half_b, &shorter = a_is_longer ? half_b : half_a;
+  const Vec3 between = b.bar_centre - centre;
+  const Vec3 across = between - between.dot(longer) / longer.squaredNorm() * longer;
+  const double distance = across.norm();
+  if (!(distance > 0.0)) return {};
+  const Vec3 axis = across / distance;
+  return {distance - std::abs(axis.dot(shorter)) - a.bar_radius - b.bar_radius, axis};
 }
 
 /// Largest gap between two regions along the products of a side of one and a side of the other: with their own planes the
@@ -239,6 +242,14 @@ Certificate TouchingPairs::decide_regions(Frame& frame, const WidePair& pair) {
   const std::int32_t region_m = moving.shape.region_of(on_moving.index);
   const std::int32_t region_f = fixed.shape.region_of(on_fixed.index);
   const double margin = MARGIN_IN_TOUCHES * frame.touch;
+  const auto clear = [&](const ClearGap& gap, double sign) {
+    return Certificate{gap.gap - margin, sign * gap.axis};
+  };
+  const RegionShape* const shape_m = region_m >= 0 ? moving.shape.shapes.of_region(region_m) : nullptr;
+  const RegionShape* const shape_f = region_f >= 0 ? fixed.shape.shapes.of_region(region_f) : nullptr;
+  if (shape_m != nullptr && shape_f != nullptr)
+    if (const ClearGap gap = gap_of_bars(moving, *shape_m, fixed, *shape_f); gap.gap > margin)
+      return clear(gap, 1.0);
   const auto collect = [](const ShapeSide& side, const FeatureId& lead, std::vector<std::int32_t>& corners,
                           std::vector<Vec3>& points) {
     corners.clear();
@@ -246,22 +257,20 @@ Certificate TouchingPairs::decide_regions(Frame& frame, const WidePair& pair) {
     side.shape.append_corners(side.surface, lead, corners);
     for (const std::int32_t v : corners) points.push_back(side.vertex(v));
   };
+  // A triangle without area has no plane and separates nothing.
+  const auto clear_of = [&](const ShapeSide& with_plane, std::int32_t region, const ShapeSide& other,
+                            const FeatureId& lead, const RegionShape* shape) {
+    if (region < 0) return ClearGap{};
+    const Plane plane = with_plane.plane(region);
+    return shape != nullptr ? gap_to(plane, other, *shape) : gap_to(plane, triangle_of(other, lead.index));
+  };
+  if (const ClearGap gap = clear_of(fixed, region_f, moving, on_moving, shape_m); gap.gap > margin)
+    return clear(gap, 1.0);
+  if (const ClearGap gap = clear_of(moving, region_m, fixed, on_fixed, shape_f); gap.gap > margin)
+    return clear(gap, -1.0);
   collect(moving, on_moving, corners_moving_, points_moving_);
   collect(fixed, on_fixed, corners_fixed_, points_fixed_);
   const std::size_t count_m = points_moving_.size(), count_f = points_fixed_.size();
-  const auto clear = [&](const ClearGap& gap, double sign) {
-    return Certificate{gap.gap - margin, sign * gap.axis};
-  };
-  if (const ClearGap gap = gap_of_boxes(points_moving_, points_fixed_); gap.gap > margin)
-    return clear(gap, 1.0);
-  // The end of a gear has hundreds of corners, and each of its teeth is tested against it in every frame: only the feature
-  // of fewer corners is held against the other's plane. A triangle without area has no plane and separates nothing.
-  if (region_f >= 0 && count_m <= FEW_CORNERS * count_f)
-    if (const ClearGap gap = gap_to(fixed.plane(region_f), points_moving_); gap.gap > margin)
-      return clear(gap, 1.0);
-  if (region_m >= 0 && count_f <= FEW_CORNERS * count_m)
-    if (const ClearGap gap = gap_to(moving.plane(region_m), points_fixed_); gap.gap > margin)
-      return clear(gap, -1.0);
   if (region_m >= 0 && region_f >= 0 && count_m * count_f <= MOST_CORNER_PAIRS)
     if (const ClearGap gap =
             gap_along_side_products(moving, region_m, points_moving_, fixed, region_f, points_fixed_);

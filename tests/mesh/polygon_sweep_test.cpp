@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/catalogue/shapes.h>
+#include <lmdbench/mesh/polygon_sweep.h>
 #include <lmdbench/mesh/region_shape.h>
 
 #include <gtest/gtest.h>
@@ -108,7 +109,11 @@ TEST(RegionShape, OutlinesAreTheTrianglesTogether) {
         // The grid finds every triangle at its own middle.
         const Vec2 middle = shape->frame.flat((corners[0] + corners[1] + corners[2]) / 3.0);
         int found = 0;
-        shape->for_each_near(middle, middle, 0.0, [&](std::int32_t other) { found += other == t ? 1 : 0; });
+        Box2 box;
+        box.add(middle);
+        shape->triangle_grid.for_each_near(box, 0.0, [&](std::int32_t k) {
+          found += regions.region_triangles[region][static_cast<std::size_t>(k)] == t ? 1 : 0;
+        });
         EXPECT_EQ(found, 1);
       }
       EXPECT_NEAR(area_of(shape->pieces), area, 1e-13);
