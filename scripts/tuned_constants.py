@@ -20,15 +20,14 @@ import tempfile
 ROOT = os.path.abspath(os.path.join(os.path.dirname(os.path.abspath(__file__)), ".."))
 TREE = os.path.join(ROOT, "build", "tuned", "tree")
 FORECAST = "src/lmdbench/methods/certified/coherence/motion_forecast.cpp"
-FLAT = "src/lmdbench/methods/certified/certified_flat.cpp"
+TOUCHING = "src/lmdbench/methods/certified/touching_pairs.cpp"
 TRAVERSAL = "src/lmdbench/methods/certified/hierarchy/wide_traversal.h"
 # name: file, text around the value, values
 CONSTANTS = {
     "opening weight": (TRAVERSAL, "({}F + node.sine[lane])", ("0.05", "0.1", "0.2", "0.4", "100.0")),
     "LARGEST_HORIZON": (FORECAST, "LARGEST_HORIZON = {},", ("1.0", "2.0", "4.0", "8.0", "16.0")),
     "HORIZON_CUTOFFS": (FORECAST, "HORIZON_CUTOFFS = {},", ("0.25", "0.5", "1.0", "2.0", "4.0")),
-    "FEW_CORNERS": (FLAT, "FEW_CORNERS = {};", ("1", "4", "16", "1000000")),  # experiments/extreme/gears.json moves it
-    "MOST_CORNER_PAIRS": (FLAT, "MOST_CORNER_PAIRS = {};", ("0", "16", "64", "1024")),  # experiments/extreme/peg-square.json moves it
+    "MOST_CORNER_PAIRS": (TOUCHING, "MOST_CORNER_PAIRS = {};", ("0", "16", "64", "1024")),  # experiments/extreme/peg-square.json moves it
     "HORIZON_TURN": (FORECAST, "HORIZON_TURN = {};", ("0.0025", "0.005", "0.01", "0.02", "0.04")),
 }
 SCENE = ("--set", '/methods=[{"name":"certified","force_law":"exponential"}]', "--set", "/driver/repetitions=1", "--set",

@@ -18,7 +18,7 @@ struct ClearCrossing {
   double length = 0.0;  ///< metres; 0: the triangles do not cross clearly
 };
 
-/// Looks for clear crossings of a[i] and b[i]; a segment is triangle_distance's to 1e-12 of the largest coordinate.
+/// Looks for clear crossings of a[i] and b[i] (certified/PROOF.md, lemma 11); a segment is triangle_distance's to 1e-12 of the largest coordinate.
 /// @pre a.size() == b.size() == results.size()
 void find_clear_crossings(std::span<const Triangle> a, std::span<const Triangle> b,
                           std::span<ClearCrossing> results);

@@ -21,7 +21,7 @@ struct ShapePair {
 /// Every condition is closed: it holds up to the rounding of what it compares, so that of neighbouring features at least one
 /// says yes. What two of them say of one place becomes one LMD afterwards (join_contacts.h).
 ///
-/// What bounds may rest on: a contact of (f, g) has its points in the convex hulls of f and g, a distance of at most
+/// What bounds may rest on (certified/PROOF.md, lemma 2): a contact of (f, g) has its points in the convex hulls of f and g, a distance of at most
 /// `tolerance.reach`, and a direction within largest_tilt + rounding / distance + rounding / (the shortest wing) of f's polar
 /// cone, and likewise of g's. Corners have no tilt. Of a corner or a chain against a region, and of chains that cross,
 /// rounding / distance does not enter.

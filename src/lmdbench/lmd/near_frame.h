@@ -15,7 +15,7 @@ namespace lmdbench {
 /// that the mesh's own size brings.
 inline constexpr double FAR_AWAY = 16.0;
 
-/// A scene in frames whose origins lie amid the meshes, so that coordinates are of the meshes' size.
+/// A scene in frames whose origins lie amid the meshes (certified/PROOF.md, lemma 1), so that coordinates are of the meshes' size.
 ///
 /// At coordinates C every computed point is off by about 1e-16 C, and a direction between two points at the
 /// distance d by 1e-16 C / d. Where edges are shorter than about 1e-8 C, that is more than any tolerance of the

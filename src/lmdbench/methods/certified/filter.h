@@ -38,14 +38,14 @@ struct PairFilter {
                     ///< and always left to the definition
   const ShapeComplex& shape_moving;
   const ShapeComplex& shape_fixed;
-  /// Rejects by the one candidate point pair that two features have: two corners; a corner and its projection on a chain or
+  /// Rejects (PROOF.md, lemma 9) by the one candidate point pair that two features have: two corners; a corner and its projection on a chain or
   /// region; the feet of the common perpendicular of two chains. The conditions are those of the definition (lmd/decide.h) with
   /// `margin` in place of its rounding: feet inside their features, distance within the cutoff, direction in both polar cones
   /// (the outer side, which the caps of the hierarchy have settled for nearly all, is left to the definition). Chains that are
   /// parallel to a chain or a region within 1e-4, and regions that are parallel, have no single candidate and are left to the
   /// definition where they can be near.
   ///
-  /// How long the rejection stands follows from what rejected the pair (PROOF.md, lemmas 15 and 16):
+  /// How long the rejection stands follows from what rejected the pair (PROOF.md, lemmas 19 and 20):
   /// - too far, or on the inner side of a face: distances of points, lines and planes are convex in a
   ///   displacement, and their gradient is the unit vector between the nearest points;
   /// - a foot beyond an end or side by h: the distance from the plane through the end or side, square to the

@@ -6,7 +6,7 @@
 
 namespace lmdbench {
 
-/// The gap along the first axis that shows one above `margin`, out of both normals and the products of two
+/// The gap (PROOF.md, lemma 12) along the first axis that shows one above `margin`, out of both normals and the products of two
 /// sides (the separating axes of two convex bodies). Nothing relies on it but the saving of an exact
 /// distance, so no care is needed for parallel sides.
 /// @param normal_a unit normal, or zero for a triangle without area

@@ -15,7 +15,7 @@
 
 namespace lmdbench {
 
-/// Decides pairs of faces and regions that may touch: which of their triangles intersect, exactly, and what corners and chains
+/// Decides pairs of faces and regions that may touch (PROOF.md, lemma 10): which of their triangles intersect, exactly, and what corners and chains
 /// that are nearer than `touch` share. Nearer than that a direction between two points is rounding, so that no cone of a
 /// hierarchy holds it; what has a plane's or a product's direction is found by the hierarchies at every distance.
 ///

@@ -129,7 +129,7 @@ TEST(WideLifetime, NothingIsAnLmdBeforeItsFramesAreOver) {
   EXPECT_GT(held, 5000u);
 }
 
-/// A turn that changes only how far a direction is outside a cone, by all that lemma 11 of PROOF.md grants: a disc with a
+/// A turn that changes only how far a direction is outside a cone, by all that lemma 15 of PROOF.md grants: a disc with a
 /// wide cone round its axis turns a point of its rim up to a point beside it.
 TEST(WideLifetime, ATurnLeavesAConeNoEarlierThanItsFramesAreOver) {
   constexpr double CONE = 80.0 * std::numbers::pi / 180.0, BESIDE = 1e-3;

@@ -25,7 +25,7 @@ namespace lmdbench {
 /// bounds how far any point of the mesh is from its forecast, and leaves room for the angle that the mesh has
 /// turned beyond it, times a lever arm of the mesh's radius and two cutoffs: reach = 2 (radius + cutoff).
 ///
-/// So everything that is planned by the forecast and stands that deviation is safe, whatever the motion; a
+/// So everything that is planned by the forecast and stands that deviation is safe (PROOF.md, lemma 17), whatever the motion; a
 /// bad forecast costs time, nothing else. New epochs start every few frames.
 class MotionForecast {
  public:

@@ -69,7 +69,7 @@ void TraversalFront::plan_leaf(const WideHierarchy& a, const MotionForecast& mot
   const Vec3 velocity = motion.turn() * c + motion.origin_velocity();
   const double loss = certificate.gradient.dot(velocity) + certificate.spread * velocity.norm() +
                       certificate.lever_arm * motion.spin() + (1.0 + certificate.spread) * motion.creep();
-  // As the node test does it (PROOF.md, lemma 14).
+  // As the node test does it (PROOF.md, lemma 18).
   // A deviation of t + a * reach (MotionForecast::deviation) displaces the centre
   // by t + a * radius at most and turns by 0.72 a; for lever arms above half the reach that is not all, and the
   // spread counts it again: `weight` makes up for both.

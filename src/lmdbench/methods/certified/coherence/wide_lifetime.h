@@ -12,7 +12,7 @@
 
 /// The node test with lifetimes: for how many frames of the forecast motion the rejections of a test stand.
 ///
-/// A test rejects a lane by some inequality (proof: PROOF.md, lemmas 9 to 12).
+/// A test rejects a lane by some inequality (proof: PROOF.md, lemmas 13, 14, 15 and 16).
 /// The bounds behind it (wide_node_test.h) speak of every p below
 /// the one child and every q below the other, with d = q - p:
 ///   |d| > cutoff,   u . d > cutoff,   u . d < 0,   d outside the cone round u;   angle(u, -u') > phi + phi'.
@@ -61,7 +61,7 @@ inline constexpr float DEVIATION_SHARE = 0.125F;
 inline constexpr float CHOICE_FRAMES = 16.0F;
 /// Larger than any slack, and than what is lost: takes criteria that do not reject now out of the choice.
 inline constexpr float NO_CHOICE = 1e30F;
-/// (lateral - side) bounds how far d is outside the cone only up to this factor (PROOF.md, lemma 11).
+/// (lateral - side) bounds how far d is outside the cone only up to this factor (PROOF.md, lemma 15).
 inline constexpr float HALF_DIAGONAL = 0.7F;
 /// Losses and lengths are at least this, so that nothing is divided by zero.
 inline constexpr float LEAST_LENGTH = 1e-30F;

@@ -75,7 +75,7 @@ bool find_crossings(Scratch& work) {
 /// Up to so many directions all crossings are tried; of more, those of a subset.
 constexpr std::size_t FEW_DIRECTIONS = 128;
 
-/// Like `find_crossings`, in time linear in the number of constraints: of many, only the outermost are taken and then
+/// Like `find_crossings` (PROOF.md, lemma 5), in time linear in the number of constraints: of many, only the outermost are taken and then
 /// those that the crossings so far violate most, until none is violated beyond twice its slack or there are enough.
 /// `work.constraints` is the subset then. Fewer constraints leave a larger set, so that the cap still holds the
 /// whole cone; it is empty only where the whole is.

@@ -20,12 +20,12 @@ struct PolarCap {
   bool is_all_directions() const { return axis.isZero(0.0); }
 };
 
-/// Angle [rad] by which the caps are wider than the polar cones. It covers what the definition allows a direction to leave its
+/// Angle [rad] by which the caps are wider than the polar cones (PROOF.md, lemma 3). It covers what the definition allows a direction to leave its
 /// cone by (lmd/decide.h): rounding over the distance, which is at least RELATIVE_TOUCH of the coordinates
 /// (128 * 2.2e-16 / 2e-8 = 1.5e-6), and rounding over the shortest wing.
 inline constexpr double POLAR_SLACK = 2e-6;
 
-/// Cap of a feature, or nothing when the polar cone is empty even with the slack: such a feature (a reflex
+/// Cap of a feature (PROOF.md, lemmas 4 and 6), or nothing when the polar cone is empty even with the slack: such a feature (a reflex
 /// edge, a saddle vertex, a pit) carries no LMD. A face without area carries none either.
 ///
 /// The cone { n : n.e <= s |e| for all e } with e the edge directions (and the negated pseudo-normal
