@@ -8,7 +8,12 @@
 namespace lmdbench {
 
 BoxGrid::BoxGrid(std::span<const Box2> boxes) {
-  if (boxes.empty()) return;
+  if (boxes.empty()) {
+    // One empty cell, for a region too narrow to have pieces.
+    bounds_.add(Vec2::Zero());
+    cells_ = CsrRows({0, 0}, {});
+    return;
+  }
   for (const Box2& box : boxes) {
     bounds_.add(box.low);
     bounds_.add(box.high);

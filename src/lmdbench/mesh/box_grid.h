@@ -15,7 +15,7 @@ namespace lmdbench {
 /// Uniform grid over boxes of a plane, about one a cell: lists those near a box or near a segment.
 class BoxGrid {
  public:
-  BoxGrid() = default;
+  BoxGrid() : BoxGrid(std::span<const Box2>()) {}
   explicit BoxGrid(std::span<const Box2> boxes);
 
   const Vec2& low() const { return bounds_.low; }
