@@ -1,0 +1,30 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <lmdbench/geometry/convex_polygon.h>
+
+#include <support/scenes.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <random>
+#include <vector>
+
+namespace lmdbench::testing {
+
+/// Corners on a circle of radius 1 or on a slender ellipse, at random angles; at least three of them amid which the origin is.
+inline ConvexPolygon random_convex_polygon(std::mt19937_64& random, int count) {
+  std::vector<double> angles;
+  const double start = 2.0 * std::numbers::pi * uniform(random);
+  // One in each of as many sectors: never nearly equal ones alone, never all on one side.
+  for (int k = 0; k < count; ++k)
+    angles.push_back(start + 2.0 * std::numbers::pi * (k + 0.8 * uniform(random)) / count);
+  const double flat = random() % 3 == 0 ? 0.05 : 1.0;
+  ConvexPolygon polygon;
+  for (const double angle : angles) polygon.corners.emplace_back(std::cos(angle), flat * std::sin(angle));
+  return polygon;
+}
+
+}  // namespace lmdbench::testing
