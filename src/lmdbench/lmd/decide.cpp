@@ -15,7 +15,7 @@ namespace {
 
 /// A height over a plane, seen along a unit direction, is this many roundings accurate: plane and point are each to one.
 constexpr double HEIGHT_ROUNDINGS = 2.0;
-/// Sideways part of the vector between two crossing chains that the clamping of their feet leaves, in roundings.
+/// Part along a chain of the vector between two crossing ones that the clamping of their feet leaves, in roundings.
 constexpr double SIDEWAYS_ROUNDINGS = 4.0;
 /// The direction square to two chains that cross at a small angle is off by this part of rounding / (sine * length).
 constexpr double CROSSING_ROUNDING = 1.0 / 16.0;
@@ -35,6 +35,11 @@ struct Line {
   }
   Vec3 at(double parameter) const { return begin + parameter * along; }
 };
+
+/// Parameter of the point of a chain that is nearest to x.
+double foot_on(const Line& line, const Vec3& x) {
+  return std::clamp((x - line.begin).dot(line.along) / (line.length * line.length), 0.0, 1.0);
+}
 
 /// Place of a plane along the direction n over the point x.
 double height_to(const Plane& plane, const Vec3& n, const Vec3& x) {
@@ -241,23 +246,26 @@ class Decision {
     const double s = r.cross(b.along).dot(product) / squared, t = r.cross(a.along).dot(product) / squared;
     const double spare = tolerance_.rounding / sine;
     if (std::max(-s, s - 1.0) * a.length > spare || std::max(-t, t - 1.0) * b.length > spare) return;
-    const Vec3 p = a.at(std::clamp(s, 0.0, 1.0)), q = b.at(std::clamp(t, 0.0, 1.0)), d = q - p;
-    // Square to both, also where they all but touch.
-    Vec3 u = product / std::sqrt(squared);
-    double distance = d.dot(u);
-    if (std::abs(distance) <= tolerance_.rounding) {
+    // Alone each is off by rounding / sine along its chain: the second foot is the first one's, and then the first the second's,
+    // which may have been clamped.
+    const Vec3 q = b.at(foot_on(b, a.at(std::clamp(s, 0.0, 1.0)))), p = a.at(foot_on(a, q)), d = q - p;
+    const double length = d.norm();
+    const double sideways =
+        std::max(std::abs(d.dot(a.along)) / a.length, std::abs(d.dot(b.along)) / b.length);
+    if (length > tolerance_.reach || sideways > SIDEWAYS_ROUNDINGS * tolerance_.rounding) return;
+    // d is known to rounding / length, the product of the chains the worse the smaller their angle, but also where they touch.
+    const bool is_far = CROSSING_ROUNDING * length > sine * shortest;
+    Vec3 u = is_far ? Vec3(d / length) : Vec3(product / std::sqrt(squared));
+    if (std::abs(d.dot(u)) <= tolerance_.rounding) {
       const Vec3 outwards = moving_.direction(
           moving_.surface.pseudo_normal({FeatureKind::EDGE, moving_.shape.lead_of_chain(c_moving)}));
       if (u.dot(outwards) < 0.0) u = -u;
-    } else if (distance < 0.0) {
+    } else if (d.dot(u) < 0.0) {
       u = -u;
     }
-    distance = d.dot(u);
-    if (distance > tolerance_.reach || (d - distance * u).norm() > SIDEWAYS_ROUNDINGS * tolerance_.rounding)
-      return;
-    const PolarSlack slack{
-        HEIGHT_ROUNDINGS * tolerance_.rounding,
-        std::min(LARGEST_CROSSING_SLACK, CROSSING_ROUNDING * tolerance_.rounding / (sine * shortest))};
+    const double distance = d.dot(u);
+    const double unknown = tolerance_.rounding / (is_far ? length : sine * shortest / CROSSING_ROUNDING);
+    const PolarSlack slack{HEIGHT_ROUNDINGS * tolerance_.rounding, std::min(LARGEST_CROSSING_SLACK, unknown)};
     if (!chain_admits(moving_, c_moving, u, slack) || !chain_admits(fixed_, c_fixed, -u, slack)) return;
     add_points({FeatureKind::EDGE, c_moving}, {FeatureKind::EDGE, c_fixed}, p, q, u, distance);
   }
