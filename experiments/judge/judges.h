@@ -17,6 +17,7 @@ using Run = std::function<int()>;
 /// Each adds its subcommand to `app`, which sets `chosen` when it is named; `chosen` must outlive the parsing.
 void add_truth(CLI::App& app, Run& chosen);
 void add_ledger(CLI::App& app, Run& chosen);
+void add_flat(CLI::App& app, Run& chosen);
 void add_accuracy(CLI::App& app, Run& chosen);
 
 }  // namespace lmdbench::exact

@@ -1,0 +1,29 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <judge/cell_pairs.h>
+
+#include <cstddef>
+#include <vector>
+
+namespace lmdbench::exact {
+
+/// A connected part of { (x, y) : |x - y| <= least + tolerance } that holds a local minimum of the distance and from
+/// which no way leads lower that does not first climb.
+struct Basin {
+  double least = 0.0;
+  /// How far every way to a lower point climbs; infinite where none is within reach.
+  double climb = 0.0;
+  std::vector<std::size_t> pairs;  ///< Those of CellPairs within the tolerance, ascending.
+};
+
+/// The basins that take a climb of at least `least_climb` to leave: the components of sublevel sets, by union of pairs
+/// of cells in the order of their distances (a pair of closed cells is a convex set, on which the distance is convex, so
+/// that two pairs meet below a level exactly where the cells that they share come that near).
+std::vector<Basin> find_basins(const CellPairs& pairs, double tolerance, double least_climb);
+
+/// Pairs that hang together with one of them over pairs whose distances are in a range.
+std::vector<std::size_t> connected_to(const CellPairs& pairs, std::size_t start, double low, double high);
+
+}  // namespace lmdbench::exact
