@@ -13,7 +13,7 @@
 #include <cstdio>
 #include <memory>
 
-/// lmdbench-study parts [--poses N] [--seed S] [--kind K]... [--json FILE]: `certified` against `exhaustive` on random
+/// lmdbench-study parts [--poses N] [--seed S] [--kind K]... [--generator G] [--json FILE]: `certified` against `exhaustive` on random
 /// poses of machine parts. Markdown on standard output; every wrong pose as a line that goes into
 /// completeness/tests/parts_study_test.cpp on standard error. Exit code 1 where something is wrong.
 namespace lmdbench::completeness {
@@ -94,6 +94,7 @@ void lmdbench::study::add_parts(CLI::App& app, Run& chosen) {
   const auto choice = std::make_shared<PartsChoiceOfUser>();
   const auto coordinates = std::make_shared<std::vector<std::string>>();
   const auto flush = std::make_shared<bool>(false);
+  const auto generator = std::make_shared<std::string>("parts");
   choice->study.poses = 100;
   command
       ->add_option("--poses", choice->study.poses, "Poses of each kind of parts in each kind of coordinates")
@@ -101,16 +102,23 @@ void lmdbench::study::add_parts(CLI::App& app, Run& chosen) {
   command->add_option("--seed", choice->study.seed, "Of the random numbers")->capture_default_str();
   command->add_option("--kind", choice->study.kinds,
                       "Such as 'ring on ring', may be repeated; all without it");
+  command
+      ->add_option("--generator", *generator,
+                   "Without --kind: parts (drawn machine parts) or solids (random ones)")
+      ->check(CLI::IsMember({"parts", "solids"}))
+      ->capture_default_str();
   command->add_option("--coordinates", *coordinates,
                       "exact, turned, rounded or recut, may be repeated; all without it");
   command->add_flag("--flush", *flush, "Only poses without tilt, whose flat contacts are exact");
   command->add_option("--complaints", choice->complaints, "Wrong poses that are told")->capture_default_str();
   command->add_option("--json", choice->json, "File that the table is written to as well");
-  command->callback([&chosen, choice, coordinates, flush] {
+  command->callback([&chosen, choice, coordinates, flush, generator] {
     if (*flush) choice->study.family = parts::PoseFamily::FLUSH;
     for (const std::string& kind : choice->study.kinds) parts::parts_kind(kind);
     if (choice->study.kinds.empty())
-      for (const parts::PartsKind& kind : parts::parts_kinds()) choice->study.kinds.emplace_back(kind.name);
+      for (const parts::PartsKind& kind : parts::parts_kinds(
+               *generator == "solids" ? parts::Generator::RANDOM_SOLIDS : parts::Generator::MACHINE_PARTS))
+        choice->study.kinds.emplace_back(kind.name);
     for (const parts::Coordinates each : parts::ALL_COORDINATES)
       if (coordinates->empty() ||
           std::find(coordinates->begin(), coordinates->end(), name_of(each)) != coordinates->end())

@@ -7,6 +7,7 @@
 
 #include <support/parts/machine_parts.h>
 #include <support/parts/parts_scenes.h>
+#include <support/parts/random_solids.h>
 #include <support/parts/recut.h>
 #include <support/random.h>
 
@@ -87,6 +88,14 @@ const std::array KINDS = {
     PartsKind{"frustum in funnel", "frustum", "funnel", true},
     PartsKind{"ridge in V-block", "ridge", "V-block", true},
     PartsKind{"any part on any part", "", ""},
+};
+
+constexpr const char *POLYCUBE = "polycube", *STAR_PRISM = "star prism";
+
+const std::array RANDOM_KINDS = {
+    PartsKind{"polycube on polycube", POLYCUBE, POLYCUBE},
+    PartsKind{"star prism on star prism", STAR_PRISM, STAR_PRISM},
+    PartsKind{"star prism on polycube", STAR_PRISM, POLYCUBE},
 };
 
 std::size_t pick(std::size_t count, Random& random) {
@@ -188,14 +197,16 @@ double dyadic(double x) {
 
 class PoseMaker {
  public:
-  PoseMaker(const PartsDesign& design, bool nested, PoseFamily family)
+  PoseMaker(const PartsDesign& design, bool nested, bool any_faces, PoseFamily family)
       : design_(design),
         nested_(nested),
+        any_faces_(any_faces),
         flush_(family == PoseFamily::FLUSH),
         moving_("moving", build_surface(design.moving)),
         fixed_("fixed", build_surface(design.fixed)) {}
 
   Pose unrelated(Random& random) const {
+    if (any_faces_ && !flush_) return face_on_face(random);
     Pose pose = nested_ ? in_it(random) : on_it(random);
     if (flush_)
       for (double& x : pose.translation) x = dyadic(x);
@@ -279,8 +290,45 @@ class PoseMaker {
     return pose;
   }
 
+  /// A corner, or a point on a side or in the inside of a triangle.
+  static Vec3 point_of(const Triangle& t, Random& random) {
+    const std::size_t i = pick(3, random);
+    const double kind = random.uniform(), u = kind < 0.3 ? 0.0 : random.uniform();
+    const double v = kind < 0.6 ? 0.0 : (1.0 - u) * random.uniform();
+    return t[i] + u * (t[(i + 1) % 3] - t[i]) + v * (t[(i + 2) % 3] - t[i]);
+  }
+
+  /// Some triangle of the one lies over some triangle of the other, however the rest is.
+  Pose face_on_face(Random& random) const {
+    const auto some = [&](const TriangleMesh& mesh) {
+      return mesh.triangle(static_cast<std::int32_t>(pick(mesh.triangles.size(), random)));
+    };
+    const Triangle on = some(design_.fixed), at = some(design_.moving);
+    const auto normal = [](const Triangle& t) { return (t[1] - t[0]).cross(t[2] - t[0]).normalized(); };
+    const Vec3 up = normal(on);
+    Pose pose;
+    pose.rotation = Eigen::Quaterniond::FromTwoVectors(normal(at), -up);
+    if (chance(0.5, random)) {
+      // A side along a side.
+      const Vec3 way = pose.rotation * (at[1] - at[0]), along = on[1] - on[0];
+      pose.rotation =
+          Eigen::AngleAxisd(
+              std::atan2(way.cross(along).dot(up), way.dot(along)) + tiny(0.5, -14.0, -4.0, random), up) *
+          pose.rotation;
+    } else {
+      pose.rotation = Eigen::AngleAxisd(TAU * random.uniform(), up) * pose.rotation;
+    }
+    const double tilt = tiny(0.6, -13.0, -3.0, random);
+    if (tilt != 0.0) pose.rotation = Eigen::AngleAxisd(tilt, random.direction()) * pose.rotation;
+    pose.rotation.normalize();
+    const double offset = tiny(0.5, -16.0, -5.0, random);
+    pose.translation = point_of(on, random) + draw_gap(random) * up + offset * random.direction() -
+                       pose.rotation * point_of(at, random);
+    return pose;
+  }
+
   const PartsDesign& design_;
-  bool nested_, flush_;
+  bool nested_, any_faces_, flush_;
   Body moving_, fixed_;
 };
 
@@ -307,15 +355,17 @@ File file_of(const char* name, TriangleMesh mesh, Coordinates coordinates, Rando
   return file;
 }
 
-std::size_t number_of(const PartsKind& kind) {
-  return static_cast<std::size_t>(&kind - KINDS.data());
+bool is_random(const PartsKind& kind) {
+  return std::any_of(RANDOM_KINDS.begin(), RANDOM_KINDS.end(),
+                     [&](const PartsKind& other) { return &other == &kind; });
 }
 
 /// Far from each other, so that no two scenes draw the same numbers.
 Random random_of(const PartsChoice& choice, std::uint64_t stream) {
-  const std::uint64_t scene =
-      (choice.seed * KINDS.size() + number_of(parts_kind(choice.kind))) * 0x9E3779B97F4A7C15ULL;
-  return Random(scene + 8 * choice.index + stream);
+  const PartsKind& kind = parts_kind(choice.kind);
+  const auto number = static_cast<std::uint64_t>(is_random(kind) ? 1000 + (&kind - RANDOM_KINDS.data())
+                                                                 : &kind - KINDS.data());
+  return Random((choice.seed * 2000 + number) * 0x9E3779B97F4A7C15ULL + 8 * choice.index + stream);
 }
 
 }  // namespace
@@ -334,25 +384,28 @@ const char* name_of(Coordinates coordinates) {
   return "recut";
 }
 
-std::span<const PartsKind> parts_kinds() {
+std::span<const PartsKind> parts_kinds(Generator generator) {
+  if (generator == Generator::RANDOM_SOLIDS) return RANDOM_KINDS;
   return KINDS;
 }
 
 const PartsKind& parts_kind(std::string_view name) {
-  const auto found =
-      std::find_if(KINDS.begin(), KINDS.end(), [&](const PartsKind& kind) { return name == kind.name; });
-  if (found == KINDS.end()) {
-    std::string names;
-    for (const PartsKind& kind : KINDS) names += std::string(names.empty() ? "" : ", ") + kind.name;
-    throw UsageError("", "--kind", "there is no kind '" + std::string(name) + "'", "one of: " + names);
+  std::string names;
+  for (const Generator generator : {Generator::MACHINE_PARTS, Generator::RANDOM_SOLIDS}) {
+    for (const PartsKind& kind : parts_kinds(generator)) {
+      if (name == kind.name) return kind;
+      names += (names.empty() ? "" : ", ") + std::string(kind.name);
+    }
   }
-  return *found;
+  throw UsageError("", "--kind", "there is no kind '" + std::string(name) + "'", "one of: " + names);
 }
 
 PartsDesign make_parts_design(const PartsChoice& choice) {
   const PartsKind& kind = parts_kind(choice.kind);
   Random random = random_of(choice, choice.poses == PoseFamily::FLUSH ? 1 : 0);
   const auto part = [&](const char* name) {
+    if (name == POLYCUBE) return random_polycube(random);
+    if (name == STAR_PRISM) return random_star_prism(random);
     return *name != '\0' ? make_machine_part(name)
                          : machine_parts()[pick(machine_parts().size(), random)].make();
   };
@@ -361,7 +414,7 @@ PartsDesign make_parts_design(const PartsChoice& choice) {
     design.moving = on_some_side(std::move(design.moving), random);
     design.fixed = on_some_side(std::move(design.fixed), random);
   }
-  const PoseMaker maker(design, kind.nested, choice.poses);
+  const PoseMaker maker(design, kind.nested, is_random(kind), choice.poses);
   const bool slides = choice.poses == PoseFamily::ANY && chance(0.5, random);
   const double step = std::pow(10.0, random.uniform(-6.0, -2.0));
   const Vec3 way = step * level_direction(random);

@@ -40,8 +40,13 @@ struct PartsKind {
       false;  ///< The moving part goes into the fixed one, with CLEARANCE; else a side of it lies on a side.
 };
 
-/// The last one draws both parts anew for every scene.
-std::span<const PartsKind> parts_kinds();
+/// Where kinds come from.
+enum class Generator : std::uint8_t {
+  MACHINE_PARTS,  ///< Parts that are drawn (machine_parts.h), on and in each other; the last kind draws both by lot.
+  RANDOM_SOLIDS  ///< Solids that nobody drew (random_solids.h); any face of one lies on any face of the other.
+};
+std::span<const PartsKind> parts_kinds(Generator generator = Generator::MACHINE_PARTS);
+/// Of either generator.
 /// @throws UsageError for an unknown name
 const PartsKind& parts_kind(std::string_view name);
 

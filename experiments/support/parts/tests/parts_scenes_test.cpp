@@ -1,11 +1,13 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/base/error.h>
+#include <lmdbench/mesh/validity.h>
 
 #include <gtest/gtest.h>
 #include <support/parts/parts_scenes.h>
 
 #include <cmath>
+#include <set>
 
 namespace lmdbench::parts {
 namespace {
@@ -52,6 +54,21 @@ TEST(PartsScenes, ThatAreFlushHaveNoTilt) {
       EXPECT_EQ(pose.rotation.y(), 0.0) << kind.name;
       for (const double x : pose.translation) EXPECT_EQ(std::ldexp(x, 24), std::round(std::ldexp(x, 24)));
     }
+  }
+}
+
+TEST(PartsScenes, OfRandomSolidsAreSoundAndDiffer) {
+  for (const PartsKind& kind : parts_kinds(Generator::RANDOM_SOLIDS)) {
+    std::set<std::size_t> triangles;
+    for (std::size_t index = 0; index < 8; ++index) {
+      const PartsDesign design =
+          make_parts_design({kind.name, Coordinates::EXACT, 1, index, PoseFamily::ANY});
+      const ValidityReport report = check_mesh(build_surface(design.moving));
+      EXPECT_TRUE(report.closed && report.manifold && report.outward.value_or(false)) << kind.name;
+      EXPECT_EQ(report.components, 1) << kind.name;
+      triangles.insert(design.moving.triangles.size());
+    }
+    EXPECT_GT(triangles.size(), 3u) << kind.name;
   }
 }
 
