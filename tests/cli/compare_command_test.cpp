@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <support/source_directory.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <string>
@@ -26,6 +27,7 @@ const std::string RUN = "run '" LMDBENCH_SOURCE_DIR
 void plant(const std::filesystem::path& file, const char* dataset, std::vector<hsize_t> at, hid_t type,
            const void* value) {
   const hid_t id = H5Fopen(file.c_str(), H5F_ACC_RDWR, H5P_DEFAULT);
+  H5Adelete(id, "content_sha256");  // a change on purpose
   const hid_t data = H5Dopen2(id, dataset, H5P_DEFAULT);
   const hid_t space = H5Dget_space(data);
   if (at.empty()) {  // a single number
@@ -48,6 +50,7 @@ void plant(const std::filesystem::path& file, const char* dataset, std::vector<h
 /// Multiplies the times of all repetitions, as a slower build would have left them.
 void slow_down(const std::filesystem::path& file, const char* dataset, double factor, double seconds_more) {
   const hid_t id = H5Fopen(file.c_str(), H5F_ACC_RDWR, H5P_DEFAULT);
+  H5Adelete(id, "content_sha256");  // a change on purpose
   const hid_t data = H5Dopen2(id, dataset, H5P_DEFAULT);
   const hid_t space = H5Dget_space(data);
   std::vector<double> times(static_cast<std::size_t>(H5Sget_simple_extent_npoints(space)));
@@ -60,7 +63,7 @@ void slow_down(const std::filesystem::path& file, const char* dataset, double fa
 }
 
 class CompareCommand : public ::testing::Test {
- protected:
+ public:
   static void SetUpTestSuite() {
     scratch_ = std::make_unique<ScratchDirectory>();
     ASSERT_EQ(lmdbench(RUN + "--out a.h5", scratch_->path()).code, 0);
@@ -71,6 +74,18 @@ class CompareCommand : public ::testing::Test {
   static std::filesystem::path copy(const std::string& name) {
     std::filesystem::copy_file(*scratch_ / "b.h5", *scratch_ / name);
     return *scratch_ / name;
+  }
+  /// `--base` or `--candidate` with six processes: copies of the second run whose times this factor lengthens.
+  static std::string processes(const std::string& side, const std::string& name, double factor,
+                               double spread) {
+    std::string files = " --" + side;
+    for (int i = 0; i < 6; ++i) {
+      const std::string file = name + std::to_string(i) + ".h5";
+      slow_down(copy(file), "/methods/improved/global_search_time",
+                factor * (1.0 + spread * (i + (side == "base" ? 0.0 : 0.5))), 0.0);
+      files += " " + file;
+    }
+    return files;
   }
   static Outcome compare(const std::string& arguments) {
     return lmdbench("compare " + arguments, scratch_->path());
@@ -116,25 +131,55 @@ TEST_F(CompareCommand, PlantedBehaviourIsNamed) {
 }
 
 TEST_F(CompareCommand, EveryVerdictOnTimesHasItsExitCode) {
-  // Against itself nothing differs at all, so what is planted is all there is.
-  EXPECT_EQ(compare("b.h5 b.h5").code, 0);
-  EXPECT_THAT(compare("b.h5 b.h5").out, HasSubstr("same: "));
-  slow_down(copy("slow.h5"), "/methods/improved/global_search_time", 3.0, 1e-3);
-  const Outcome slower = compare("b.h5 slow.h5 --json");
+  const std::string base = processes("base", "base", 1.0, 0.001);
+  const Outcome same = compare(base + processes("candidate", "same", 1.0, 0.001));
+  EXPECT_EQ(same.code, 0) << same.out;
+  EXPECT_THAT(same.out, HasSubstr("same: "));
+  const std::string slow = processes("candidate", "slow", 3.0, 0.001);
+  const Outcome slower = compare(base + slow + " --json");
   EXPECT_EQ(slower.code, 1);
   const auto json = nlohmann::json::parse(slower.out);
   EXPECT_EQ(json["verdict"], "slower");
   for (const auto& timing : json["timings"])
     EXPECT_EQ(timing["verdict"],
               timing["method"] == "improved" && timing["stage"] == "search" ? "slower" : "same");
-  const Outcome faster = compare("slow.h5 b.h5");
+  const Outcome faster = compare(base + processes("candidate", "fast", 0.5, 0.001));
   EXPECT_EQ(faster.code, 0);
   EXPECT_THAT(faster.out, HasSubstr("faster: "));
-  slow_down(copy("doubtful.h5"), "/methods/improved/global_search_time", 1.3, 0.0);
-  const Outcome unsure = compare("b.h5 doubtful.h5");
+  const std::string doubtful = processes("candidate", "doubtful", 0.9, 0.05);
+  const Outcome unsure = compare(base + doubtful);
   EXPECT_EQ(unsure.code, 4);
   EXPECT_THAT(unsure.out, HasSubstr("unsure: "));
-  EXPECT_EQ(compare("b.h5 doubtful.h5 --threshold 0.4").code, 0);
+  EXPECT_EQ(compare(base + doubtful + " --threshold 0.4").code, 0);
+}
+
+TEST_F(CompareCommand, OneProcessASideIsUnsureHoweverItsTimesLie) {
+  slow_down(copy("alone.h5"), "/methods/improved/global_search_time", 8.1, 1e-3);
+  for (const std::string files : {"b.h5 alone.h5", "alone.h5 b.h5", "a.h5 b.h5", "b.h5 b.h5"}) {
+    const Outcome outcome = compare(files);
+    EXPECT_EQ(outcome.code, 4) << files;
+    EXPECT_THAT(outcome.out, HasSubstr("one process a side cannot judge times")) << files;
+    EXPECT_THAT(outcome.out, HasSubstr("unknown")) << "no interval is claimed";
+  }
+}
+
+TEST_F(CompareCommand, DifferentExperimentsAndSweepsAreRefusedInOneLine) {
+  ASSERT_EQ(lmdbench(RUN + "--set /force/maximum_force_n=2 --out other.h5", scratch_->path()).code, 0);
+  const Outcome other = compare("a.h5 other.h5");
+  EXPECT_EQ(other.code, 2);
+  EXPECT_THAT(other.err, HasSubstr("/force/maximum_force_n"));
+  EXPECT_EQ(std::count(other.err.begin(), other.err.end(), '\n'), 1) << other.err;
+  EXPECT_EQ(other.out, "");
+  std::ofstream(*scratch_ / "sweep.json")
+      << R"({"name": "s", "title": "a sweep", "experiments": [")" LMDBENCH_SOURCE_DIR
+         R"(/experiments/shapes.json"], "repetitions": 1, "truth_check_frames": 1, "set": {"/frames": 60},
+             "series": [{"method": {"name": "certified", "force_law": "linear"}}]})";
+  ASSERT_EQ(lmdbench("work-precision sweep.json --out sweep.h5", scratch_->path()).code, 0);
+  for (const std::string files : {"a.h5 sweep.h5", "sweep.h5 a.h5"}) {
+    const Outcome sweep = compare(files);
+    EXPECT_EQ(sweep.code, 2) << files;
+    EXPECT_THAT(sweep.err, HasSubstr("a sweep of lmdbench work-precision")) << files;
+  }
 }
 
 TEST_F(CompareCommand, FalseAlarmsShareTheProbabilityGiven) {

@@ -39,21 +39,25 @@ class Compare : public ::testing::Test {
   int counter_ = 0;
 };
 
-TEST_F(Compare, OneProcessASideOfTheSameProgram) {
-  const Comparison found = compare_results(side({}, "a", 1), side({}, "b", 1), {});
-  EXPECT_EQ(found.verdict, Verdict::SAME);
-  EXPECT_EQ(found.timings.size(), 3U) << "original: search and local update; certified: local update";
-  EXPECT_EQ(timing(found, "original", "search").estimate.detectable, SINGLE_PROCESS_FACTOR - 1.0);
-  ASSERT_FALSE(found.notes.empty());
-  EXPECT_THAT(found.notes.back(), HasSubstr("one process a side"));
-  const Comparison itself = compare_results(side({}, "a", 1), {scratch_ / "a0.h5"}, {});
-  EXPECT_EQ(itself.verdict, Verdict::SAME);
+TEST_F(Compare, OneProcessASideIsUnsureOfTimesAndSureOfResults) {
+  const Comparison same = compare_results(side({}, "a", 1), side({}, "b", 1), {});
+  EXPECT_EQ(same.verdict, Verdict::UNSURE);
+  EXPECT_EQ(same.timings.size(), 3U) << "original: search and local update; certified: local update";
+  ASSERT_FALSE(same.notes.empty());
+  EXPECT_THAT(same.notes.back(), HasSubstr("one process a side cannot judge times"));
+  EXPECT_THAT(same.notes.back(), HasSubstr("at least 6 files a side"));
+  SyntheticResult slow, changed;
+  slow.slowdown = {{"original/search", 8.1}};
+  EXPECT_EQ(compare_results(side({}, "a", 1), side(slow, "b", 1), {}).verdict, Verdict::UNSURE);
+  changed.frame_with_other_force = 4;
+  EXPECT_EQ(compare_results(side({}, "a", 1), side(changed, "b", 1), {}).verdict, Verdict::CHANGED);
 }
 
 TEST_F(Compare, AWholeProcessThatIsSlowerShowsNothingAlone) {
   SyntheticResult slow;
   slow.slowdown = {{"original/search", 1.4}, {"original/local update", 1.4}, {"certified/local update", 1.4}};
   EXPECT_EQ(compare_results(side({}, "a", 1), side(slow, "b", 1), {}).verdict, Verdict::UNSURE);
+  EXPECT_EQ(compare_results(side({}, "a", 6), side(slow, "b", 1), {}).verdict, Verdict::UNSURE);
   EXPECT_EQ(compare_results(side({}, "a", 6), side(slow, "b", 6), {}).verdict, Verdict::SLOWER);
 }
 
@@ -96,10 +100,14 @@ TEST_F(Compare, StagesShareTheFalseAlarm) {
 }
 
 TEST_F(Compare, OneStageThatIsSureIsSlowerWhateverTheOthersAre) {
-  SyntheticResult slow;
-  slow.slowdown["original/search"] = 8.0;
-  slow.slowdown["certified/local update"] = 1.3;
-  const Comparison found = compare_results(side({}, "a", 1), side(slow, "b", 1), {});
+  Paths candidate;
+  for (int i = 0; i < 6; ++i) {
+    SyntheticResult slow;
+    slow.slowdown["original/search"] = 8.0;
+    slow.slowdown["certified/local update"] = i % 2 == 0 ? 0.8 : 1.3;
+    candidate.push_back(side(slow, "b" + std::to_string(i), 1)[0]);
+  }
+  const Comparison found = compare_results(side({}, "a", 6), candidate, {});
   EXPECT_EQ(timing(found, "certified", "local update").verdict, Verdict::UNSURE);
   EXPECT_EQ(found.verdict, Verdict::SLOWER);
 }
@@ -154,12 +162,46 @@ TEST_F(Compare, MachinesThatDifferAreComparedByRatios) {
   EXPECT_EQ(compare_results(side({}, "a", 5), side(changed, "b", 5), {}).verdict, Verdict::SLOWER);
 }
 
-TEST_F(Compare, AnotherExperimentIsChangedAndNotTimed) {
+/// The message of a refusal; empty where there was none.
+std::string refusal(const Paths& base, const Paths& candidate) {
+  try {
+    compare_results(base, candidate, {});
+  } catch (const UsageError& error) {
+    return error.what();
+  }
+  return {};
+}
+
+TEST_F(Compare, AnotherExperimentIsRefusedInOneLine) {
+  SyntheticResult cutoff, mesh, methods;
+  cutoff.cutoff = 0.02;
+  cutoff.moving_hash = mesh.moving_hash = "bb";
+  const std::string both = refusal(side({}, "a", 1), side(cutoff, "b", 1));
+  EXPECT_THAT(both, HasSubstr(DIFFERENT_EXPERIMENTS));
+  EXPECT_THAT(both, HasSubstr("/force/cutoff_m differs: 0.01 became 0.02 (and 1 more)"));
+  EXPECT_EQ(both.find('\n'), std::string::npos);
+  EXPECT_THAT(refusal(side({}, "a", 1), side(mesh, "b", 1)), HasSubstr("sha256:mesh:moving"));
+  methods.methods = {"certified"};
+  SyntheticResult original;
+  original.methods = {"original"};
+  EXPECT_THAT(refusal(side(original, "a", 1), side(methods, "b", 1)), HasSubstr("no method of the base"));
+}
+
+TEST_F(Compare, AnotherSceneOfOneExperimentIsChangedAndNotTimed) {
   SyntheticResult other;
-  other.cutoff = 0.02;
+  other.scene_cutoff = 0.02;
   const Comparison found = compare_results(side({}, "a", 1), side(other, "b", 1), {});
   EXPECT_EQ(found.verdict, Verdict::CHANGED);
   EXPECT_TRUE(found.timings.empty());
+}
+
+TEST_F(Compare, ASweepIsNoResultOfARun) {
+  SyntheticResult sweep;
+  sweep.sweep = true;
+  EXPECT_THAT(refusal(side({}, "a", 1), side(sweep, "b", 1)),
+              HasSubstr("a sweep of lmdbench work-precision"));
+  EXPECT_THAT(refusal(side(sweep, "a", 1), side(sweep, "b", 1)),
+              HasSubstr("a sweep of lmdbench work-precision"));
 }
 
 TEST_F(Compare, CopiesAndStrangersAreNoReplicates) {

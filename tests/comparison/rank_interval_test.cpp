@@ -61,8 +61,8 @@ TEST(RankBound, ManyProcesses) {
 TEST(Pairings, AreAllDifferencesInOrder) {
   const std::vector<double> base{1.0, 2.0, 4.0}, candidate{6.0, 2.0};
   const Pairings pairings(base, candidate);  // -2 0 1 2 4 5
-  EXPECT_EQ(pairings.smallest(), -2.0);
-  EXPECT_EQ(pairings.largest(), 5.0);
+  EXPECT_EQ(pairings.low(1), -2.0);
+  EXPECT_EQ(pairings.high(1), 5.0);
   EXPECT_EQ(pairings.shift(), 1.5);
   EXPECT_EQ(pairings.low(1), -2.0);
   EXPECT_EQ(pairings.low(3), 1.0);

@@ -19,16 +19,20 @@ std::vector<double> processes(std::mt19937_64& random, std::size_t count, double
   return values;
 }
 
-TEST(RatioEstimate, OneProcessASideShowsAFactorOfTwoOnly) {
+TEST(RatioEstimate, OneProcessASideHasNoInterval) {
   const RatioEstimate estimate = estimate_ratio(std::vector<double>{2.0}, std::vector<double>{3.0}, 0.01);
   EXPECT_DOUBLE_EQ(estimate.ratio, 1.5);
-  EXPECT_DOUBLE_EQ(estimate.low, 0.75);
-  EXPECT_DOUBLE_EQ(estimate.high, 3.0);
-  EXPECT_DOUBLE_EQ(estimate.alarm_low, 0.75);
-  EXPECT_DOUBLE_EQ(estimate.alarm_high, 3.0);
-  EXPECT_DOUBLE_EQ(estimate.detectable, 1.0);
-  EXPECT_FALSE(estimate.interval_by_ranks);
-  EXPECT_FALSE(estimate.alarm_by_ranks);
+  EXPECT_FALSE(estimate.has_interval());
+  EXPECT_FALSE(estimate.can_alarm());
+  EXPECT_EQ(estimate.alarm_low, 0.0);
+  EXPECT_EQ(estimate.detectable, INFINITY);
+}
+
+TEST(RatioEstimate, ASingleProcessHasNoIntervalHoweverManyTheOtherSideHas) {
+  const std::vector<double> many(200, 1.0), one{3.0};
+  EXPECT_FALSE(estimate_ratio(many, one, 0.01).has_interval()) << "ranks alone would reach 1 in 201";
+  EXPECT_FALSE(estimate_ratio(one, many, 0.01).can_alarm());
+  EXPECT_TRUE(estimate_ratio(many, std::vector<double>{3.0, 3.1}, 0.01).can_alarm());
 }
 
 TEST(RatioEstimate, RatioIsTheMedianOfAllPairings) {
@@ -38,25 +42,24 @@ TEST(RatioEstimate, RatioIsTheMedianOfAllPairings) {
 }
 
 TEST(RatioEstimate, EndsArePairingsThatTheRankTestNames) {
-  // 3 x 3: at 0.05 the extreme pairings (1 order of 20); 0.01 is out of reach, so the alarm's interval is a factor wider.
+  // 3 x 3: at 0.05 the extreme pairings (1 order of 20); 0.01 is out of reach, so the alarm has none.
   const RatioEstimate estimate =
       estimate_ratio(std::vector<double>{1, 2, 3}, std::vector<double>{4, 5, 6}, 0.01);
   EXPECT_NEAR(estimate.low, 4.0 / 3.0, 1e-12);
   EXPECT_NEAR(estimate.high, 6.0 / 1.0, 1e-12);
-  EXPECT_NEAR(estimate.alarm_low, 4.0 / 3.0 / SINGLE_PROCESS_FACTOR, 1e-12);
-  EXPECT_NEAR(estimate.alarm_high, 6.0 * SINGLE_PROCESS_FACTOR, 1e-12);
-  EXPECT_TRUE(estimate.interval_by_ranks);
-  EXPECT_FALSE(estimate.alarm_by_ranks);
-  EXPECT_NEAR(estimate.detectable,
-              std::max(estimate.ratio / estimate.alarm_low, estimate.alarm_high / estimate.ratio) - 1.0,
-              1e-12);
+  EXPECT_TRUE(estimate.has_interval());
+  EXPECT_FALSE(estimate.can_alarm());
+  const RatioEstimate alarmed =
+      estimate_ratio(std::vector<double>{1, 2, 3}, std::vector<double>{4, 5, 6}, 0.05);
+  EXPECT_NEAR(alarmed.alarm_low, 4.0 / 3.0, 1e-12);
+  EXPECT_NEAR(alarmed.detectable, std::max(alarmed.ratio * 3.0 / 4.0, 6.0 / alarmed.ratio) - 1.0, 1e-12);
 }
 
 TEST(RatioEstimate, AnAlarmsIntervalIsTheWider) {
   std::mt19937_64 random(2);
   const RatioEstimate estimate =
       estimate_ratio(processes(random, 10, 1.0, 0.02), processes(random, 10, 1.05, 0.02), 0.001);
-  EXPECT_TRUE(estimate.alarm_by_ranks);
+  EXPECT_TRUE(estimate.can_alarm());
   EXPECT_LT(estimate.alarm_low, estimate.low);
   EXPECT_GT(estimate.alarm_high, estimate.high);
   EXPECT_LT(estimate.low, estimate.ratio);

@@ -135,7 +135,8 @@ std::filesystem::path SyntheticResult::write(const std::filesystem::path& file) 
   writer.write({"/provenance/experiment", "1", "experiment"}, {experiment_of(*this).dump()});
   writer.write({"/provenance/inputs/role", "1", "role"}, {"path", "mesh:moving"});
   writer.write({"/provenance/inputs/sha256", "1", "hash"}, {"ff", moving_hash});
-  writer.attribute("/scene", "cutoff_m", cutoff);
+  writer.attribute("/scene", "cutoff_m", scene_cutoff > 0.0 ? scene_cutoff : cutoff);
+  if (sweep) writer.attribute("/sweep", "name", std::string("budget"));
   writer.attribute("/methods", "warm_up_repetitions", std::int64_t{1});
   std::vector<double> time;
   for (int f = 0; f < FRAMES; ++f) time.push_back(0.001 * f);

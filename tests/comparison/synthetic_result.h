@@ -14,7 +14,9 @@ namespace lmdbench::testing {
 /// repetitions of which the first one warms up.
 struct SyntheticResult {
   std::vector<std::string> methods{"original", "certified"};  ///< In the order of the experiment
-  double cutoff = 0.01;
+  double cutoff = 0.01;                                       ///< As the experiment says
+  double scene_cutoff = 0.0;  ///< As the program took it; 0: as the experiment says
+  bool sweep = false;         ///< What `work-precision` writes has a group /sweep
   std::string moving_hash = "aa";
   std::map<std::string, double> slowdown;  ///< "original/search": factor on its times
   double process_factor = 1.0;             ///< On all times

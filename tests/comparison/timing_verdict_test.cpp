@@ -24,23 +24,15 @@ Verdict verdict(const std::vector<double>& base, const std::vector<double>& cand
   return judge_timing(base, candidate, LEAST_EFFECT, ERROR).verdict;
 }
 
-TEST(TimingVerdict, OneProcessASide) {
-  EXPECT_EQ(verdict({1.0}, {1.0}), Verdict::SAME);
-  EXPECT_EQ(verdict({1.0}, {1.049}), Verdict::SAME);
-  EXPECT_EQ(verdict({1.049}, {1.0}), Verdict::SAME);
-  EXPECT_EQ(verdict({1.0}, {1.3}), Verdict::UNSURE);
-  EXPECT_EQ(verdict({1.3}, {1.0}), Verdict::UNSURE);
-  EXPECT_EQ(verdict({1.0}, {2.1}), Verdict::SLOWER);
-  EXPECT_EQ(verdict({2.1}, {1.0}), Verdict::FASTER);
-}
-
-TEST(TimingVerdict, OneProcessShowsNothingOfAStageShorterThanAnInterruption) {
-  EXPECT_EQ(verdict({1e-6}, {1e-6}), Verdict::SAME);
-  EXPECT_EQ(verdict({1e-6}, {4.9e-4}), Verdict::UNSURE);
-  EXPECT_EQ(verdict({4.9e-4}, {1e-6}), Verdict::UNSURE);
-  EXPECT_EQ(verdict({1e-6}, {5.1e-4}), Verdict::SLOWER);
-  EXPECT_EQ(verdict(std::vector<double>(7, 1e-6), std::vector<double>(7, 4e-6)), Verdict::SLOWER)
-      << "several processes do";
+TEST(TimingVerdict, OneProcessASideIsUnsureWhateverItTook) {
+  for (const double factor : {0.1, 0.49, 1.0, 1.04, 1.95, 8.1, 100.0}) {
+    EXPECT_EQ(verdict({1.0}, {factor}), Verdict::UNSURE) << factor;
+    EXPECT_EQ(verdict({1e-6}, {factor * 1e-6}), Verdict::UNSURE) << factor;
+  }
+  EXPECT_EQ(verdict(std::vector<double>(100, 1.0), {8.1}), Verdict::UNSURE) << "one on one side only";
+  EXPECT_EQ(
+      judge_timing(std::vector<double>{1.0}, std::vector<double>{1.0}, LEAST_EFFECT, ERROR).processes_needed,
+      7U);
 }
 
 TEST(TimingVerdict, Replicates) {
@@ -60,22 +52,14 @@ TEST(TimingVerdict, NoiseMakesUnsureAndSaysHowManyProcessesWouldDo) {
   EXPECT_GT(*timing.processes_needed, 4U);
 }
 
-TEST(TimingVerdict, TooFewForARankTestShowAFactorInEveryPairing) {
-  // 1 order in 20 at best: 30 % are not enough, a factor of two in every pairing is.
-  const Timing timing = judge_timing(spaced(3, 1.0, 0.002), spaced(3, 1.3, 0.002), LEAST_EFFECT, ERROR);
+TEST(TimingVerdict, TooFewForARankTestAreUnsure) {
+  // 3 x 3: 1 order in 20 at best, enough for an interval (same), too much for an alarm (slower).
+  const Timing timing = judge_timing(spaced(3, 1.0, 0.002), spaced(3, 4.0, 0.002), LEAST_EFFECT, ERROR);
   EXPECT_EQ(timing.verdict, Verdict::UNSURE);
   EXPECT_EQ(timing.processes_needed, 7U);
-  EXPECT_EQ(verdict(spaced(3, 1.0, 0.002), spaced(3, 2.1, 0.002)), Verdict::SLOWER);
-  EXPECT_EQ(verdict(spaced(3, 2.1, 0.002), spaced(3, 1.0, 0.002)), Verdict::FASTER);
-  EXPECT_EQ(verdict({1.0, 1.2, 1.0}, {2.1, 2.1, 2.1}), Verdict::UNSURE) << "one pairing of 1.75";
-  EXPECT_EQ(verdict({1e-6, 1e-6, 1e-6}, {4e-6, 4e-6, 4e-6}), Verdict::UNSURE)
-      << "shorter than an interruption";
-}
-
-TEST(TimingVerdict, TwoASideAreSameWhereEveryPairingIs) {
-  EXPECT_EQ(verdict({1.0, 1.02}, {1.01, 1.03}), Verdict::SAME);
-  EXPECT_EQ(verdict({1.0, 1.02}, {1.01, 1.06}), Verdict::UNSURE);
-  EXPECT_EQ(verdict({1.06, 1.02}, {1.01, 1.0}), Verdict::UNSURE);
+  EXPECT_EQ(verdict(spaced(3, 4.0, 0.002), spaced(3, 1.0, 0.002)), Verdict::UNSURE);
+  EXPECT_EQ(verdict(spaced(3, 1.0, 0.002), spaced(3, 1.001, 0.002)), Verdict::SAME);
+  EXPECT_EQ(verdict(spaced(2, 1.0, 0.002), spaced(2, 1.001, 0.002)), Verdict::UNSURE);
 }
 
 TEST(TimingVerdict, SlowerNeedsTheAlarmsIntervalAboveOne) {

@@ -4,6 +4,7 @@
 #include <lmdbench/base/file_hash.h>
 #include <lmdbench/base/json_schema.h>
 #include <lmdbench/comparison/compare.h>
+#include <lmdbench/comparison/comparison_text.h>
 #include <lmdbench/comparison/experiment_differences.h>
 #include <lmdbench/comparison/machine_differences.h>
 #include <lmdbench/comparison/work_of_stage.h>
@@ -21,12 +22,20 @@ namespace {
 
 using Files = std::vector<ResultReader>;
 
+/// A sweep has points in place of methods with frames, which `lmdbench report` and scripts/figures/sweep.py read.
+void refuse_sweep(const ResultReader& file) {
+  if (file.has("/sweep"))
+    throw UsageError(
+        file.file().string(), "/sweep", "a sweep of lmdbench work-precision, not the result of a run",
+        "give results of lmdbench run; lmdbench report and scripts/figures/sweep.py read sweeps");
+}
+
 Files open_side(const std::vector<std::filesystem::path>& names, const std::string& side) {
   if (names.empty()) throw UsageError("", "--" + side, "no result file", "give at least one");
   Files files;
   std::map<std::string, std::string> seen;
   for (const std::filesystem::path& name : names) {
-    files.emplace_back(name);
+    refuse_sweep(files.emplace_back(name));
     const auto [found, fresh] = seen.emplace(sha256_of_file(name), name.string());
     if (!fresh)
       throw UsageError(name.string(), "", "the same file as " + found->second + ", also given to --" + side,
@@ -39,6 +48,7 @@ Files open_side(const std::vector<std::filesystem::path>& names, const std::stri
 void check_replicates(const Files& files) {
   for (std::size_t i = 1; i < files.size(); ++i) {
     std::vector<Difference> differences = experiment_differences(files.front(), files[i]);
+    if (differences.empty()) differences = scene_differences(files.front(), files[i]);
     if (differences.empty()) differences = exact_differences(files.front(), files[i], {});
     if (!differences.empty())
       throw InputError(files[i].file().string(),
@@ -46,6 +56,27 @@ void check_replicates(const Files& files) {
                        "differs from " + files.front().file().string() + ", so the two are no replicates",
                        "give each side results of one program on one experiment");
   }
+}
+
+/// Other experiments have other results by design, which is no news about a program.
+void refuse_different_experiments(const ResultReader& base, const ResultReader& candidate) {
+  const std::vector<Difference> differences = experiment_differences(base, candidate);
+  const std::vector<std::string> methods = base.groups("/methods");
+  const bool in_common = std::any_of(methods.begin(), methods.end(), [&](const std::string& label) {
+    return candidate.has("/methods/" + label);
+  });
+  if (!methods.empty() && !in_common)
+    throw UsageError(
+        candidate.file().string(), "/methods",
+        fmt::format("{} {}: it has no method of the base", DIFFERENT_EXPERIMENTS, base.file().string()),
+        "compare results of one experiment file");
+  if (differences.empty()) return;
+  const std::string more =
+      differences.size() == 1 ? "" : fmt::format(" (and {} more)", differences.size() - 1);
+  throw UsageError(candidate.file().string(), "",
+                   fmt::format("{} {}: {}{}", DIFFERENT_EXPERIMENTS, base.file().string(),
+                               difference_text(differences.front()), more),
+                   "compare results of one experiment file on the same inputs");
 }
 
 void check_allowed(const std::vector<std::string>& names, const ResultReader& base,
@@ -186,14 +217,17 @@ void note_limits(Comparison& comparison) {
         "each file, changes under {:.0f} % are taken for the machine's",
         100.0 * CROSS_MACHINE_EFFECT));
   const std::size_t base = comparison.base.size(), candidate = comparison.candidate.size();
-  if (base == 1 && candidate == 1)
-    comparison.notes.push_back(fmt::format(
-        "one process a side shows only changes by a factor of {:g} and more: frames and repetitions of one "
-        "process share its luck; give several files a side (--base A1.h5 A2.h5 --candidate B1.h5 B2.h5)",
-        SINGLE_PROCESS_FACTOR));
   std::size_t needed = 0;
   for (const Timing& timing : comparison.timings)
     needed = std::max(needed, timing.processes_needed.value_or(0));
+  if (std::min(base, candidate) == 1) {
+    comparison.notes.push_back(fmt::format(
+        "one process a side cannot judge times: its frames and repetitions share its luck; give at least {} "
+        "files a side "
+        "(--base A1.h5 A2.h5... --candidate B1.h5 B2.h5...), or let scripts/ci_regression.sh run them",
+        needed));
+    return;
+  }
   if (needed > 0)
     comparison.notes.push_back(
         fmt::format("unsure at {} and {} processes; with this noise about {} a side would decide", base,
@@ -222,17 +256,18 @@ Comparison compare_results(const std::vector<std::filesystem::path>& base_names,
   check_replicates(candidate);
   Comparison comparison;
   comparison.machine = compare_machines(base, candidate);
-  comparison.differences = experiment_differences(base.front(), candidate.front());
-  const bool same_experiment = comparison.differences.empty();
+  refuse_different_experiments(base.front(), candidate.front());
+  comparison.differences = scene_differences(base.front(), candidate.front());
+  const bool same_scene = comparison.differences.empty();
   for (Difference& difference : exact_differences(base.front(), candidate.front(), options.exact))
     comparison.differences.push_back(std::move(difference));
   for (const std::string& name : additions(base.front(), candidate.front()))
     comparison.notes.push_back("only the candidate has " + name);
-  if (same_experiment) {
+  if (same_scene) {
     compare_times(base, candidate, options, comparison);
     note_limits(comparison);
   } else {
-    comparison.notes.emplace_back("the experiments or their inputs differ, so times are not compared");
+    comparison.notes.emplace_back("the scenes differ, so times are not compared");
   }
   comparison.verdict = overall(comparison);
   return comparison;

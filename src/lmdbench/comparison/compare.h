@@ -44,12 +44,17 @@ struct Comparison {
 
 /// Compares results; several files a side are replicates by process. Times are compared by stage and method where the
 /// machines are alike; else the times of the methods relative to each other within every file are compared, with a least
-/// effect of at least CROSS_MACHINE_EFFECT. Results of different experiments are `changed`, and no times are compared.
+/// effect of at least CROSS_MACHINE_EFFECT. Where one experiment made different scenes, that is `changed`, and no times are
+/// compared.
 /// @throws InputError  when a file is no result, or when replicates of one side have other results than their first
-/// @throws UsageError  when a side has no file or one file twice, or for an unknown counter in `allowed_counters`
+/// @throws UsageError  when a side has no file, one file twice or a sweep's file, when the two sides' experiments or inputs
+///                     differ (the message holds DIFFERENT_EXPERIMENTS), or for an unknown counter in `allowed_counters`
 Comparison compare_results(const std::vector<std::filesystem::path>& base,
                            const std::vector<std::filesystem::path>& candidate,
                            const CompareOptions& options);
+
+/// How a refusal of different experiments begins: the regression gate, which gives both programs one file, tells it by this.
+inline constexpr const char* DIFFERENT_EXPERIMENTS = "is of another experiment than";
 
 /// Relative speeds of methods move by this much with caches and vector units alone: our estimate, to keep a change of
 /// machine from looking like a change of the program.

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <string_view>
 
 namespace lmdbench {
@@ -20,6 +21,10 @@ nlohmann::ordered_json facts_json(const std::vector<std::pair<std::string, std::
 template <typename Value>
 nlohmann::ordered_json or_null(const std::optional<Value>& value) {
   return value ? nlohmann::ordered_json(*value) : nlohmann::ordered_json(nullptr);
+}
+
+nlohmann::ordered_json finite_or_null(double value) {
+  return std::isfinite(value) ? nlohmann::ordered_json(value) : nlohmann::ordered_json(nullptr);
 }
 
 std::string xml_escaped(std::string_view text) {
@@ -77,10 +82,10 @@ std::string comparison_json(const Comparison& comparison) {
     json["timings"].push_back({{"method", t.method},
                                {"stage", t.stage},
                                {"ratio", t.estimate.ratio},
-                               {"low", t.estimate.low},
-                               {"high", t.estimate.high},
+                               {"low", finite_or_null(t.estimate.has_interval() ? t.estimate.low : NAN)},
+                               {"high", finite_or_null(t.estimate.high)},
                                {"verdict", verdict_name(t.verdict)},
-                               {"detectable", t.estimate.detectable}});
+                               {"detectable", finite_or_null(t.estimate.detectable)}});
   const MachineComparison& machine = comparison.machine;
   json["machine"] = {{"comparable", machine.comparable},
                      {"reasons", machine.reasons},

@@ -29,7 +29,7 @@ std::string headline(const Comparison& comparison) {
     case Verdict::UNSURE:
       break;
   }
-  return "unsure: results are the same bits, but the times are too noisy to tell";
+  return "unsure: results are the same bits, but the times cannot be told apart";
 }
 
 std::string microseconds(double seconds) {
@@ -37,10 +37,11 @@ std::string microseconds(double seconds) {
 }
 
 std::string detectable(const Timing& timing) {
-  return fmt::format("{:.2g} %", 100.0 * timing.estimate.detectable);
+  return timing.estimate.can_alarm() ? fmt::format("{:.2g} %", 100.0 * timing.estimate.detectable) : "-";
 }
 
 std::string interval(const Timing& timing) {
+  if (!timing.estimate.has_interval()) return "unknown";
   return fmt::format("{:.3f} to {:.3f}", timing.estimate.low, timing.estimate.high);
 }
 
@@ -56,7 +57,7 @@ std::string difference_text(const Difference& d) {
 }
 
 std::string timing_text(const Timing& t) {
-  std::string text = fmt::format("{}, {}: {:.3f} times the base's time ({}), {}", t.method, t.stage,
+  std::string text = fmt::format("{}, {}: {:.3f} times the base's time (interval {}), {}", t.method, t.stage,
                                  t.estimate.ratio, interval(t), verdict_name(t.verdict));
   if (!t.work.empty()) text += "; " + t.work;
   if (t.processes_needed)

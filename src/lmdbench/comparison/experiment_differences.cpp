@@ -103,6 +103,11 @@ std::vector<Difference> experiment_differences(const ResultReader& base, const R
   std::vector<Difference> differences;
   compare_json(deciding_part(base), deciding_part(candidate), "", differences);
   compare_inputs(base, candidate, differences);
+  return differences;
+}
+
+std::vector<Difference> scene_differences(const ResultReader& base, const ResultReader& candidate) {
+  std::vector<Difference> differences;
   compare_scene(base, candidate, "/scene", differences);
   for (Difference& difference : group_differences(base, candidate, "/path"))
     differences.push_back(std::move(difference));

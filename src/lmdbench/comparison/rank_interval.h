@@ -18,8 +18,6 @@ class Pairings {
   Pairings(std::span<const double> base, std::span<const double> candidate);
 
   double shift() const;  ///< Their median
-  double smallest() const { return sorted_.front(); }
-  double largest() const { return sorted_.back(); }
 
   /// The true shift lies below it with a probability of at most the error whose `rank_bound` is given: the `bound`-th
   /// smallest pairing. Ties widen nothing and break nothing: the probability only falls.

@@ -14,11 +14,7 @@ bool within(double low, double high, double least_effect) {
 
 Verdict judge(const Timing& timing, double least_effect) {
   const RatioEstimate& e = timing.estimate;
-  // Without ranks the interval is all pairings and a factor beyond: the verdict is on the pairings themselves.
-  const double margin = e.interval_by_ranks ? 1.0 : SINGLE_PROCESS_FACTOR;
-  if (within(e.low * margin, e.high / margin, least_effect)) return Verdict::SAME;
-  if (!e.alarm_by_ranks && std::max(timing.base_seconds, timing.candidate_seconds) < SINGLE_PROCESS_SECONDS)
-    return Verdict::UNSURE;
+  if (within(e.low, e.high, least_effect)) return Verdict::SAME;
   if (e.alarm_low > 1.0) return Verdict::SLOWER;
   if (e.alarm_high < 1.0) return Verdict::FASTER;
   return Verdict::UNSURE;
@@ -49,7 +45,7 @@ Timing judge_timing(std::span<const double> base, std::span<const double> candid
   timing.candidate_seconds = median({candidate.begin(), candidate.end()});
   timing.estimate = estimate_ratio(base, candidate, error);
   timing.verdict = judge(timing, least_effect);
-  if (timing.verdict == Verdict::UNSURE && std::min(base.size(), candidate.size()) > 1)
+  if (timing.verdict == Verdict::UNSURE)
     timing.processes_needed =
         processes_needed(timing.estimate, std::min(base.size(), candidate.size()), least_effect, error);
   return timing;

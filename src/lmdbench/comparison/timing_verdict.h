@@ -31,9 +31,8 @@ struct Timing {
   double candidate_seconds = 0.0;  ///< Likewise
   RatioEstimate estimate;
   Verdict verdict = Verdict::UNSURE;
-  std::optional<std::size_t>
-      processes_needed;  ///< A side, to become sure; only where unsure and where it can be told
-  std::string work;      ///< Where slower or faster: whether the counters of the stage moved with it
+  std::optional<std::size_t> processes_needed;  ///< A side, to become sure; only where unsure
+  std::string work;  ///< Where slower or faster: whether the counters of the stage moved with it
 };
 
 /// The rule, in this order:
@@ -41,9 +40,8 @@ struct Timing {
 ///   slower  the interval of an alarm lies above 1; the first line leaves only those that reach beyond the least effect;
 ///   faster  it lies below 1, likewise;
 ///   unsure  everything else.
-/// Of so few processes that a rank test cannot reach `error` every pairing has to show a factor of SINGLE_PROCESS_FACTOR, in a
-/// stage that takes SINGLE_PROCESS_SECONDS on one of the sides; where they are too few for the interval as well (one or two a
-/// side) every pairing within the least effect is `same`.
+/// So few processes that a rank test cannot reach the error have no interval and are `unsure`: with one or two a side always,
+/// however far the times lie apart or together.
 /// @param least_effect relative change that matters, e.g. 0.05
 /// @param error        probability of a false "slower" that is allowed for this stage
 Timing judge_timing(std::span<const double> base, std::span<const double> candidate, double least_effect,
