@@ -344,6 +344,7 @@ class Surroundings(unittest.TestCase):
         """The message of `compare` for a copy of a result that was altered; the same for `report`."""
         shutil.copy(self.folder / "r.h5", self.folder / "bad.h5")
         with h5py.File(self.folder / "bad.h5", "r+") as file:
+            del file.attrs["content_sha256"]  # changed on purpose
             alter(file)
         for arguments in (["compare", "bad.h5", "r.h5"], ["compare", "r.h5", "bad.h5"],
                           ["report", "bad.h5", "--out", "page"]):

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/base/error.h>
+#include <lmdbench/record/content_hash.h>
 #include <lmdbench/record/hdf5_check.h>
 #include <lmdbench/record/hdf5_handle.h>
 #include <lmdbench/record/partial_result.h>
@@ -48,6 +49,8 @@ class ResultReader::Implementation {
       throw InputError(name_.string(), "", "cannot be opened as HDF5: " + last_hdf5_error(),
                        "check that it is a complete result of lmdbench run");
     check_format();
+    // Results of versions before this one have none.
+    if (const auto hash = text_attribute("/", CONTENT_HASH)) check_content_hash(name_, *hash);
   }
 
   const std::filesystem::path& name() const { return name_; }
