@@ -17,17 +17,23 @@ base again as a null control, the candidate. The judge is the candidate's `lmdbe
      probability of at most 2 x 0.05 x 0.05 = 0.5 %.
   Where the base is slower or faster than itself the machine is no judge yet: more rounds, `unsure` at the end.
 
-Prints the verdict's table and a last line with the reason. Exit code: 0 same or faster, 1 slower or changed, 4 unsure or
-the environment lacks something."""
+A candidate that makes another experiment of the same scene file (another default) is `changed`, too. One whose run fails where
+the base's does not is `broken`, as is the base's or a judge's own failure, with an exit code of its own.
+
+Prints the verdict's table and a last line with the reason; leaves verdict.md and junit.xml. Exit code: 0 same or faster,
+1 slower or changed, or the candidate does not run; 3 no comparison, because the base or a foreign judge does not run; 4 unsure."""
 
 import argparse
 import json
+import math
 import os
 import random
 import shutil
 import subprocess
 import sys
 import time
+
+import outcome
 
 ROOT = os.path.abspath(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", ".."))
 SUSPICION = 0.05
@@ -36,10 +42,22 @@ NAMES = ("base", "null", "cand")
 ORDERS = (("base", "cand", "null"), ("base", "null", "cand"), ("cand", "base", "null"), ("cand", "null", "base"),
           ("null", "base", "cand"), ("null", "cand", "base"))
 EXIT_CODES = {"same": 0, "faster": 0, "slower": 1, "changed": 1, "unsure": 4}
+EXIT_CANDIDATE_BROKEN = 1
+EXIT_NO_COMPARISON = 3
+# How `lmdbench compare` refuses results of different experiments (DIFFERENT_EXPERIMENTS of comparison/compare.h).
+OTHER_EXPERIMENT = "is of another experiment than"
 
 
 class Broken(Exception):
-    """A process failed: no verdict, exit code 4."""
+    """A process failed, so there is no verdict. `side` is whose: "base", "candidate" or "judge"."""
+
+    def __init__(self, side, what, log):
+        super().__init__(what)
+        self.side, self.log = side, log
+
+
+class OtherExperiment(Exception):
+    """The candidate made another experiment of the same scene file."""
 
 
 def orders(generator):
@@ -52,6 +70,11 @@ def orders(generator):
 
 def stages(answer, verdict):
     return {(t["method"], t["stage"]) for t in answer["timings"] if t["verdict"] == verdict}
+
+
+def known(number, otherwise):
+    """A number of the judge's JSON, null where the processes are too few to tell."""
+    return otherwise if number is None else number
 
 
 class Regression:
@@ -79,11 +102,17 @@ class Regression:
 
     def run(self, count):
         for _ in range(count):
+            failed = {}
             for name in next(self.orders):
                 done = self.run_process([self.programs[name], "--quiet", "run", *self.scene, "--out",
                                          self.result(name, self.rounds)], self.environments.get(name, {}))
                 if done.returncode != 0:
-                    raise Broken(f"the {name}'s run left with {done.returncode}: {done.stderr}")
+                    failed["candidate" if name == "cand" else "base"] = done
+            # Where the base fails in the same round, the scene or the machine may be the reason.
+            for side in ("base", "candidate"):
+                if side in failed:
+                    done = failed[side]
+                    raise Broken(side, f"the {side}'s run left with {done.returncode}", done.stderr)
             self.rounds += 1
 
     def compare(self, base, candidate, first=0, options=("--json",)):
@@ -92,8 +121,11 @@ class Regression:
                  for names in (base, candidate)]
         done = self.run_process([self.judge, "--quiet", "compare", "--base", *sides[0], "--candidate", *sides[1],
                                  *self.options, *options], {})
+        if done.returncode == 2 and OTHER_EXPERIMENT in done.stderr:
+            raise OtherExperiment(done.stderr.strip())
         if done.returncode not in (0, 1, 4) or not done.stdout:
-            raise Broken(f"lmdbench compare left with {done.returncode}: {done.stderr}")
+            own = self.judge == self.programs["cand"]
+            raise Broken("candidate" if own else "judge", f"lmdbench compare left with {done.returncode}", done.stderr)
         return done.stdout
 
     def against_base(self, first=0):
@@ -105,7 +137,10 @@ class Regression:
     def behaviour(self):
         """The exact part, from one round; a verdict and its reason, or None."""
         self.run(1)
-        changed = self.against_base()["verdict"] == "changed"
+        try:
+            changed = self.against_base()["verdict"] == "changed"
+        except OtherExperiment as error:
+            return "changed", f"the candidate makes another experiment of the same scene file; {error}"
         return ("changed", "results or counters differ") if changed else None
 
     def times(self, pairs, most):
@@ -117,14 +152,14 @@ class Regression:
             word = answer["verdict"]
             null = self.against_itself()["verdict"]
             self.looks.append({"rounds": self.rounds, "candidate": word, "base": null,
-                               "highest_low": max(t["low"] for t in answer["timings"]),
-                               "detectable": max(t["detectable"] for t in answer["timings"])})
+                               "highest_low": max(known(t["low"], 0.0) for t in answer["timings"]),
+                               "detectable": max(known(t["detectable"], math.inf) for t in answer["timings"])})
             self.say(f"after {self.rounds} rounds: candidate {word}, base against itself {null}")
             trusted = null in ("same", "unsure")
             if suspects and trusted:
                 alone = self.against_base(fresh)
                 confirmed = sorted((t["method"], t["stage"]) for t in alone["timings"]
-                                   if (t["method"], t["stage"]) in suspects - stages(answer, "same") and t["low"] > 1.0)
+                                   if (t["method"], t["stage"]) in suspects - stages(answer, "same") and known(t["low"], 0.0) > 1.0)
                 if confirmed:
                     named = ", ".join(f"{method}'s {stage}" for method, stage in confirmed)
                     return "slower", f"{named}: confirmed by {self.rounds - fresh} fresh rounds"
@@ -154,9 +189,14 @@ def report(regression, out):
     """The full table of the candidate against the base, and the files for other tools."""
     files = ("--junit", os.path.join(out, "junit.xml"), "--benchmark", os.path.join(out, "candidate.json"),
              "--benchmark-base", os.path.join(out, "base.json"))
-    table = regression.compare(("base", "null"), ("cand",), 0, files)
+    try:
+        table = regression.compare(("base", "null"), ("cand",), 0, files)
+        markdown = regression.compare(("base", "null"), ("cand",), 0, ("--markdown",))
+    except OtherExperiment as error:  # no table: nothing of two experiments can be compared
+        outcome.write_failure(out, "experiment", str(error))
+        return
     with open(os.path.join(out, "verdict.md"), "w", encoding="utf-8") as stream:
-        stream.write(regression.compare(("base", "null"), ("cand",), 0, ("--markdown",)))
+        stream.write(markdown)
     print(table, end="", flush=True)
 
 
@@ -187,8 +227,10 @@ def main(words=None):
         os.makedirs(os.path.dirname(programs[name]), exist_ok=True)
         shutil.copy2(program, programs[name])
     scene = [os.path.abspath(arguments.experiment)] + [word for pair in arguments.set for word in ("--set", pair)]
-    regression = Regression(programs, os.path.abspath(arguments.judge or arguments.candidate), scene, results, arguments.threshold, arguments.allow,
-                            say=lambda text: print(text, file=sys.stderr))
+    # The candidate's copy by its own name, so that a judge that fails is known for the candidate.
+    own = not arguments.judge or os.path.samefile(arguments.judge, arguments.candidate)
+    regression = Regression(programs, programs["cand"] if own else os.path.abspath(arguments.judge), scene, results,
+                            arguments.threshold, arguments.allow, say=lambda text: print(text, file=sys.stderr))
     started = time.monotonic()
     try:
         decision = regression.behaviour()
@@ -197,9 +239,14 @@ def main(words=None):
         word, why = decision or regression.times(arguments.pairs, arguments.most)
         report(regression, arguments.out)
     except Broken as error:
-        print(f"error: {error}", file=sys.stderr)
-        return EXIT_CODES["unsure"]
-    print(f"verdict: {word} ({why}); {regression.rounds} rounds, {time.monotonic() - started:.0f} s")
+        at_fault = error.side == "candidate"
+        outcome.write_error(arguments.out, f"{error.side}, run", ("" if at_fault else "no comparison: ") + str(error), error.log)
+        print(f"error: {error}: {error.log}", file=sys.stderr)
+        return EXIT_CANDIDATE_BROKEN if at_fault else EXIT_NO_COMPARISON
+    line = f"verdict: {word} ({why}); {regression.rounds} rounds, {time.monotonic() - started:.0f} s"
+    with open(os.path.join(arguments.out, "verdict.md"), "a", encoding="utf-8") as stream:
+        stream.write(f"\n{line}\n")
+    print(line)
     return EXIT_CODES[word]
 
 
