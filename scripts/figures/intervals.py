@@ -9,6 +9,7 @@ from statistics import NormalDist
 import numpy as np
 
 LEVEL = 0.95
+LEAST_EVENTS = 10  # fewer have no rate (src/lmdbench/experiment/events.h)
 RESAMPLES = 1000
 
 
@@ -77,12 +78,13 @@ def bootstrap(samples, statistic, level=LEVEL, seed=1):
 
 class Rate:
     """Events per second, from counts and times of one or more paths. Events of one path come in bursts, so where there
-    are paths enough the wider of the Poisson interval and the bootstrap over paths counts."""
+    are paths enough the wider of the Poisson interval and the bootstrap over paths counts. `value` is NaN below LEAST_EVENTS:
+    then the count and the interval are all that is known."""
 
     def __init__(self, counts, seconds):
         self.count = float(np.sum(counts))
         self.seconds = float(np.sum(seconds))
-        self.value = self.count / self.seconds if self.seconds > 0 else math.nan
+        self.value = self.count / self.seconds if self.seconds > 0 and self.count >= LEAST_EVENTS else math.nan
         low, high = (limit / self.seconds for limit in poisson_interval(self.count)) if self.seconds > 0 else (math.nan, math.nan)
         if len(counts) >= 5:
             spread = bootstrap(list(zip(counts, seconds)), lambda rows: sum(c for c, _ in rows) / sum(s for _, s in rows))
@@ -90,4 +92,8 @@ class Rate:
         self.low, self.high = low, high
 
     def __str__(self):
-        return f"{self.value:.3g} [{self.low:.2g}, {self.high:.2g}]"
+        """"212 [200, 225]" a second, or "2 in 0.598 s [0.4, 12]", and "-" for what was not counted."""
+        if not (math.isfinite(self.count) and self.seconds > 0):
+            return "-"
+        shown = f"{self.value:.3g}" if math.isfinite(self.value) else f"{self.count:.0f} in {self.seconds:.3g} s"
+        return f"{shown} [{self.low:.2g}, {self.high:.2g}]"

@@ -7,6 +7,7 @@ Reported numbers (recall, force error, times, ...) are read from the summary tha
 have names of their own. Times are in seconds here; figures and tables show milliseconds.
 """
 
+import hashlib
 import json
 import os
 import sys
@@ -14,6 +15,8 @@ import traceback
 
 import h5py
 import numpy as np
+
+from intervals import Rate
 
 FORMAT = "lmdbench-result"
 FORMAT_VERSION = 2
@@ -29,6 +32,19 @@ class ResultError(Exception):
 # What reading raises for a file that lacks what every result holds, or holds it in another shape or of another kind.
 DATA_ERRORS = (AttributeError, IndexError, KeyError, TypeError, ValueError)
 OPENED = []  # names of the results of this call, for messages
+
+
+def check_content(file, h5):
+    """Whether the file's bytes are those that were written (results/README.md); results of earlier versions do not tell."""
+    digits = h5.attrs.get("content_sha256")
+    if digits is None:
+        return
+    with open(file, "rb") as stream:
+        content = stream.read()
+    digits = bytes(digits)
+    if content.count(digits) != 1 or hashlib.sha256(content.replace(digits, b"0" * len(digits))).hexdigest().encode() != digits:
+        raise ResultError(f"{file}: attribute content_sha256: its bytes are not those that were written: damaged, or changed afterwards "
+                          "(remedy: make the file again with lmdbench run; who changed it on purpose deletes the attribute)")
 
 
 class Method:
@@ -72,6 +88,11 @@ class Method:
         """(N) length of the rendered force [N]."""
         return np.linalg.norm(self.read("force"), axis=1)
 
+    def events(self, name):
+        """Rare events of the run, such as jumps: how many, in what time, and their rate (intervals.Rate)."""
+        frames = self.number("true_jump_frames" if name == "true_jumps" else "frames_in_contact")
+        return Rate([self.number(name)], [frames / self.result.scene("frame_rate_hz")])
+
     def number(self, name):
         """A number of the program's summary; NaN where it was not measured."""
         return self.result.summary_number(f"/methods/{self.label}/summary/{name}")
@@ -112,6 +133,7 @@ class Result:
                 f"{self.file}: has format version {version}, this script reads {FORMAT_VERSION} "
                 "(remedy: use the scripts of the same version as the program)"
             )
+        check_content(self.file, self.h5)
         self.experiment = json.loads(self.read_text("/provenance/experiment"))
         self.name = self.experiment.get("name", self.file)
         self.time = self.read("/path/time")

@@ -51,7 +51,7 @@ def row(method):
         percents(method, "recall"),
         percents(method, "precision"),
         number(method.number("force_error_rms_n")),
-        number(method.number("jumps_per_second"), 1),
+        str(method.events("jumps")),
     ]
 
 
@@ -60,13 +60,14 @@ def truth_rows(result):
     if not result.has("/reference/frame"):
         return []
     lmds = median_and_most(result.number("true_lmd_count_median"), result.number("true_lmd_count_maximum"))
-    jumps = {method.force_law: method.number("true_jumps_per_second") for method in result.methods.values()}
-    return [[f"truth, {law} law", *[NOT_MEASURED] * 3, lmds, *[NOT_MEASURED] * 3, number(value, 1)]
-            for law, value in jumps.items()]
+    jumps = {}
+    for method in result.methods.values():
+        jumps.setdefault(f"{method.force_law} law" + (f", {method.profile}" if method.profile else ""), method.events("true_jumps"))
+    return [[f"truth, {law}", *[NOT_MEASURED] * 3, lmds, *[NOT_MEASURED] * 3, str(rate)] for law, rate in jumps.items()]
 
 
 HEADINGS = ("method", "search [ms]", "+ reduction [ms]", "local update [ms]", "LMDs", "recall [%]", "precision [%]",
-            "force error [N]", "jumps [1/s]")
+            "force error [N]", "jumps [1/s, 95 %]")
 
 
 def table(rows):
@@ -95,12 +96,18 @@ def crosscheck_line(result):
     return text + (f" Fresh searches off by more than the tolerance: {', '.join(methods)} frames." if methods else "")
 
 
+def true_jumps(result):
+    """Where the true jumps were counted."""
+    label = result.text_attribute("/summary", "truth_of_every_frame")
+    return f", true jumps of every frame by {label}, whose sets are the exhaustive ones there" if label else ", true jumps there, too"
+
+
 def describe(result):
     truth = next((truth_of(method) for method in result.methods.values()), None)
     lines = [f"{result.name}: {result.experiment.get('title') or 'no title'}"]
     lines.append(f"{result.time.size} frames, {result.number('frames_in_contact'):.0f} in contact; "
                  f"{result.repetitions() - result.warm_up_repetitions} timed repetitions; "
-                 + (f"errors against exhaustive truth in {truth.frames.size} frames"
+                 + (f"errors against exhaustive truth in {truth.frames.size} frames{true_jumps(result)}"
                     if truth else "NO TRUTH PROBE: the times stand without an error")
                  + f"; F_max {result.maximum_force():g} N a contact.")
     lines += ["", table([row(method) for method in result.methods.values()] + truth_rows(result)), "", crosscheck_line(result)]
@@ -115,7 +122,8 @@ Times: median (99th percentile) over the searches and frames in contact, each th
 "+ reduction": search with the first reduction. LMDs: median in contact (most). Recall, precision: share of the true LMDs
 that the method knows, of its LMDs that are true; the same features (in parentheses: neighbouring features count). Force
 error: root mean square against the true force under the same law, in contact. Jumps: changes of force above 25 % of F_max
-within one frame, per second in contact."""
+within one frame, per second in contact, with the interval of their count (95 %, Poisson); fewer than ten are told as "number in
+seconds" and have an interval, but no rate."""
 
 
 def main(argv):

@@ -57,7 +57,13 @@ TEST(SummariseJumps, CountsLargeChangesPerSecondInContact) {
     record.frames.push_back(frame_of(force));
   MethodSummary summary;
   summarise_jumps(summary, record, {{false, true, true, true, true, false}, RATE_HZ, MAXIMUM_FORCE});
-  EXPECT_DOUBLE_EQ(summary.jumps_per_second, 3.0 / (4.0 / RATE_HZ));
+  EXPECT_EQ(summary.jumps, 3.0);
+  EXPECT_TRUE(std::isnan(summary.jumps_per_second)) << "three events have no rate";
+  EXPECT_NEAR(summary.jumps_per_second_low, 0.6187 / (4.0 / RATE_HZ), 0.01);
+  MethodRecord restless;
+  for (int i = 0; i < 11; ++i) restless.frames.push_back(frame_of(i % 2 == 0 ? 0.0 : 1.1 * JUMP));
+  summarise_jumps(summary, restless, {std::vector<bool>(11, true), RATE_HZ, MAXIMUM_FORCE});
+  EXPECT_DOUBLE_EQ(summary.jumps_per_second, 10.0 / (11.0 / RATE_HZ));
   MethodSummary apart;
   summarise_jumps(apart, record, {std::vector<bool>(6, false), RATE_HZ, MAXIMUM_FORCE});
   EXPECT_TRUE(std::isnan(apart.jumps_per_second));
@@ -118,11 +124,35 @@ TEST_F(SummariseErrorsTest, ChangesOfForceAreOverTheSameFramesInContactForBoth) 
   EXPECT_DOUBLE_EQ(summary_.force_jump_maximum_n, 5.0);
   EXPECT_DOUBLE_EQ(summary_.force_jump_p99_n, 3.0 + 0.97 * 2.0);
   EXPECT_DOUBLE_EQ(summary_.true_force_jump_maximum_n, 1.01 * JUMP);
-  EXPECT_DOUBLE_EQ(summary_.true_jumps_per_second, RATE_HZ / 4.0);
+  EXPECT_EQ(summary_.true_jumps, 1.0);
+  EXPECT_EQ(summary_.true_jump_frames, 4.0);
+  EXPECT_TRUE(std::isnan(summary_.true_jumps_per_second)) << "one event has no rate";
   MethodSummary exponential;
   summarise_errors(exponential, ForceLaw::EXPONENTIAL, truth_, comparisons_, frames_);
   EXPECT_DOUBLE_EQ(exponential.true_force_jump_maximum_n, 0.4) << "of the method's own law";
-  EXPECT_DOUBLE_EQ(exponential.true_jumps_per_second, 0.0);
+  EXPECT_EQ(exponential.true_jumps, 0.0);
+}
+
+TEST_F(SummariseErrorsTest, TruthOfEveryFrameTakesThePlaceOfTheProbes) {
+  CompleteTruth truth{"certified", {}, std::vector<std::int64_t>(10, 1)};
+  MethodRecord same, other;
+  for (int i = 0; i < 10; ++i) {
+    const double force = i % 2 == 0 ? 0.0 : 1.01 * JUMP;
+    truth.force[static_cast<std::size_t>(ForceLaw::LINEAR)].push_back(Vec3(force, 0.0, 0.0));
+    truth.force[static_cast<std::size_t>(ForceLaw::EXPONENTIAL)].push_back(Vec3::Zero());
+    same.frames.push_back(frame_of(force));
+    other.frames.push_back(frame_of(0.0));
+  }
+  summarise_jumps(summary_, same, frames_);
+  summarise_true_steps(summary_, ForceLaw::LINEAR, same, truth, frames_);
+  EXPECT_EQ(summary_.true_jumps, 9.0) << "one law, one set: ...";
+  EXPECT_EQ(summary_.jumps, 9.0) << "... as many as the method, to the last one";
+  EXPECT_EQ(summary_.true_jumps_per_second_low, summary_.jumps_per_second_low);
+  EXPECT_EQ(summary_.true_jump_frames, 7.0);
+  EXPECT_EQ(summary_.force_jump_maximum_n, summary_.true_force_jump_maximum_n);
+  summarise_true_steps(summary_, ForceLaw::EXPONENTIAL, other, truth, frames_);
+  EXPECT_EQ(summary_.true_jumps, 0.0) << "of the method's own law";
+  EXPECT_EQ(summary_.force_jump_maximum_n, 0.0);
 }
 
 TEST(SummariseErrors, NothingProbedIsUnset) {

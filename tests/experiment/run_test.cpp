@@ -381,6 +381,45 @@ TEST(Summary, IsTheSameInTheFileAndInJson) {
                                     summary.methods[1].recall_adjacent)));
 }
 
+/// The number of jumps of each method and of its truth, with these methods.
+std::map<std::string, std::pair<double, double>> jumps_of(const std::string& methods, std::string& label) {
+  const Experiment experiment = short_shapes({"/methods=" + methods, "/driver/repetitions=1"});
+  const RunSummary summary = summarise(experiment, run_experiment(experiment));
+  label = summary.truth_of_every_frame;
+  std::map<std::string, std::pair<double, double>> jumps;
+  for (const MethodSummary& method : summary.methods) jumps[method.label] = {method.jumps, method.true_jumps};
+  return jumps;
+}
+
+TEST(Summary, ACompleteSetThatRunsAlongIsTheTruthOfEveryFrame) {
+  std::string label;
+  const auto alone = jumps_of(R"([{"name":"improved","force_law":"exponential"}])", label);
+  EXPECT_EQ(label, "") << "the probe's frames alone";
+  const auto along = jumps_of(
+      R"([{"name":"improved","force_law":"exponential"},{"name":"original","force_law":"linear"},
+          {"name":"certified","force_law":"exponential"}])",
+      label);
+  EXPECT_EQ(label, "certified");
+  EXPECT_EQ(along.at("certified").first, along.at("certified").second) << "no exact method invents jumps";
+  EXPECT_EQ(along.at("improved").second, along.at("certified").first) << "one truth a law";
+  EXPECT_EQ(along.at("improved").first, alone.at("improved").first);
+  const auto linear = jumps_of(
+      R"([{"name":"original","force_law":"linear"},{"name":"certified","force_law":"linear"}])", label);
+  EXPECT_EQ(along.at("original").second, linear.at("certified").first) << "the other law of the same sets";
+}
+
+TEST(Summary, TextTellsCountsAndIntervals) {
+  const Experiment experiment =
+      short_shapes({R"(/methods/-={"name":"certified","force_law":"exponential"})"});
+  const RunSummary summary = summarise(experiment, run_experiment(experiment));
+  EXPECT_THAT(summary_text(summary),
+              HasSubstr("against truth by exhaustive search and in all of them by certified"));
+  EXPECT_THAT(summary_text(summary), HasSubstr(" (95 %: "));
+  const auto json = nlohmann::json::parse(summary_json(summary));
+  EXPECT_EQ(json["truth_of_every_frame"], "certified");
+  EXPECT_EQ(json["frame_rate_hz"], 1000.0);
+}
+
 TEST(Summary, EachNumberIsNamedOnceWithItsUnit) {
   std::set<std::string_view> names;
   for (const SummaryNumber& number : summary_numbers()) {

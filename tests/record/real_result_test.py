@@ -183,7 +183,11 @@ class RealResultTest(unittest.TestCase):
         same("force_error_median_n", np.median(errors))
         same("force_error_p99_n", np.quantile(errors, 0.99))
         jumps = np.linalg.norm(np.diff(method.read("force"), axis=0), axis=1) > 0.25 * result.maximum_force()
-        same("jumps_per_second", jumps.sum() / (contact.sum() / result.scene("frame_rate_hz")))
+        same("jumps", jumps.sum())
+        rate = jumps.sum() / (contact.sum() / result.scene("frame_rate_hz"))
+        same("jumps_per_second", rate if jumps.sum() >= 10 else np.nan)
+        if method.promise == "complete-set":
+            same("true_jumps", jumps.sum())  # its own sets are the truth of every frame: one truth
         if method.reduces:
             same("reduction_ratio", method.read("candidates").sum() / method.read("kept_after_reduction").sum())
         local = np.median(method.times("local_update_time"), axis=0)[contact]
@@ -198,6 +202,34 @@ class RealResultTest(unittest.TestCase):
             times = method.times("local_update_time")
             self.assertEqual(times.shape, (2, result.time.size))
             self.assertTrue(np.all(times >= 0))
+
+    def test_recipes_tell_the_programs_numbers(self):
+        examples = os.path.join(HERE, "..", "..", "results", "examples")
+
+        def told(recipe, label):
+            done = subprocess.run([sys.executable, os.path.join(examples, recipe), self.hard], capture_output=True, text=True, check=True)
+            (line,) = [line for line in done.stdout.splitlines() if line.startswith(label + ":")]
+            return line
+
+        for label, method in Result(self.hard).methods.items():
+            median, p99 = (1e6 * method.number(f"local_update_{name}_s") for name in ("median", "p99"))
+            self.assertEqual(told("times.py", label), f"{label}: median {median:.3g} us, 99 % {p99:.3g} us")
+            self.assertIn(f"{label}: {method.number('force_error_maximum_n'):.3g} N at ", told("worst_frames.py", label))
+            self.assertIn(f"largest {method.number('rendered_force_maximum_n'):.3g} N", told("forces.py", label))
+
+    def test_flipped_bytes_are_refused(self):
+        damaged = self.path("damaged.h5")
+        with open(self.hard, "rb") as stream:
+            content = bytearray(stream.read())
+        for place in range(1000, len(content), len(content) // 400):
+            content[place] ^= 1
+        with open(damaged, "wb") as stream:
+            stream.write(content)
+        for words in (["compare", self.hard, damaged], ["export", damaged, "--out", self.path("view")]):
+            done = subprocess.run([PROGRAM, *words], capture_output=True, text=True, check=False)
+            self.assertEqual(done.returncode, 3, done.stderr)
+            self.assertIn("damaged.h5", done.stderr)
+            self.assertIn("remedy", done.stderr)
 
     def test_scripts_read_them(self):
         out = self.path("figures")

@@ -65,7 +65,7 @@ def write_result(file, name="hard", frames=2000, repetitions=5, methods=("origin
             write_method(group, label, frames, repetitions, searches, contacts, true_force, depth, random)
             if truth_stride:
                 write_truth(group, label, probed, contacts, true_force)
-            write_summary(group, label, bool(truth_stride))
+            write_summary(group, label, bool(truth_stride), np.count_nonzero(contacts))
         overall = h5.create_group("summary")
         for key, value in (("frames_in_contact", np.count_nonzero(contacts)), ("frames_probed", probed.size),
                            ("true_lmd_count_median", 3.0), ("true_lmd_count_maximum", contacts.max(initial=0))):
@@ -74,6 +74,7 @@ def write_result(file, name="hard", frames=2000, repetitions=5, methods=("origin
             reference = h5.create_group("reference")
             dataset(reference, "frame", probed, "1", "probed frames")
             dataset(reference, "lmd_count", contacts[probed], "1", "true LMDs")
+            dataset(reference, "minimum_distance", np.where(contacts[probed] > 0, 1e-3, np.nan), "m", "least true distance")
             for law in ("linear", "exponential"):
                 dataset(reference, f"force_{law}", true_force[probed], "N", "true force")
                 jump = np.linalg.norm(true_force[probed + 1] - true_force[probed], axis=1)
@@ -130,25 +131,25 @@ def write_method(group, label, frames, repetitions, searches, contacts, true_for
 SUMMARY_UNITS = {"_m": "m", "_n": "N", "_rad": "rad", "_s": "s", "_per_second": "1/s"}
 # Known numbers of each method; of the improved one where it is not named.
 LOSSES = {"recall": 0.8, "recall_adjacent": 0.9, "precision": 0.7, "precision_adjacent": 0.95, "frames_wrong": 8.0,
-          "force_error_rms_n": 0.9, "force_error_maximum_n": 2.0, "jumps_per_second": 20.0}
+          "force_error_rms_n": 0.9, "force_error_maximum_n": 2.0, "jumps": 20.0}
 EXACT = {"recall": 1.0, "recall_adjacent": 1.0, "precision": 1.0, "precision_adjacent": 1.0, "frames_wrong": 0.0,
-         "force_error_rms_n": 0.0, "force_error_maximum_n": 0.0, "jumps_per_second": 0.0}
+         "force_error_rms_n": 0.0, "force_error_maximum_n": 0.0, "jumps": 0.0}
 COMMON = {"frames_touching": 0.0, "frames_late": 0.0, "lmd_count_median": 2.0, "lmd_count_p99": 4.0, "lmd_count_maximum": 4.0,
           "candidates_median": 24.0, "minimum_distance_error_maximum_m": 0.0, "force_error_median_n": 0.0,
           "force_error_p99_n": 0.0, "force_angle_error_median_rad": 0.0, "force_jump_p99_n": 0.0,
           "force_jump_maximum_n": 0.0, "true_force_jump_p99_n": 0.0, "true_force_jump_maximum_n": 0.0,
-          "true_jumps_per_second": 0.5}
+          "true_jumps": 1.0, "true_jump_frames": 40.0}
 REDUCTION = {"reduction_ratio": 12.0, "reduction_ratio_maximum": 14.0}
 TIMES = {  # local update, search, search with reduction, frame
     "original": (5e-6, 1e-3, 1e-3, 55e-6), "improved": (20e-6, 1.1e-3, 1.98e-3, 119e-6),
     "certified": (50e-6, np.nan, np.nan, 50e-6), "exhaustive": (40e-3, np.nan, np.nan, 40e-3)}
 
 
-def write_summary(group, label, probed):
+def write_summary(group, label, probed, in_contact):
     local, search, both, frame = TIMES[label]
-    numbers = COMMON | (LOSSES if label == "original" else EXACT)
+    numbers = {"frames_in_contact": float(in_contact)} | COMMON | (LOSSES if label == "original" else EXACT)
     if not probed:
-        numbers |= {name: np.nan for name in LOSSES if name != "jumps_per_second"} | {"true_jumps_per_second": np.nan}
+        numbers |= {name: np.nan for name in LOSSES if name != "jumps"} | {"true_jumps": np.nan}
     if label == "improved":
         numbers |= REDUCTION
     else:

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <iterator>
 
 namespace lmdbench {
 namespace {
@@ -18,6 +19,36 @@ double root_mean_square(std::vector<double> values) {
 
 double ratio(std::int64_t candidates, std::int64_t kept) {
   return kept > 0 ? static_cast<double>(candidates) / static_cast<double>(kept) : UNSET;
+}
+
+std::int64_t frames_in_contact(const RunFrames& frames) {
+  return std::count(frames.in_contact.begin(), frames.in_contact.end(), true);
+}
+
+double seconds_in_contact(const RunFrames& frames) {
+  return static_cast<double>(frames_in_contact(frames)) / frames.frame_rate_hz;
+}
+
+std::vector<Vec3> forces_of(const MethodRecord& record) {
+  std::vector<Vec3> forces;
+  for (const FrameRecord& frame : record.frames) forces.push_back(frame.force);
+  return forces;
+}
+
+/// Over all frames, in contact or not.
+std::int64_t count_jumps(const std::vector<Vec3>& forces, const RunFrames& frames) {
+  std::int64_t jumps = 0;
+  for (std::size_t i = 0; i + 1 < forces.size(); ++i)
+    if ((forces[i + 1] - forces[i]).norm() > JUMP_SHARE * frames.maximum_force) ++jumps;
+  return jumps;
+}
+
+/// Changes of force from the frames in contact to the next ones.
+std::vector<double> changes_in_contact(const std::vector<Vec3>& forces, const RunFrames& frames) {
+  std::vector<double> changes;
+  for (std::size_t i = 0; i + 1 < forces.size(); ++i)
+    if (frames.in_contact[i]) changes.push_back((forces[i + 1] - forces[i]).norm());
+  return changes;
 }
 
 }  // namespace
@@ -50,21 +81,30 @@ void summarise_counts(MethodSummary& summary, const MethodRecord& record, const 
   summary.reduction_ratio_maximum = maximum(ratios);
 }
 
+void set_jumps(MethodSummary& summary, const Events& events) {
+  summary.jumps = events.count;
+  summary.jumps_per_second = events.per_second;
+  summary.jumps_per_second_low = events.low;
+  summary.jumps_per_second_high = events.high;
+}
+
+void set_true_jumps(MethodSummary& summary, const Events& events, std::int64_t frames) {
+  summary.true_jumps = events.count;
+  summary.true_jump_frames = static_cast<double>(frames);
+  summary.true_jumps_per_second = events.per_second;
+  summary.true_jumps_per_second_low = events.low;
+  summary.true_jumps_per_second_high = events.high;
+}
+
 void summarise_jumps(MethodSummary& summary, const MethodRecord& record, const RunFrames& frames) {
-  std::size_t jumps = 0;
-  for (std::size_t i = 0; i + 1 < record.frames.size(); ++i)
-    if ((record.frames[i + 1].force - record.frames[i].force).norm() > JUMP_SHARE * frames.maximum_force)
-      ++jumps;
-  const auto in_contact = std::count(frames.in_contact.begin(), frames.in_contact.end(), true);
-  if (in_contact > 0)
-    summary.jumps_per_second =
-        static_cast<double>(jumps) * frames.frame_rate_hz / static_cast<double>(in_contact);
+  set_jumps(summary, count_events(count_jumps(forces_of(record), frames), seconds_in_contact(frames)));
 }
 
 void summarise_rendering(MethodSummary& summary, const MethodRecord& record, const RunFrames& frames) {
   std::vector<double> force, stiffness;
   std::vector<Vec3> all;
-  std::size_t clipped = 0, dropouts = 0;
+  std::size_t clipped = 0;
+  std::int64_t dropouts = 0;
   for (std::size_t i = 0; i < record.frames.size(); ++i) {
     const FrameRecord& frame = record.frames[i];
     all.push_back(frame.force);
@@ -91,15 +131,19 @@ void summarise_rendering(MethodSummary& summary, const MethodRecord& record, con
   summary.rendered_force_maximum_n = maximum(force);
   summary.effective_stiffness_p99_n_per_m = quantile(stiffness, P99);
   summary.force_clipped_share = static_cast<double>(clipped) / static_cast<double>(force.size());
-  summary.dropouts_per_second =
-      static_cast<double>(dropouts) * frames.frame_rate_hz / static_cast<double>(force.size());
+  const Events lost = count_events(dropouts, static_cast<double>(force.size()) / frames.frame_rate_hz);
+  summary.dropouts = lost.count;
+  summary.dropouts_per_second = lost.per_second;
+  summary.dropouts_per_second_low = lost.low;
+  summary.dropouts_per_second_high = lost.high;
 }
 
 void summarise_errors(MethodSummary& summary, ForceLaw law, const std::vector<TruthFrame>& truth,
                       const std::vector<TruthComparison>& comparisons, const RunFrames& frames) {
   const auto index = static_cast<std::size_t>(law);
   Agreement same, neighbours;
-  std::size_t wrong = 0, true_jumps = 0;
+  std::size_t wrong = 0;
+  std::int64_t true_jumps = 0;
   std::vector<double> distance, force, angle, jump, true_jump;
   for (std::size_t i = 0; i < truth.size(); ++i) {
     const TruthComparison& row = comparisons[i];
@@ -131,8 +175,22 @@ void summarise_errors(MethodSummary& summary, ForceLaw law, const std::vector<Tr
   summary.true_force_jump_p99_n = quantile(true_jump, P99);
   summary.true_force_jump_maximum_n = maximum(true_jump);
   if (!true_jump.empty())
-    summary.true_jumps_per_second =
-        static_cast<double>(true_jumps) * frames.frame_rate_hz / static_cast<double>(true_jump.size());
+    set_true_jumps(summary,
+                   count_events(true_jumps, static_cast<double>(true_jump.size()) / frames.frame_rate_hz),
+                   std::ssize(true_jump));
+}
+
+void summarise_true_steps(MethodSummary& summary, ForceLaw law, const MethodRecord& record,
+                          const CompleteTruth& truth, const RunFrames& frames) {
+  const std::vector<Vec3>& forces = truth.force[static_cast<std::size_t>(law)];
+  set_true_jumps(summary, count_events(count_jumps(forces, frames), seconds_in_contact(frames)),
+                 frames_in_contact(frames));
+  const std::vector<double> changes = changes_in_contact(forces_of(record), frames);
+  const std::vector<double> true_changes = changes_in_contact(forces, frames);
+  summary.force_jump_p99_n = quantile(changes, P99);
+  summary.force_jump_maximum_n = maximum(changes);
+  summary.true_force_jump_p99_n = quantile(true_changes, P99);
+  summary.true_force_jump_maximum_n = maximum(true_changes);
 }
 
 }  // namespace lmdbench

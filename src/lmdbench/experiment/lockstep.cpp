@@ -64,6 +64,9 @@ class MethodRun {
         memory_(method.profile.cutoff),
         planted_(method.label) {
     std::unique_ptr<Method> first = method.make();
+    // The first repetition alone: the others leave the same.
+    keeps_both_laws_ = input.keep_lmds && !first->description().tracks_locally &&
+                       first->description().promise == Promise::COMPLETE_SET;
     if (first->description().tracks_locally)
       two_rate_.emplace(std::move(first), method.make(), driver);
     else
@@ -160,6 +163,7 @@ class MethodRun {
       add_feature(result_hash_, lmd.feature_fixed);
     }
     work_hash_.add(result.counters.values);
+    if (keeps_both_laws_) keep_both_laws(lmds, reference_W, rendered);
     record_.frames.push_back(result);
     if (input_.keep_lmds && input_.keep_lmds(frame)) record_.lmds.emplace(frame, std::move(lmds));
     const Pose X_WM = poses_->pose();
@@ -169,12 +173,24 @@ class MethodRun {
     }
   }
 
+  void keep_both_laws(const LmdSet& lmds, const Vec3& reference_W, const RenderedForce& own) {
+    for (const ForceLaw law : {ForceLaw::LINEAR, ForceLaw::EXPONENTIAL}) {
+      ForceProfile profile = profile_;
+      profile.law = law;
+      record_.force_by_law[static_cast<std::size_t>(law)].push_back(
+          law == profile_.law
+              ? own.force
+              : input_.device.render(sum_forces(lmds, profile, reference_W), profile.largest_sum).force);
+    }
+  }
+
   const LockstepInput& input_;
   const ForceProfile profile_;
   std::unique_ptr<PoseSource> poses_;
   std::optional<TwoRate> two_rate_;      ///< Unset for a method without local tracking, ...
   std::unique_ptr<Method> every_frame_;  ///< ... which searches in every frame instead.
   DirectionMemory memory_;
+  bool keeps_both_laws_ = false;
   [[no_unique_address]] const PlantedSlowdown planted_;
   LmdSet found_;                            ///< Of `every_frame_`.
   WorkCounters* frame_counters_ = nullptr;  ///< Of the frame under way.

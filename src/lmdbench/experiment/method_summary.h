@@ -34,7 +34,10 @@ struct MethodSummary {
   double force_clipped_share = UNSET;
   double force_above_30_hz_n = UNSET;
   double effective_stiffness_p99_n_per_m = UNSET;
+  double dropouts = UNSET;
   double dropouts_per_second = UNSET;
+  double dropouts_per_second_low = UNSET;
+  double dropouts_per_second_high = UNSET;
   double energy_created_j = UNSET;
   double energy_balance_error = UNSET;
 
@@ -53,8 +56,15 @@ struct MethodSummary {
   double force_jump_maximum_n = UNSET;
   double true_force_jump_p99_n = UNSET;
   double true_force_jump_maximum_n = UNSET;
+  double jumps = UNSET;
   double jumps_per_second = UNSET;
+  double jumps_per_second_low = UNSET;
+  double jumps_per_second_high = UNSET;
+  double true_jumps = UNSET;
+  double true_jump_frames = UNSET;
   double true_jumps_per_second = UNSET;
+  double true_jumps_per_second_low = UNSET;
+  double true_jumps_per_second_high = UNSET;
 
   double local_update_median_s = UNSET;
   double local_update_p99_s = UNSET;

@@ -3,10 +3,13 @@
 #pragma once
 
 #include <lmdbench/experiment/pose_source.h>
+#include <lmdbench/force/force_law.h>
 #include <lmdbench/geometry/types.h>
 #include <lmdbench/lmd/lmd.h>
 #include <lmdbench/lmd/work_counters.h>
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <map>
@@ -51,6 +54,12 @@ struct RepetitionTimes {
   std::vector<double> second_tracking;
 };
 
+/// The two force laws, for arrays indexed by ForceLaw.
+inline constexpr std::size_t FORCE_LAW_COUNT = 2;
+
+/// Rendered forces, one a frame under each law [N].
+using ForcesByLaw = std::array<std::vector<Vec3>, FORCE_LAW_COUNT>;
+
 /// All that one method left.
 struct MethodRecord {
   std::string label;
@@ -58,6 +67,9 @@ struct MethodRecord {
   std::vector<SearchRecord> searches;
   std::vector<RepetitionTimes> repetitions;  ///< The first one is the warm-up.
   std::map<std::int64_t, LmdSet> lmds;       ///< LMDs within the cutoff, of the frames that were to be kept.
+  /// What either law makes of its sets, where those are to be the truth of every frame: a method that promises the complete set
+  /// and finds it anew in every frame. Empty for others.
+  ForcesByLaw force_by_law;
   std::vector<Pose>
       poses;  ///< Closed loop: X_WM of each frame, as the encoders told it. Empty in an open one.
   std::vector<LoopFrame> loop;    ///< Closed loop: what the device did in each frame. Empty in an open one.

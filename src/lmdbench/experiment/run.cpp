@@ -7,6 +7,7 @@
 #include <lmdbench/experiment/contact.h>
 #include <lmdbench/experiment/run.h>
 #include <lmdbench/experiment/write_result.h>
+#include <lmdbench/methods/registry.h>
 #include <lmdbench/record/machine_info.h>
 #include <lmdbench/record/own_result.h>
 #include <lmdbench/record/provenance.h>
@@ -71,6 +72,24 @@ void make_tracks(const Experiment& experiment, RunResult& result) {
     result.track_of_method.push_back(track);
   }
   result.one_track = shared && result.tracks.size() == 1;
+}
+
+/// The methods that promise the complete set and leave no doubt about it say what is true in every frame.
+void find_complete_truth(const Experiment& experiment, RunResult& result, Track& track) {
+  std::vector<ProbedRecord> candidates;
+  for (const std::size_t i : track.methods) {
+    const MethodDescription& method = method_description(experiment.methods[i].name);
+    if (method.promise != Promise::COMPLETE_SET || method.tracks_locally) continue;
+    candidates.push_back({&result.records[i], &result.comparisons[i]});
+    const auto wrong = std::count_if(result.comparisons[i].begin(), result.comparisons[i].end(),
+                                     [](const TruthComparison& row) { return !row.same.exact(); });
+    if (wrong > 0)
+      result.warnings.push_back(
+          fmt::format("{}: its set is not the exhaustive one in {} of {} probed frames, so it is not taken "
+                      "for the truth of the others",
+                      result.records[i].label, wrong, result.comparisons[i].size()));
+  }
+  track.complete = complete_truth(std::move(candidates));
 }
 
 /// Identifies all that decides a run's results, and whose times they are.
@@ -149,6 +168,7 @@ RunResult run_and_keep(const Experiment& experiment, const RunProgress& progress
       result.comparisons.push_back(compare_with_truth(track.truth, result.records[i], methods[i].profile.law,
                                                       prepared.profiles[track.profile].scene));
     }
+    for (Track& track : result.tracks) find_complete_truth(experiment, result, track);
   }
   note_findings(experiment, result);
   return result;

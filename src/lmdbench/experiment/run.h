@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <lmdbench/experiment/complete_truth.h>
 #include <lmdbench/experiment/experiment.h>
 #include <lmdbench/experiment/fcl_probe.h>
 #include <lmdbench/experiment/lockstep.h>
@@ -23,12 +24,13 @@ namespace lmdbench {
 /// Poses under one force profile, with what is known of them beside any method's opinion. In an open loop the methods of a
 /// profile share one; in a closed one each has its own, since its device takes its own path.
 struct Track {
-  std::size_t profile = 0;               ///< Of the experiment.
-  std::vector<std::size_t> methods;      ///< Which of the experiment's methods went along it.
-  std::vector<bool> in_contact;          ///< One a frame (contact.h).
-  std::vector<TruthFrame> truth;         ///< Empty where the plan leaves the probe out.
-  std::optional<FclCheck> fcl;           ///< Its columns are those of `methods`.
-  std::vector<PolylineFrame> polylines;  ///< Empty where the plan leaves them out.
+  std::size_t profile = 0;                ///< Of the experiment.
+  std::vector<std::size_t> methods;       ///< Which of the experiment's methods went along it.
+  std::vector<bool> in_contact;           ///< One a frame (contact.h).
+  std::vector<TruthFrame> truth;          ///< Empty where the plan leaves the probe out.
+  std::optional<CompleteTruth> complete;  ///< Truth of every frame, where one of `methods` gives it.
+  std::optional<FclCheck> fcl;            ///< Its columns are those of `methods`.
+  std::vector<PolylineFrame> polylines;   ///< Empty where the plan leaves them out.
 };
 
 /// Everything that a run produced, in memory.

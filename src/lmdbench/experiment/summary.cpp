@@ -26,7 +26,7 @@ std::string both(double same, double neighbours) {
   return fmt::format("{} ({})", shown(same, 1, ""), shown(neighbours, 1, ""));
 }
 
-std::string error_text(const MethodSummary& m) {
+std::string error_text(const MethodSummary& m, double frame_rate_hz) {
   constexpr double DEGREES = 180.0 / std::numbers::pi;
   return fmt::format(
              "  error  recall {}, precision {} (neighbouring features counting), minimum distance off by {} "
@@ -41,12 +41,16 @@ std::string error_text(const MethodSummary& m) {
              shown(m.force_error_p99_n, 1, " N"), shown(m.force_error_maximum_n, 1, " N"),
              shown(m.force_angle_error_median_rad, DEGREES, " deg")) +
          fmt::format(
-             "         jumps above {:g} % of F_max: {} in contact (truth {}); change of force in a frame {} "
-             "99 % "
-             "(truth {})\n",
-             100.0 * JUMP_SHARE, shown(m.jumps_per_second, 1, " a second"),
-             shown(m.true_jumps_per_second, 1, ""), shown(m.force_jump_p99_n, 1, " N"),
-             shown(m.true_force_jump_p99_n, 1, " N"));
+             "         jumps above {:g} % of F_max: {}; of the true force {}\n"
+             "         change of force in a frame {} 99 % (truth {})\n",
+             100.0 * JUMP_SHARE,
+             events_text({m.jumps, m.jumps_per_second, m.jumps_per_second_low, m.jumps_per_second_high},
+                         m.frames_in_contact / frame_rate_hz, " in contact"),
+             events_text({m.true_jumps, m.true_jumps_per_second, m.true_jumps_per_second_low,
+                          m.true_jumps_per_second_high},
+                         m.true_jump_frames / frame_rate_hz,
+                         m.true_jump_frames == m.frames_in_contact ? "" : " of probed frames in contact"),
+             shown(m.force_jump_p99_n, 1, " N"), shown(m.true_force_jump_p99_n, 1, " N"));
 }
 
 std::string rendered_text(const MethodSummary& m) {
@@ -62,7 +66,8 @@ std::string rendered_text(const MethodSummary& m) {
   return text + "\n";
 }
 
-std::string method_text(const MethodSummary& m, bool probed, bool closed_loop) {
+std::string method_text(const MethodSummary& m, const RunSummary& summary) {
+  const bool closed_loop = summary.closed_loop;
   std::string text = fmt::format("{} (hash {}){}\n", m.label, m.result_hash,
                                  closed_loop ? fmt::format("; its device was in contact in {} frames",
                                                            shown(m.frames_in_contact, 1, "", "{:.0f}{}"))
@@ -76,8 +81,8 @@ std::string method_text(const MethodSummary& m, bool probed, bool closed_loop) {
                         shown(m.reduction_ratio, 1, ""), shown(m.reduction_ratio_maximum, 1, ""));
   text += '\n';
   text += rendered_text(m);
-  text += probed
-              ? error_text(m)
+  text += summary.frames_probed > 0
+              ? error_text(m, summary.frame_rate_hz)
               : "  error  not measured: the truth probe is off, so the times below stand without what they "
                 "bought\n";
   text += fmt::format("  time   local update {} median, {} 99 % of the frames in contact",
@@ -101,8 +106,8 @@ constexpr std::array PROFILE_COLUMNS = {
     ProfileColumn{"99 % [N]", &MethodSummary::rendered_force_p99_n, 1.0},
     ProfileColumn{"clipped [%]", &MethodSummary::force_clipped_share, 100.0},
     ProfileColumn{">30 Hz [N]", &MethodSummary::force_above_30_hz_n, 1.0},
-    ProfileColumn{"jumps [1/s]", &MethodSummary::jumps_per_second, 1.0},
-    ProfileColumn{"drops [1/s]", &MethodSummary::dropouts_per_second, 1.0},
+    ProfileColumn{"jumps", &MethodSummary::jumps, 1.0},
+    ProfileColumn{"drops", &MethodSummary::dropouts, 1.0},
     ProfileColumn{"K_eff [N/m]", &MethodSummary::effective_stiffness_p99_n_per_m, 1.0},
     ProfileColumn{"error [N]", &MethodSummary::force_error_rms_n, 1.0},
     ProfileColumn{"made [mJ]", &MethodSummary::energy_created_j, 1e3},
@@ -164,6 +169,16 @@ nlohmann::ordered_json method_json(const MethodSummary& m) {
 
 void summarise_truth(RunSummary& summary, const RunResult& result) {
   std::vector<double> counts, in_contact;
+  if (const auto& complete = result.track_of(0).complete) {
+    summary.truth_of_every_frame = complete->label;
+    for (std::size_t i = 0; i < complete->lmd_count.size(); ++i) {
+      counts.push_back(static_cast<double>(complete->lmd_count[i]));
+      if (result.track_of(0).in_contact[i]) in_contact.push_back(counts.back());
+    }
+    summary.true_lmd_count_median = median(in_contact);
+    summary.true_lmd_count_maximum = maximum(counts);
+    return;
+  }
   for (const TruthFrame& frame : result.track_of(0).truth) {
     counts.push_back(static_cast<double>(frame.lmds.size()));
     if (result.track_of(0).in_contact[static_cast<std::size_t>(frame.frame)])
@@ -204,6 +219,7 @@ RunSummary summarise(const Experiment& experiment, const RunResult& result) {
   summary.name = experiment.name;
   summary.frames = static_cast<std::int64_t>(result.prepared.times.size());
   summary.closed_loop = experiment.loop.closed;
+  summary.frame_rate_hz = experiment.frame_rate_hz;
   summary.frames_in_contact = std::count(result.in_contact.begin(), result.in_contact.end(), true);
   summary.frames_probed = static_cast<std::int64_t>(result.track_of(0).truth.size());
   summarise_truth(summary, result);
@@ -226,6 +242,8 @@ RunSummary summarise(const Experiment& experiment, const RunResult& result) {
     summarise_jumps(method, record, frames);
     if (!track.truth.empty())
       summarise_errors(method, experiment.methods[i].force_law, track.truth, result.comparisons[i], frames);
+    if (track.complete)
+      summarise_true_steps(method, experiment.methods[i].force_law, record, *track.complete, frames);
     summarise_times(method, record, track.in_contact);
     summary.methods.push_back(std::move(method));
   }
@@ -246,14 +264,17 @@ RunSummary summarise(const Experiment& experiment, const RunResult& result) {
 
 std::string summary_text(const RunSummary& summary) {
   std::string text =
-      fmt::format("{}: {} frames, {} in contact (within the cutoff of {:.4g} mm{}), {} against truth, {}\n",
+      fmt::format("{}: {} frames, {} in contact (within the cutoff of {:.4g} mm{}), {} against truth{}, {}\n",
                   summary.name, summary.frames, summary.frames_in_contact, summary.cutoff_m * 1e3,
                   summary.closed_loop ? " on the path that the hand means" : "", summary.frames_probed,
+                  summary.truth_of_every_frame.empty()
+                      ? ""
+                      : fmt::format(" by exhaustive search and in all of them by {}, which agrees there",
+                                    summary.truth_of_every_frame),
                   summary.measured_repetitions == 1
                       ? std::string("1 measured repetition")
                       : fmt::format("{} measured repetitions", summary.measured_repetitions));
-  for (const MethodSummary& method : summary.methods)
-    text += method_text(method, summary.frames_probed > 0, summary.closed_loop);
+  for (const MethodSummary& method : summary.methods) text += method_text(method, summary);
   if (!summary.profiles.empty()) text += profile_table(summary);
   if (summary.fcl_frames > 0) {
     text += fmt::format("FCL: {} frames, {} separated; exact minimum distance agrees within {:g} in {}\n",
@@ -269,14 +290,19 @@ std::string summary_text(const RunSummary& summary) {
 }
 
 std::string summary_json(const RunSummary& summary) {
-  nlohmann::ordered_json json{{"name", summary.name},
-                              {"frames", summary.frames},
-                              {"frames_in_contact", summary.frames_in_contact},
-                              {"frames_probed", summary.frames_probed},
-                              {"measured_repetitions", summary.measured_repetitions},
-                              {"cutoff_m", summary.cutoff_m},
-                              {"true_lmd_count_median", summary.true_lmd_count_median},
-                              {"true_lmd_count_maximum", summary.true_lmd_count_maximum}};
+  nlohmann::ordered_json json{
+      {"name", summary.name},
+      {"frames", summary.frames},
+      {"frames_in_contact", summary.frames_in_contact},
+      {"frame_rate_hz", summary.frame_rate_hz},
+      {"frames_probed", summary.frames_probed},
+      {"truth_of_every_frame", summary.truth_of_every_frame.empty()
+                                   ? nlohmann::ordered_json(nullptr)
+                                   : nlohmann::ordered_json(summary.truth_of_every_frame)},
+      {"measured_repetitions", summary.measured_repetitions},
+      {"cutoff_m", summary.cutoff_m},
+      {"true_lmd_count_median", summary.true_lmd_count_median},
+      {"true_lmd_count_maximum", summary.true_lmd_count_maximum}};
   json["methods"] = nlohmann::ordered_json::array();
   for (const MethodSummary& method : summary.methods) json["methods"].push_back(method_json(method));
   if (!summary.profiles.empty()) {
@@ -306,9 +332,10 @@ void write_summary(ResultWriter& writer, const RunSummary& summary) {
         static_cast<double>(summary.frames_in_contact));
   write("/summary/frames_probed", "1", "frames compared with truth",
         static_cast<double>(summary.frames_probed));
-  write("/summary/true_lmd_count_median", "1", "true LMDs in a probed frame in contact, median",
+  writer.attribute("/summary", "truth_of_every_frame", summary.truth_of_every_frame);
+  write("/summary/true_lmd_count_median", "1", "true LMDs in a frame in contact whose truth is known, median",
         summary.true_lmd_count_median);
-  write("/summary/true_lmd_count_maximum", "1", "true LMDs in a probed frame, most",
+  write("/summary/true_lmd_count_maximum", "1", "true LMDs in a frame whose truth is known, most",
         summary.true_lmd_count_maximum);
   for (const MethodSummary& method : summary.methods)
     for (const SummaryNumber& number : summary_numbers()) {

@@ -32,9 +32,13 @@ struct RunSummary {
   std::int64_t frames_in_contact = 0;
   std::int64_t frames_probed = 0;  ///< 0: no truth, errors are not measured.
   std::int64_t measured_repetitions = 0;
+  double frame_rate_hz = UNSET;
   double cutoff_m = UNSET;
-  double true_lmd_count_median = UNSET;   ///< Over the probed frames in contact.
-  double true_lmd_count_maximum = UNSET;  ///< Over the probed frames.
+  /// Label of the method whose sets are the truth of every frame (complete_truth.h), in a closed loop of the first method's
+  /// device; empty where truth is known in the probed frames alone.
+  std::string truth_of_every_frame;
+  double true_lmd_count_median = UNSET;   ///< Over the frames in contact whose truth is known.
+  double true_lmd_count_maximum = UNSET;  ///< Over the frames whose truth is known.
   std::vector<MethodSummary> methods;
   std::vector<ProfileDifference> profiles;  ///< Empty with one profile.
   std::int64_t fcl_frames = 0;              ///< Cross-checked frames; 0: not asked for.

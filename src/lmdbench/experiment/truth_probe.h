@@ -19,9 +19,6 @@
 /// while a method in motion keeps its last direction (E12): the force errors of such frames say little.
 namespace lmdbench {
 
-/// The two force laws, for arrays indexed by ForceLaw.
-inline constexpr std::size_t FORCE_LAW_COUNT = 2;
-
 /// Truth at one frame.
 struct TruthFrame {
   std::int64_t frame = 0;

@@ -183,10 +183,12 @@ PointErrors judge(const MethodRecord& record, const SweepPoint& point, const Sha
   if (truth.other) erase_feature_numbers(summary);
   const StepNumbers steps = count_steps(record, choice.force_law, truth.frames, rows, scene.run(),
                                         scene.run_of(truth), scene.in_contact());
-  if (steps.seconds_in_contact > 0.0) {
-    summary.jumps_per_second = steps.jumps / steps.seconds_in_contact;
-    summary.true_jumps_per_second = steps.true_jumps / steps.seconds_in_contact;
-  }
+  const auto events = [&](double count) {
+    return count_events(static_cast<std::int64_t>(count), steps.seconds_in_contact);
+  };
+  set_jumps(summary, events(steps.jumps));
+  set_true_jumps(summary, events(steps.true_jumps),
+                 std::count(frames.in_contact.begin(), frames.in_contact.end(), true));
   PointErrors errors;
   for (const SummaryNumber& number : summary_numbers())
     if (const double value = summary.*number.value; !std::isnan(value))

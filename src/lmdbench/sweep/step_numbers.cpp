@@ -16,8 +16,6 @@ using S = StepNumbers;
 
 constexpr std::array STEP_NUMBERS = {
     StepNumber{"seconds_in_contact", "s", "time in contact that counts", &S::seconds_in_contact},
-    StepNumber{"jumps", "1", "changes of force in a frame above 25 % of F_max", &S::jumps},
-    StepNumber{"true_jumps", "1", "the same of the true force under the same law", &S::true_jumps},
     StepNumber{"false_jumps", "1", "jumps in steps in which the true force has none", &S::false_jumps},
     StepNumber{"missed_jumps", "1", "true jumps in steps in which the method has none", &S::missed_jumps},
     StepNumber{"switches", "1", "changes of force in a frame between below 5 % and above 50 % of F_max",
@@ -86,7 +84,7 @@ std::span<const StepNumber> step_numbers() {
 StepNumbers count_steps(const MethodRecord& record, ForceLaw law, const std::vector<TruthFrame>& truth,
                         const std::vector<TruthComparison>& rows, const PreparedRun& run,
                         const PreparedRun& truth_run, const std::vector<bool>& in_contact) {
-  StepNumbers numbers;
+  StepNumbers numbers{.jumps = 0.0, .true_jumps = 0.0};
   for (const StepNumber& number : STEP_NUMBERS) {
     // Counts begin at 0; what is a mean or a quantile stays unset until it is known.
     if (number.units == "1") numbers.*number.value = 0.0;

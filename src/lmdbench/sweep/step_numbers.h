@@ -23,8 +23,8 @@ inline constexpr double STRONG_SHARE = 0.5;
 /// NaN for what was not measured. Every frame and step counts that is in contact.
 struct StepNumbers {
   double seconds_in_contact = UNSET;
-  double jumps = UNSET;         ///< Steps that change the force by more than JUMP_SHARE of F_max (errors.h).
-  double true_jumps = UNSET;    ///< The same of the true force.
+  double jumps = UNSET;  ///< Steps that change the force by more than JUMP_SHARE of F_max (errors.h); among
+  double true_jumps = UNSET;    ///< the numbers of the summary, like the same of the true force.
   double false_jumps = UNSET;   ///< Jumps of the method in steps without a true one.
   double missed_jumps = UNSET;  ///< True jumps in steps in which the method has none.
   double switches = UNSET;      ///< Between zero and strong.
