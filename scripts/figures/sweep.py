@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-FileCopyrightText: The lmdbench authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Error against run time of a sweep (`lmdbench work-precision`), log-log, a panel a scene: each series a line over its
-axes, the Pareto front in grey, points without any error and points that fail in lanes of their own. And the tables:
+"""Error against run time of a sweep (`lmdbench work-precision`), log-log, a panel a problem (a scene, and what of its truth the
+sweep varies): each series a line along its axis, one for each value of further axes, the Pareto front in grey, points without any error and points that fail in lanes of their own. And the tables:
 which method at which budget, where one gets cheaper than another, and every point."""
 
 import argparse
@@ -13,7 +13,8 @@ import numpy as np
 
 import figure_style as style
 from lmdbench_results import run_script
-from sweep_results import Sweep, crossing, front
+from intervals import Rate
+from sweep_results import Sweep, crossing, front, lines
 
 import matplotlib.pyplot as plt
 from matplotlib.lines import Line2D
@@ -21,7 +22,8 @@ from matplotlib.ticker import FixedLocator, FuncFormatter, NullFormatter
 
 MARKERS = ("o", "s", "D", "^", "v", "P", "X", "<")
 BUDGETS_MS = (3.0, 5.0, 10.0, 20.0, 50.0, 100.0, 200.0, 500.0)  # processor time of a second of haptics
-MOST_COLUMNS = 3  # scenes beside each other; more stand below
+MOST_COLUMNS = 3  # problems beside each other; more stand below
+MOST_PANELS = 24  # problems in one figure; the tables hold all
 LANE = 0.35  # height of the lanes for errors of 0 and for failures, in decades
 
 
@@ -78,12 +80,12 @@ def draw_panel(axes, points, value, colours, markers):
     for begin, end in ((bottom, 10**low), (10**high, top)):
         if end > begin:
             axes.axhspan(begin, end, color="#F0F0F0", lw=0, zorder=0)
-    decades = [10.0**power for power in range(math.ceil(low), math.floor(high) + 1)]
+    decades = style.labelled_decades(low, high)
     names = {zero: "0", failed: "failed"}
     axes.yaxis.set_major_locator(FixedLocator([zero] * has_zero + decades + [failed] * has_failed))
     axes.yaxis.set_major_formatter(FuncFormatter(lambda at, _: names.get(at, f"{at:g}")))
-    axes.yaxis.set_minor_locator(FixedLocator([step * decade for decade in [10 ** (math.ceil(low) - 1), *decades]
-                                               for step in range(2, 10) if 10**low <= step * decade < 10**high]))
+    axes.yaxis.set_minor_locator(FixedLocator([step * 10.0**power for power in range(math.floor(low), math.floor(high) + 1)
+                                               for step in range(2, 10) if 10**low <= step * 10.0**power < 10**high]))
     axes.yaxis.set_minor_formatter(NullFormatter())
     axes.xaxis.set_major_formatter(FuncFormatter(lambda at, _: f"{at:g}"))
 
@@ -97,60 +99,93 @@ def draw_panel(axes, points, value, colours, markers):
             steps += [(cost(point), steps[-1][1]), (cost(point), place(point))]
         axes.plot([x for x, _ in steps] + [axes.get_xlim()[1] * 1e3], [y for _, y in steps] + [steps[-1][1]],
                   color=style.PALE_GREY, lw=3.0, zorder=1, solid_capstyle="butt")
-    for number, series in enumerate(dict.fromkeys(point.series for point in points)):
-        line = sorted((point for point in points if point.series == series and np.isfinite(cost(point))
-                       and np.isfinite(value(point)) or point.series == series and point.trouble), key=cost)
-        drawn = [point for point in line if np.isfinite(cost(point))]
-        axes.plot([cost(point) for point in drawn], [place(point) for point in drawn], color=colours[series], lw=0.8,
-                  marker=markers[series], ms=4.2, mec="white", mew=0.4, zorder=3)
-        for point in drawn:
-            if point.trouble:
-                axes.plot(cost(point), failed, marker="x", color=colours[series], ms=5, zorder=4)
-        for name in ("search_every_frames", "feature_points", "kernel"):
-            named = [point for point in drawn if point.axis(name) is not None]
-            ends = [named[0], named[-1]] if len(named) > 1 else []
-            if name == "kernel" and ends and cost(ends[1]) < 3 * cost(ends[0]):
-                ends = ends[1:]  # words need room
-            for point in ends:
-                # Series that lie on one line, as exact ones do, have their labels on either side of it.
-                below = name == "kernel" and number % 2 == 1
-                axes.annotate(f"{point.axis(name)}", (cost(point), place(point)), xytext=(3, -8 if below else 3), textcoords="offset points",
-                              fontsize=5.5, color=colours[series], zorder=5)
+    taken = []  # where labels stand, in inches
+    for series in dict.fromkeys(point.series for point in points):
+        for line in lines([point for point in points if point.series == series]):
+            drawn = [point for point in line.points if np.isfinite(cost(point)) and (np.isfinite(value(point)) or point.trouble)]
+            axes.plot([cost(point) for point in drawn], [place(point) for point in drawn], color=colours[series], lw=0.8,
+                      ls="-" if line.place else "none", marker=markers[series], ms=4.2, mec="white", mew=0.4, zorder=3)
+            for point in drawn:
+                if point.trouble:
+                    axes.plot(cost(point), failed, marker="x", color=colours[series], ms=5, zorder=4)
+            for point in dict.fromkeys([*drawn[:1], *drawn[-1:]]):
+                if line.value(point):
+                    label(axes, line.value(point), cost(point), place(point), colours[series], taken)
+
+
+LABEL_PT = 5.5
+
+
+def label(axes, text, x, y, colour, taken):
+    """Beside its point, above or below, where no other label stands; not at all where all is taken."""
+    width, height = (0.55 * LABEL_PT * len(text) + 1) / 72, 1.05 * LABEL_PT / 72  # inches
+    at = axes.transData.transform((x, y)) / axes.figure.dpi
+    edge = axes.transAxes.transform((1.0, 0.0))[0] / axes.figure.dpi
+    for dx, dy in ((3, 3), (3, -8), (-3 - 72 * width, 3), (-3 - 72 * width, -8), (3, 10), (3, -15)):
+        left, bottom = at[0] + dx / 72, at[1] + dy / 72
+        box = (left, bottom, left + width, bottom + height)
+        if box[2] > edge + 0.02 or any(box[0] < b[2] and b[0] < box[2] and box[1] < b[3] and b[1] < box[3] for b in taken):
+            continue
+        taken.append(box)
+        axes.annotate(text, (x, y), xytext=(dx, dy), textcoords="offset points", fontsize=LABEL_PT, color=colour, zorder=5)
+        return
+
+
+def axis_names(sweep):
+    """The axes that lines run along or that tell them apart, in words."""
+    found = []
+    for problem in sweep.problems:
+        for series in sweep.series:
+            for line in lines(sweep.of(series=series, problem=problem)):
+                found += [place for place in [line.place, *line.fixed] if place]
+    return [place.rsplit("/", 1)[-1].replace("_", " ") for place in dict.fromkeys(found)]
+
+
+def titles(sweep):
+    """{problem: the title of its panel}: what all problems of the figure share is not said again and again."""
+    found = {problem: problem.split(", ") for problem in sweep.problems}
+    names = {parts[0] for parts in found.values()}
+    return {problem: ",\n".join(parts[1:] if len(names) == 1 and len(parts) > 1 else parts) for problem, parts in found.items()}
 
 
 def draw(sweep):
     style.use_style()
     colours = colours_of(sweep)
     markers = dict(zip(sweep.series, MARKERS * 4))
-    scenes = sweep.scenes
-    columns = min(len(scenes), MOST_COLUMNS)
-    bands = -(-len(scenes) // columns)  # rows of scenes, each with all quantities
-    height = 0.9 + 2.1 * len(QUANTITIES) * bands + 0.35 * (bands - 1)
+    problems, panel_titles = sweep.problems[:MOST_PANELS], titles(sweep)
+    columns = min(len(problems), MOST_COLUMNS)
+    bands = -(-len(problems) // columns)  # rows of problems, each with all quantities
+    heads = max(title.count("\n") for title in panel_titles.values())  # further lines of their titles
+    key_rows = -(-(len(sweep.series) + 1) // 6)
+    top = 0.66 + 0.16 * key_rows + 0.13 * heads
+    height = top + 0.1 + 2.1 * len(QUANTITIES) * bands + (0.35 + 0.13 * heads) * (bands - 1)
     figure = plt.figure(figsize=(style.TWO_COLUMNS_IN, height))
-    outer = figure.add_gridspec(bands, 1, left=0.085, right=0.99, bottom=0.43 / height, top=1 - 0.82 / height, hspace=0.2)
+    outer = figure.add_gridspec(bands, 1, left=0.085, right=0.99, bottom=0.43 / height, top=1 - top / height,
+                                hspace=(0.2 * 2.1 * len(QUANTITIES) + 0.13 * heads) / (2.1 * len(QUANTITIES)))
     for band in range(bands):
         grid = outer[band].subgridspec(len(QUANTITIES), columns, wspace=0.2, hspace=0.08).subplots(squeeze=False, sharex="col")
         for column in range(columns):
-            scene = scenes[band * columns + column] if band * columns + column < len(scenes) else None
+            problem = problems[band * columns + column] if band * columns + column < len(problems) else None
             for row, (_, label, value) in enumerate(QUANTITIES):
                 axes = grid[row][column]
-                if scene is None:
+                if problem is None:
                     axes.set_axis_off()
                     continue
-                points = sweep.of(scene=scene)
+                points = sweep.of(problem=problem)
                 costs = [cost(point) for point in points if np.isfinite(cost(point))]
                 if costs:
                     axes.set_xlim(min(costs) / 1.5, max(costs) * 1.5)
                 draw_panel(axes, points, value, colours, markers)
                 if column == 0:
                     axes.set_ylabel(label)
-            if scene is not None:
-                grid[0][column].set_title(scene, loc="left", fontsize=8)
+            if problem is not None:
+                grid[0][column].set_title(panel_titles[problem], loc="left", fontsize=8)
                 grid[-1][column].set_xlabel("processor time [ms/s]")
     keys = [Line2D([], [], color=colours[series], marker=markers[series], ms=4.2, mec="white", mew=0.4, lw=0.8, label=series)
             for series in sweep.series]
     keys.append(Line2D([], [], color=style.PALE_GREY, lw=3, label="Pareto front"))
-    figure.text(0.085, 1 - 0.18 / height, "Error against processor time of a second in contact; labels: search period, feature points, kernel", fontsize=7.5, fontweight="bold")
+    figure.text(0.085, 1 - 0.18 / height, "Error against processor time of a second in contact" + (f"; labels: {', '.join(axis_names(sweep))}" if axis_names(sweep) else ""), fontsize=7.5, fontweight="bold")
+    style.note_failures(figure, {f"{point.text()} in {point.problem}": point.trouble for point in sweep.points if point.trouble})
     figure.legend(handles=keys, loc="upper left", bbox_to_anchor=(0.075, 1 - 0.23 / height), ncol=6, handlelength=1.8, columnspacing=1.4,
                   borderpad=0.1)
     return figure
@@ -165,24 +200,24 @@ def whole(value):
 
 
 def budget_table(sweep):
-    lines = ["| scene | " + " | ".join(f"{budget:g} ms/s" for budget in BUDGETS_MS) + " |",
-             "|---|" + "---|" * len(BUDGETS_MS)]
-    for scene in sweep.scenes:
+    rows = ["| problem | " + " | ".join(f"{budget:g} ms/s" for budget in BUDGETS_MS) + " |",
+            "|---|" + "---|" * len(BUDGETS_MS)]
+    for problem in sweep.problems:
         cells = []
         for budget in BUDGETS_MS:
-            able = [point for point in sweep.of(scene=scene) if not point.trouble and cost(point) <= budget]
+            able = [point for point in sweep.of(problem=problem) if not point.trouble and cost(point) <= budget]
             best = min(able, key=lambda point: (error(point), cost(point)), default=None)
             cells.append(f"{best.text()}: {shown(error(best))} %" if best else "none")
-        lines.append(f"| {scene} | " + " | ".join(cells) + " |")
-    return lines
+        rows.append(f"| {problem} | " + " | ".join(cells) + " |")
+    return rows
 
 
 def crossings(sweep, cheaper="improved", reference="certified"):
-    lines = ["| scene | processor time: every ... frames | median frame: every ... frames | force error there [% of F_max] "
-             "| recall there [%] |", "|---|---|---|---|---|"]
-    for scene in sweep.scenes:
-        exact = next((point for point in sweep.of(scene=scene, series=reference) if not point.trouble), None)
-        points = [point for point in sweep.of(scene=scene, series=cheaper)]
+    rows = ["| problem | processor time: every ... frames | median frame: every ... frames | force error there [% of F_max] "
+            "| recall there [%] |", "|---|---|---|---|---|"]
+    for problem in sweep.problems:
+        exact = next((point for point in sweep.of(problem=problem, series=reference) if not point.trouble), None)
+        points = sweep.of(problem=problem, series=cheaper)
         if exact is None or not points:
             continue
         by_cost = crossing(points, cost(exact), cost)
@@ -190,14 +225,13 @@ def crossings(sweep, cheaper="improved", reference="certified"):
         beyond = next((point for point in sorted(points, key=lambda point: point.period) if point.period >= by_cost), None)
         at = f"{shown(error(beyond))} (at {beyond.period})" if beyond else "-"
         recall = f"{shown(100 * beyond.number('recall'))} (at {beyond.period})" if beyond else "-"
-        lines.append(f"| {scene} | {whole(by_cost)} | {whole(by_median)} | {at} | {recall} |")
-    return lines
+        rows.append(f"| {problem} | {whole(by_cost)} | {whole(by_median)} | {at} | {recall} |")
+    return rows
 
 
 def a_second(point, *names):
-    """Events a second in contact; NaN for a point without contact."""
-    seconds = point.number("seconds_in_contact")
-    return sum(point.number(name) for name in names) / seconds if seconds > 0 else math.nan
+    """Events a second in contact with their interval; below ten of them how many in what time."""
+    return Rate([sum(point.number(name) for name in names)], [point.number("seconds_in_contact")])
 
 
 COLUMNS = (
@@ -217,25 +251,26 @@ COLUMNS = (
     ("with neighbours [%]", lambda p: 100 * p.number("recall_adjacent")),
     ("precision [%]", lambda p: 100 * p.number("precision")),
     ("nearest distance, largest error [um]", lambda p: 1e6 * p.number("minimum_distance_error_maximum_m")),
-    ("false jumps [1/s]", lambda p: a_second(p, "false_jumps")),
-    ("missed jumps [1/s]", lambda p: a_second(p, "missed_jumps")),
-    ("true jumps [1/s]", lambda p: a_second(p, "true_jumps")),
-    ("births + deaths [1/s]", lambda p: a_second(p, "births", "deaths")),
-    ("true ones [1/s]", lambda p: a_second(p, "true_births", "true_deaths")),
+    ("false jumps [1/s, 95 %]", lambda p: a_second(p, "false_jumps")),
+    ("missed jumps [1/s, 95 %]", lambda p: a_second(p, "missed_jumps")),
+    ("true jumps [1/s, 95 %]", lambda p: a_second(p, "true_jumps")),
+    ("births + deaths [1/s, 95 %]", lambda p: a_second(p, "births", "deaths")),
+    ("true ones [1/s, 95 %]", lambda p: a_second(p, "true_births", "true_deaths")),
 )
 
 
-def point_table(sweep, scene):
-    lines = ["| point | " + " | ".join(name for name, _ in COLUMNS) + " |", "|---|" + "---|" * len(COLUMNS)]
-    best = {point.index for point in front(sweep.of(scene=scene), cost, error)}
-    for point in sorted(sweep.of(scene=scene), key=lambda point: (bool(point.failure), cost(point))):
+def point_table(sweep, problem):
+    rows = ["| point | " + " | ".join(name for name, _ in COLUMNS) + " |", "|---|" + "---|" * len(COLUMNS)]
+    best = {point.index for point in front(sweep.of(problem=problem), cost, error)}
+    for point in sorted(sweep.of(problem=problem), key=lambda point: (bool(point.failure), cost(point))):
         name = f"**{point.text()}**" if point.index in best else point.text()
         if point.failure:
-            lines.append(f"| {name}: failed, {point.failure} |" + " |" * len(COLUMNS))
+            rows.append(f"| {name}: failed, {point.failure} |" + " |" * len(COLUMNS))
             continue
-        lines.append(f"| {name}{' (' + point.trouble + ')' if point.trouble else ''} | "
-                     + " | ".join(shown(value(point)) for _, value in COLUMNS) + " |")
-    return lines
+        values = [value(point) for _, value in COLUMNS]
+        rows.append(f"| {name}{' (' + point.trouble + ')' if point.trouble else ''} | "
+                    + " | ".join(str(found) if isinstance(found, Rate) else shown(found) for found in values) + " |")
+    return rows
 
 
 def load(sweep):
@@ -261,30 +296,30 @@ def cutoff_text(point):
 
 def markdown(sweep, picture):
     measured = [point for point in sweep.points if not point.failure]
-    checked = sum(int(point.number("truth_checked_frames")) for point in {p.scene: p for p in measured}.values())
+    checked = sum(int(point.number("truth_checked_frames")) for point in {p.problem: p for p in measured}.values())
     wrong = max((int(point.number("truth_wrong_frames")) for point in measured), default=0)
-    lines = [
+    text = [
         "# Error against run time", "",
         f"{sweep.title}. Made by `lmdbench work-precision experiments/sweeps/{sweep.name}.json` and "
         f"`scripts/figures/sweep.py results/{sweep.name}.h5` at commit {sweep.commit()} on {sweep.machine.get('processor', 'one machine')}. "
         "Truth stands in every frame: the sets of `certified`, which in "
-        f"{checked} frames of the scenes were compared with `exhaustive` ({wrong or 'none'} differ). Forces are compared under each method's "
+        f"{checked} frames of the problems were compared with `exhaustive` ({wrong or 'none'} differ). Forces are compared under each method's "
         "own law. Points take turns in random order; a frame counts with the median of its repetitions. Reading the clock costs "
         f"{1e9 * sweep.clock_overhead:.0f} ns of every time. `certified` uses vector instructions, `original` and `improved` are "
         f"scalar: part of the distance between them is that.{load(sweep)}", ""]
     if picture:
-        lines += [f"![Error against run time]({picture})", ""]
-    lines += ["## Which method at which budget", "",
+        text += [f"![Error against run time]({picture})", ""]
+    text += ["## Which method at which budget", "",
               "Least RMS force error [% of F_max of one LMD] within so much processor time of a second in contact, searches included:", "",
               *budget_table(sweep), ""]
     table = crossings(sweep)
     if len(table) > 2:
-        lines += ["## Where `improved` gets cheaper than `certified`", "",
+        text += ["## Where `improved` gets cheaper than `certified`", "",
                   "The rarer its searches, the cheaper `improved` is and the older its sets. It costs less than `certified` where it "
                   "searches more rarely than every", "", *table, ""]
-    for scene in sweep.scenes:
-        lines += [f"## {scene}", "", f"{cutoff_text(sweep.of(scene=scene)[0])} Bold: on the Pareto front of force error and processor time.", "", *point_table(sweep, scene), ""]
-    return "\n".join(lines)
+    for problem in sweep.problems:
+        text += [f"## {problem}", "", f"{cutoff_text(sweep.of(problem=problem)[0])} Bold: on the Pareto front of force error and processor time.", "", *point_table(sweep, problem), ""]
+    return "\n".join(text)
 
 
 def main(argv):

@@ -9,7 +9,7 @@ import math
 import h5py
 import numpy as np
 
-from lmdbench_results import FORMAT, FORMAT_VERSION, ResultError
+from lmdbench_results import FORMAT, FORMAT_VERSION, ResultError, check_content
 
 MISSES_ALL = "finds no true LMD"
 
@@ -29,13 +29,15 @@ def is_sweep(file):
 
 
 class Point:
-    """A method with the values of its axes in a scene; numbers by name, NaN for what was not measured."""
+    """A method with the values of its axes in a scene; numbers by name, NaN for what was not measured. Points of one `problem`
+    (results/README.md) are asked the same and can be compared."""
 
     def __init__(self, sweep, index):
         self.sweep = sweep
         self.index = index
         self.scene, self.series, self.method, self.force_law, self.failure, self.result_hash = (
             sweep.texts[name][index] for name in ("scene", "series", "method", "force_law", "failure", "result_hash"))
+        self.problem = sweep.texts.get("problem", sweep.texts["scene"])[index]
         self.axes = json.loads(sweep.texts["axes"][index])
 
     def number(self, name):
@@ -94,6 +96,7 @@ class Sweep:
                     raise ResultError(f"{self.file}: is no sweep of lmdbench {remedy}")
                 if int(h5.attrs["format_version"]) != FORMAT_VERSION:
                     raise ResultError(f"{self.file}: has another format version than this script reads {remedy}")
+                check_content(self.file, h5)
                 self.texts, self.columns = {}, {}
                 for name, dataset in h5["points"].items():
                     values = dataset[()]
@@ -120,11 +123,16 @@ class Sweep:
         return list(dict.fromkeys(point.scene for point in self.points))
 
     @property
+    def problems(self):
+        return list(dict.fromkeys(point.problem for point in self.points))
+
+    @property
     def series(self):
         return list(dict.fromkeys(point.series for point in self.points))
 
-    def of(self, scene=None, series=None):
-        return [point for point in self.points if scene in (None, point.scene) and series in (None, point.series)]
+    def of(self, scene=None, series=None, problem=None):
+        return [point for point in self.points
+                if scene in (None, point.scene) and series in (None, point.series) and problem in (None, point.problem)]
 
     def restricted(self, scene):
         """The same sweep with the points of one scene; all of it where no scene is named."""
@@ -142,6 +150,47 @@ class Sweep:
         """Short, with a word where the program was built from something else than the commit."""
         local = " with local changes" if self.provenance.get("git_dirty") == "yes" else ""
         return str(self.provenance.get("git_commit", "unknown"))[:12] + local
+
+
+class Line:
+    """Points of one series and problem that one axis tells apart, in its order. What else varies is the same in all of them."""
+
+    def __init__(self, points, place, fixed):
+        self.points, self.place, self.fixed = points, place, fixed
+
+    @property
+    def name(self):
+        """Of the axis, in words; empty for a point alone."""
+        return self.place.rsplit("/", 1)[-1].replace("_", " ") if self.place else ""
+
+    def value(self, point):
+        """Of the axis, and of what tells the line from its neighbours."""
+        values = [point.axes[place] for place in ([self.place] if self.place else []) + self.fixed]
+        return ", ".join(str(value) for value in values)
+
+
+def is_number(value):
+    return isinstance(value, (int, float)) and not isinstance(value, bool)
+
+
+def lines(points):
+    """The lines of points of one series and problem: along the numeric axis with most values; every other axis that varies, and
+    every axis of words, parts them. An axis that goes with another one (its values pair off) is the same axis."""
+    varying = {place: [point.axes.get(place) for point in points] for place in dict.fromkeys(p for point in points for p in point.axes)}
+    varying = {place: values for place, values in varying.items() if len({json.dumps(value) for value in values}) > 1}
+    leaders = []
+    for place, values in varying.items():
+        texts = [json.dumps(value) for value in values]
+        pairs = [{(a, b) for a, b in zip(texts, [json.dumps(value) for value in varying[other]])} for other in leaders]
+        if not any(len(found) == len({a for a, _ in found}) == len({b for _, b in found}) for found in pairs):
+            leaders.append(place)
+    numeric = [place for place in leaders if all(is_number(value) for value in varying[place])]
+    place = max(numeric, key=lambda name: len(set(varying[name])), default=None)
+    fixed = [name for name in leaders if name != place]
+    groups = {}
+    for point in points:
+        groups.setdefault(json.dumps([point.axes.get(name) for name in fixed]), []).append(point)
+    return [Line(sorted(group, key=lambda point: point.axes[place]) if place else group, place, fixed) for group in groups.values()]
 
 
 def front(points, cost, error):

@@ -78,6 +78,36 @@ TEST_F(LoadSweep, SetsValuesOfTheSweepThenOfTheSeriesThenOfTheAxes) {
   EXPECT_EQ(sweep.from_frame, 3);
 }
 
+TEST_F(LoadSweep, WhatChangesTheTruthMakesProblemsApart) {
+  const auto problems = [&](const std::string& series, const std::string& rest = "") {
+    std::vector<std::string> names;
+    for (const SweepPoint& point : load_sweep(write(series, rest)).points) names.push_back(point.problem);
+    return names;
+  };
+  const std::string method = R"({"method": {"name": "improved", "force_law": "exponential"})";
+  EXPECT_THAT(
+      problems(
+          method +
+          R"(, "axes": [{"/driver/search_every_frames": [20, 50]}, {"/method/visibility": ["off", "orthogonal"]}]})"),
+      ElementsAre("shapes", "shapes", "shapes", "shapes"))
+      << "a schedule and a method's options are no other question";
+  EXPECT_THAT(
+      problems(method + R"(, "axes": [{"/force/sharpness": [1, 2]}, {"/moving/mesh": ["blob", "sphere"]}]})"),
+      ElementsAre("shapes, force/sharpness 1.0, moving/mesh blob",
+                  "shapes, force/sharpness 1.0, moving/mesh sphere",
+                  "shapes, force/sharpness 2.0, moving/mesh blob",
+                  "shapes, force/sharpness 2.0, moving/mesh sphere"));
+  EXPECT_THAT(
+      problems(method + R"(, "label": "a"}, )" + method + R"(, "label": "b", "set": {"/frames": 30}})"),
+      ElementsAre("shapes", "shapes, frames 30"))
+      << "whether an axis or a series changed it";
+  EXPECT_THAT(problems(method + R"(, "label": "a"}, )" + method +
+                       R"(, "label": "b", "set": {"/moving/mesh": "sphere"},
+                                 "truth": {"/moving/mesh": "blob"}})"),
+              ElementsAre("shapes", "shapes"))
+      << "coarser meshes with the truth of the fine ones";
+}
+
 TEST_F(LoadSweep, SaysWhatIsWrongAndWhere) {
   const std::string method = R"("method": {"name": "improved", "force_law": "linear"})";
   EXPECT_THAT(refusal("{" + method + R"(, "axis": []})"), HasSubstr("did you mean \"axes\"?"));

@@ -75,6 +75,23 @@ TEST_F(RunSweep, PutsErrorBesideTimeForEveryPoint) {
   EXPECT_THAT(sweep_text(sweep, result), HasSubstr("improved search_every_frames=5"));
 }
 
+TEST_F(RunSweep, PointsOfAnotherProblemDoNotBeatEachOther) {
+  std::string text = SWEEP;
+  text.replace(
+      text.find(R"({"method": {"name": "certified", "force_law": "exponential"}})"), 61,
+      R"({"method": {"name": "certified", "force_law": "exponential"}, "axes": [{"/force/maximum_force_n": [1, 2]}]})");
+  const Sweep sweep = load_sweep(write(text));
+  const SweepResult result = run(sweep);
+  ASSERT_EQ(result.points.size(), 4u);
+  EXPECT_TRUE(on_front(sweep, result, 2));
+  EXPECT_TRUE(on_front(sweep, result, 3))
+      << "neither has an error, but one costs more: it is another problem";
+  EXPECT_NE(sweep.points[2].problem, sweep.points[3].problem);
+  EXPECT_THAT(sweep_text(sweep, result), HasSubstr(sweep.points[3].problem + ": * on the front"));
+  EXPECT_EQ(nlohmann::json::parse(sweep_json(sweep, result)).at(3)["problem"], sweep.points[3].problem);
+  EXPECT_EQ(OpenResult(scratch_ / "out.h5").strings("/points/problem").at(3), sweep.points[3].problem);
+}
+
 TEST_F(RunSweep, GoesOnWhereItStopped) {
   const Sweep sweep = load_sweep(write());
   const auto stop_after = [](int calls) {

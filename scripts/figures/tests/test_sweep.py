@@ -45,7 +45,7 @@ def row(series, every=20, cost=1e-2, error=0.3, recall=0.9, failure="", scene="h
                       kept=10.0, truth_checked_frames=4, truth_wrong_frames=0)
     values.update(maximum_force_n=2.0, method_order={"original": 0, "improved": 1, "certified": 2}[method], **numbers)
     axes = {} if method == "certified" else {"/driver/search_every_frames": every, "/driver/search_latency_frames": every}
-    return {"scene": scene, "series": series, "method": method, "force_law": "linear", "axes": json.dumps(axes), "failure": failure,
+    return {"scene": scene, "problem": scene, "series": series, "method": method, "force_law": "linear", "axes": json.dumps(axes), "failure": failure,
             "result_hash": "0", "experiment": json.dumps(experiment), **values}
 
 
@@ -105,6 +105,51 @@ class SweepFile(unittest.TestCase):
         self.assertIn("improved, a search every 100 frames: 40 %", budget)  # 10 and 20 ms/s
         self.assertIn("certified: 0 %", budget)
 
+    def test_what_changes_the_truth_makes_panels_and_fronts_of_its_own(self):
+        def at(cutoff, entries):
+            return [{**entry, "problem": f"hard, force/cutoff_m {cutoff}"} for entry in entries]
+
+        near = [row("improved", 10, cost=0.2, error=0.5), row("certified", cost=0.3, error=0.0, recall=1.0)]
+        far = [row("improved", 10, cost=0.1, error=0.1), row("certified", cost=0.2, error=0.0, recall=1.0)]  # better in both
+        found = self.read(at(0.001, near) + at(0.01, far))
+        self.assertEqual(found.problems, ["hard, force/cutoff_m 0.001", "hard, force/cutoff_m 0.01"])
+        figure = sweep.draw(found)
+        self.assertEqual([axes.get_title("left") for axes in figure.axes if axes.get_title("left")], ["force/cutoff_m 0.001", "force/cutoff_m 0.01"])
+        lines = [line for axes in figure.axes[:2] for line in axes.lines if line.get_marker() == "o"]
+        self.assertEqual([len(line.get_xdata()) for line in lines], [1, 1], "no line from one problem to the other")
+        sweep.plt.close(figure)
+        text = sweep.markdown(found, "")
+        for cutoff in ("0.001", "0.01"):
+            part = text.split(f"## hard, force/cutoff_m {cutoff}\n", 1)[1].split("\n## ", 1)[0]
+            self.assertIn("**improved, a search every 10 frames**", part, "on the front of its own problem")
+
+    def test_lines_run_along_the_axis_that_varies_and_part_at_every_other(self):
+        def point(every, latency, visibility):
+            entry = row("improved", every)
+            entry["axes"] = json.dumps({"/driver/search_every_frames": every, "/driver/search_latency_frames": latency,
+                                        "/method/visibility": visibility, "/method/constant": 3})
+            return entry
+
+        found = self.read([point(n, n - 1, v) for v in ("off", "orthogonal") for n in (100, 5, 20)]).points
+        parted = sweep_results.lines(found)
+        self.assertEqual([[p.period for p in line.points] for line in parted], [[5, 20, 100], [5, 20, 100]])
+        self.assertEqual([line.value(line.points[0]) for line in parted], ["5, off", "5, orthogonal"])
+        self.assertEqual(parted[0].name, "search every frames", "the latency goes with it")
+        words = [point(5, 4, v) for v in ("off", "orthogonal", "vertex-normal")]
+        self.assertEqual([len(line.points) for line in sweep_results.lines(self.read(words).points)], [1, 1, 1], "words have no order to join")
+        (alone,) = sweep_results.lines(self.read([point(5, 4, "off")]).points)
+        self.assertEqual((alone.name, alone.value(alone.points[0])), ("", ""))
+        self.assertIn("labels: search every frames, visibility", [t.get_text() for t in sweep.draw(self.read(
+            [point(n, n - 1, v) for v in ("off", "orthogonal") for n in (5, 20)])).texts][0])
+
+    def test_a_failure_has_its_reason_in_the_figure(self):
+        figure = sweep.draw(self.read())
+        (note,) = [text.get_text() for text in figure.texts if text.get_text().startswith("failed: ")]
+        self.assertIn("improved-other", note)
+        self.assertIn("mesh is missing", note)
+        self.assertIn("finds no true LMD", note)
+        sweep.plt.close(figure)
+
     def test_the_same_sweep_makes_the_same_bytes_of_svg(self):
         write_sweep(self.file, ROWS)
         texts = []
@@ -143,6 +188,14 @@ class Intervals(unittest.TestCase):
         self.assertGreater(bursts.high, even.high)
         self.assertLess(bursts.low, even.low)
 
+    def test_fewer_than_ten_events_have_no_rate(self):
+        few = intervals.Rate([2], [0.5])
+        self.assertTrue(math.isnan(few.value))
+        self.assertEqual(str(few), "2 in 0.5 s [0.48, 14]")
+        self.assertEqual(str(intervals.Rate([10], [0.5])), "20 [9.6, 37]")
+        self.assertEqual(str(intervals.Rate([0], [2.0])), "0 in 2 s [0, 1.8]")
+        self.assertEqual(str(intervals.Rate([math.nan], [2.0])), "-")
+
     def test_bootstrap_is_the_same_every_time(self):
         data = list(range(20))
         self.assertEqual(intervals.bootstrap(data, np.mean), intervals.bootstrap(data, np.mean))
@@ -165,14 +218,15 @@ class Verdicts(unittest.TestCase):
 
     def test_words(self):
         holds, fails, undecided = claim_regions.HOLDS, claim_regions.FAILS, claim_regions.OPEN
-        self.assertEqual(claim_regions.verdict({"a": holds, "b": holds}), "reproduced")
-        self.assertEqual(claim_regions.verdict({"a": holds, "b": undecided}), "holds where a; undecided in others")
-        self.assertEqual(claim_regions.verdict({"a": fails}), "not reproduced")
-        self.assertEqual(claim_regions.verdict({"a": fails, "b": undecided}), "not reproduced (1 of 2 settings undecided)")
-        self.assertEqual(claim_regions.verdict({"a": fails, "b": holds, "c": holds}), "holds where b; c")
-        self.assertTrue(claim_regions.verdict({"a": undecided}).startswith("undecided"))
+        self.assertEqual(claim_regions.verdict({"a": holds, "b": holds}), ("reproduced", "in all 2 settings"))
+        self.assertEqual(claim_regions.verdict({"a": holds, "b": undecided}), ("holds where", "a; 1 undecided"))
+        self.assertEqual(claim_regions.verdict({"a": fails}), ("not reproduced", "in none of 1 settings"))
+        self.assertEqual(claim_regions.verdict({"a": fails, "b": undecided}, "leaves cost more"),
+                         ("not reproduced", "in none of 2 settings; 1 undecided: leaves cost more"))
+        self.assertEqual(claim_regions.verdict({"a": fails, "b": holds, "c": holds}), ("holds where", "b; c"))
+        self.assertEqual(claim_regions.verdict({"a": undecided})[0], "undecided")
         self.assertEqual(claim_regions.verdict({"g | 1": holds, "g | 2": holds, "h | 1": holds, "h | 2": fails}),
-                         "holds where g (all 2 settings); h, 1")
+                         ("holds where", "g (all 2 settings); h, 1"))
 
     def test_k1_compares_with_improved_under_the_same_schedule_and_cutoff(self):
         with tempfile.TemporaryDirectory() as folder:
@@ -199,8 +253,8 @@ class Verdicts(unittest.TestCase):
             self.assertEqual(list(cells.values()), [claim_regions.HOLDS])
             with unittest.mock.patch.object(claim_regions, "CLAIMS", [claim for claim in claim_regions.CLAIMS if claim[0] in ("K1", "K5")]):
                 page = claim_regions.markdown({"budget": budget})
-        self.assertIn("| K5 | The reduction drops up to twenty times, more on denser meshes | not measured", page)
-        self.assertIn("**reproduced** | 1 / 0 / 0 |", page)
+        self.assertIn("| K5 | The reduction drops up to twenty times, more on denser meshes | **not measured**", page)
+        self.assertIn("**reproduced** | in the one setting | 1 / 0 / 0 |", page)
 
     def test_k5_and_the_summary(self):
         with tempfile.TemporaryDirectory() as folder:
@@ -237,6 +291,9 @@ class Verdicts(unittest.TestCase):
         new[2] = 4.0  # one repetition on a slow machine
         value, (low, high) = region_cost.time_interval((new, old), lambda a, b: np.median(a) / np.median(b))
         self.assertEqual((value, low, high), (2.0, 2.0, 4.0))
+        value, limits = region_cost.time_interval((new[:1], old[:1]), lambda a, b: np.median(a) / np.median(b))
+        self.assertEqual(value, 2.0)
+        self.assertEqual(claim_regions.decide(*limits, at_least=1.0), claim_regions.OPEN, "one repetition")
 
     def test_k8_needs_every_repetition(self):
         def roles(*shares):
@@ -244,27 +301,28 @@ class Verdicts(unittest.TestCase):
         self.assertEqual(list(claim_regions.k8(roles(0.1, 0.2))[1].values()), [claim_regions.HOLDS])
         self.assertEqual(list(claim_regions.k8(roles(0.1, 0.7))[1].values()), [claim_regions.OPEN])
         self.assertEqual(list(claim_regions.k8(roles(0.6, 0.7))[1].values()), [claim_regions.FAILS])
+        self.assertEqual(list(claim_regions.k8(roles(0.1))[1].values()), [claim_regions.OPEN], "one repetition")
 
     def test_k8_knows_the_device_loop_without_its_simulation(self):
         row = role_row("original-hard", 9.0, force_share=0.1)
-        text, cells = claim_regions.k8({"experiment": "closed", "rows": [row]})
+        text, cells = claim_regions.k8({"experiment": "closed", "rows": [row, row]})
         self.assertEqual(cells, {"original | hard": claim_regions.FAILS,
                                  "original, the simulated device's motion left out | hard": claim_regions.HOLDS})
         self.assertIn("| 9e+03 | 100 |", "\n".join(text))
         row["force_share"] = 0.6
-        self.assertEqual(claim_regions.k8({"experiment": "closed", "rows": [row]})[1]["original, the simulated device's motion left out | hard"],
+        self.assertEqual(claim_regions.k8({"experiment": "closed", "rows": [row, row]})[1]["original, the simulated device's motion left out | hard"],
                          claim_regions.FAILS)
 
     def test_two_loads_that_contradict_each_other_are_named(self):
         def roles(hard, soft):
             rows = [role_row(f"original-{name}", share) for name, shares in (("hard", hard), ("soft", soft)) for share in shares]
             return {"roles": claim_regions.Roles(experiment="closed", rows=rows, context={"build": {"git_commit": "1234567890123"}})}
-        claims = list(claim_regions.judged(roles([0.1], [0.1])))
-        text = "\n".join(claim_regions.two_loads(claims, roles([0.1, 0.7], [0.8])))
+        claims = list(claim_regions.judged(roles([0.1, 0.1], [0.1, 0.1])))
+        text = "\n".join(claim_regions.two_loads(claims, roles([0.1, 0.7], [0.8, 0.8])))
         self.assertIn("| K8 | 2 | 0 | 1 | 1 |", text)
         self.assertIn("`roles` at 123456789012)", text)
         self.assertIn("Contradicting: K8, original | soft.", text)
-        self.assertNotIn("Contradicting", "\n".join(claim_regions.two_loads(claims, roles([0.1, 0.7], [0.2]))))
+        self.assertNotIn("Contradicting", "\n".join(claim_regions.two_loads(claims, roles([0.1, 0.7], [0.2, 0.2]))))
 
     def test_why_counts_what_an_option_changes(self):
         counts = {("m", 0.05): {("vertex-normal", "published", "one-ring"): (100, 10), ("vertex-normal", "published", "edge-neighbours"): (30, 10),

@@ -3,6 +3,7 @@
 #include <lmdbench/base/error.h>
 #include <lmdbench/base/input_file.h>
 #include <lmdbench/base/json_document.h>
+#include <lmdbench/sweep/problem.h>
 #include <lmdbench/sweep/schema_text.h>
 #include <lmdbench/sweep/sweep.h>
 
@@ -147,6 +148,7 @@ Sweep parse_sweep(const std::string& text, const std::filesystem::path& file,
       sweep.from_frame = std::max(sweep.from_frame, point.experiment.driver.search_latency_frames);
   else
     sweep.from_frame = json["from_frame"].get<std::int64_t>();
+  name_problems(sweep.points);
   sweep.resolved_json = json.dump(2);
   return sweep;
 }

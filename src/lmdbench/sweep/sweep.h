@@ -15,7 +15,10 @@
 namespace lmdbench {
 
 struct SweepPoint {
-  std::string scene;   ///< Name of the experiment file's experiment.
+  std::string scene;  ///< Name of the experiment file's experiment.
+  /// What the point is asked, in words: the scene, and where the sweep changes its truth (cutoff, meshes, path, ...) the values
+  /// of the places that vary. Only points of one problem stand on a front, on a line and in a panel together.
+  std::string problem;
   std::string series;  ///< Label of the series.
   /// Place in the experiment, as the sweep names it, and the value there as JSON text; in the order of the axes.
   std::vector<std::pair<std::string, std::string>> axes;

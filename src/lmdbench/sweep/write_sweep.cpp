@@ -72,7 +72,7 @@ bool on_front(const Sweep& sweep, const SweepResult& result, std::size_t point) 
   const double error = result.points[point].number(ERROR), cost = result.points[point].number(COST);
   if (std::isnan(error) || std::isnan(cost)) return false;
   for (std::size_t i = 0; i < result.points.size(); ++i) {
-    if (sweep.points[i].scene != sweep.points[point].scene) continue;
+    if (sweep.points[i].problem != sweep.points[point].problem) continue;
     const double other_error = result.points[i].number(ERROR), other_cost = result.points[i].number(COST);
     if (other_error <= error && other_cost <= cost && (other_error < error || other_cost < cost))
       return false;
@@ -88,6 +88,9 @@ void write_sweep(ResultWriter& writer, const Sweep& sweep, const SweepResult& re
   writer.attribute("/sweep", "clock_overhead_s", result.clock_overhead_s);
   using Point = const SweepPoint&;
   write_texts(writer, "scene", "name of the experiment", sweep, [](Point p) { return p.scene; });
+  write_texts(writer, "problem",
+              "scene and what of its truth the sweep varies: points of one can be compared", sweep,
+              [](Point p) { return p.problem; });
   write_texts(writer, "series", "label of the series", sweep, [](Point p) { return p.series; });
   write_texts(writer, "method", "method", sweep, [](Point p) { return p.experiment.methods.front().name; });
   write_texts(writer, "force_law", "force law", sweep, [](Point p) {
@@ -118,7 +121,7 @@ void write_sweep(ResultWriter& writer, const Sweep& sweep, const SweepResult& re
   for (std::size_t i = 0; i < result.points.size(); ++i)
     fronts.push_back(on_front(sweep, result, i) ? 1.0 : 0.0);
   writer.write({"/points/on_front", "1",
-                "1 where no point of the scene has both less force error and less processor time"},
+                "1 where no point of the problem has both less force error and less processor time"},
                std::span<const double>(fronts), {fronts.size()});
   column("/points/maximum_force_n", "N", "F_max of one LMD, the scale of force errors",
          [&](const PointResult& point) {
@@ -152,21 +155,22 @@ std::string sweep_text(const Sweep& sweep, const SweepResult& result) {
   std::vector<std::size_t> order(sweep.points.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-    if (sweep.points[a].scene != sweep.points[b].scene) return sweep.points[a].scene < sweep.points[b].scene;
+    if (sweep.points[a].problem != sweep.points[b].problem)
+      return sweep.points[a].problem < sweep.points[b].problem;
     const double x = result.points[a].number(COST), y = result.points[b].number(COST);
     return std::isnan(y) ? !std::isnan(x) : x < y;
   });
-  std::string text, scene;
+  std::string text, problem;
   for (const std::size_t i : order) {
     const SweepPoint& point = sweep.points[i];
     const PointResult& values = result.points[i];
-    if (point.scene != scene) {
-      scene = point.scene;
+    if (point.problem != problem) {
+      problem = point.problem;
       text += fmt::format(
           "{}{}: * on the front of force error and processor time; force error in % of F_max\n"
           "{:<2}{:>9} {:>9} {:>9} {:>5} {:>8} {:>8} {:>7} {:>7}  {}\n",
-          text.empty() ? "" : "\n", scene, "", "ms/s", "med us", "99% us", ">1ms", "F rms", "F 99%", "recall",
-          "precis", "point");
+          text.empty() ? "" : "\n", problem, "", "ms/s", "med us", "99% us", ">1ms", "F rms", "F 99%",
+          "recall", "precis", "point");
     }
     const std::string name =
         point.axes.empty() ? point.series : fmt::format("{} {}", point.series, point.axes_text());
@@ -198,6 +202,7 @@ std::string sweep_json(const Sweep& sweep, const SweepResult& result) {
     const SweepPoint& point = sweep.points[i];
     const PointResult& values = result.points[i];
     OrderedJson row{{"scene", point.scene},
+                    {"problem", point.problem},
                     {"series", point.series},
                     {"method", point.experiment.methods.front().name},
                     {"axes", axes_json(point)},
