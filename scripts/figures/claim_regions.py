@@ -1,9 +1,10 @@
 #!/usr/bin/env python3
 # SPDX-FileCopyrightText: The lmdbench authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Where in the space of our free choices the paper's claims hold: tables and verdicts from what scripts/claims.sh runs. A
-verdict is "reproduced" when every setting holds, "not reproduced" when none does, else "holds where ..."; a setting whose
-interval crosses its threshold is "undecided" and decides nothing."""
+"""Where in the space of our free choices the paper's claims hold: tables from what scripts/claims.sh runs (claim-regions.md), and
+the ledger of verdicts (claim-verdicts.json), the only one: claims.py and the report show it beside the numbers of single runs. A
+verdict is "reproduced" when every setting holds, "not reproduced" when none does, else "holds where"; a setting whose interval
+crosses its threshold, or that rests on one repetition, is "undecided" and decides nothing. Each has one reason."""
 
 import argparse
 import json
@@ -13,6 +14,7 @@ from lmdbench_results import Result, ResultError, run_script
 from readings import readings
 from region_cost import k5, k6, k7, k8, k9
 from region_force import k1, k2, k3, k4
+from claim_verdicts import NOT_MEASURED, VERDICTS
 from region_rules import FAILS, HOLDS, MEAN_EDGE_DIAGONAL, OPEN, decide, table, verdict
 from region_sets import k10, k11, k12
 from sweep_results import Sweep, is_sweep
@@ -95,7 +97,7 @@ def two_loads(claims, other):
         against = [name for name, a, b in both if {a, b} == {HOLDS, FAILS}]
         contradictions += [f"{claim}, {name}" for name in against]
         rows.append([claim, len(both), sum(a == b for _, a, b in both), sum(a != b for _, a, b in both) - len(against), len(against),
-                     verdict(cells[claim]), verdict(found)])
+                     verdict(cells[claim])[0], verdict(found)[0]])
     text = ["## The same sweeps on another load", "",
             "Each was run again (" + ", ".join(f"`{name}` at {run.commit()}" for name, run in other.items())
             + "). A setting that holds in one run and does not in the other contradicts itself.", "",
@@ -106,13 +108,10 @@ def two_loads(claims, other):
 def markdown(evidence, other=None):
     """@param evidence {name: sweep, run or roles}
     @param other the same of another run, of some of them"""
-    summary, details, claims = [], [], list(judged(evidence))
-    for claim, words, needs, text, cells in claims:
+    details, claims = [], list(judged(evidence))
+    for claim, words, needs, text, _ in claims:
         if needs is None:
-            summary.append([claim, words, "not measured: its sweep is not among these results", "-"])
             continue
-        counts = {kind: sum(1 for cell in cells.values() if cell == kind) for kind in (HOLDS, FAILS, OPEN)}
-        summary.append([f"[{claim}](#{claim.lower()})", words, f"**{verdict(cells)}**", f"{counts[HOLDS]} / {counts[FAILS]} / {counts[OPEN]}"])
         made = ", ".join(f"`{name.split('/')[0]}` at {evidence[name.split('/')[0]].commit()}" for name in needs)
         details += [f"## {claim}", "", f"{words}. From {made}.", "", *text]
     if other:
@@ -125,21 +124,50 @@ def markdown(evidence, other=None):
             "A setting whose interval crosses its threshold is undecided and decides nothing. Scenes are two bunnies of 16,298 triangles where no other "
             f"is named; 1 mean edge is {100 * MEAN_EDGE_DIAGONAL:g} % of the diagonal."
             + (" What the other readings of decisions E1 to E13 change: [at the end](#decisions-e1-to-e13)." if "readings" in evidence else ""), ""]
-    return "\n".join(head + table(["claim", "in short", "verdict", "settings that hold / do not / undecided"], summary) + details) + "\n"
+    return "\n".join(head + verdict_table(entries(claims)) + details) + "\n"
+
+
+def entries(claims):
+    """The ledger: of every claim that was measured its one verdict, the reason, and how many settings stand behind it.
+    @param claims what judged() made"""
+    found = []
+    for claim, words, needs, text, cells in claims:
+        entry = {"claim": claim, "in_short": words, "verdict": NOT_MEASURED, "reason": "its sweep is not among these results"}
+        if needs is not None:
+            why = next((line.removeprefix("Why: ").rstrip(".") for line in text if line.startswith("Why: ")), "")
+            entry["verdict"], entry["reason"] = verdict(cells, why)
+            entry["settings"] = {kind: sum(cell == kind for cell in cells.values()) for kind in (HOLDS, FAILS, OPEN)}
+        found.append(entry)
+    return found
+
+
+def verdict_table(found):
+    rows = []
+    for entry in found:
+        settings = entry.get("settings")
+        name = f"[{entry['claim']}](#{entry['claim'].lower()})" if settings else entry["claim"]
+        rows.append([name, entry["in_short"], f"**{entry['verdict']}**", entry["reason"],
+                     " / ".join(str(settings[kind]) for kind in (HOLDS, FAILS, OPEN)) if settings else "-"])
+    return table(["claim", "in short", "verdict", "reason", "settings that hold / do not / undecided"], rows)
 
 
 def main(argv):
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("files", nargs="+", metavar="FILE", help="what scripts/claims.sh leaves in results/claims: sweeps, a run, roles.json")
     parser.add_argument("--other", nargs="+", default=[], metavar="FILE", help="the same of another run, on another load: do the verdicts agree?")
-    parser.add_argument("--out", required=True, metavar="DIR", help="directory of claim-regions.md")
+    parser.add_argument("--out", required=True, metavar="DIR", help="directory of claim-regions.md and claim-verdicts.json")
     arguments = parser.parse_args(argv)
     os.makedirs(arguments.out, exist_ok=True)
     file = os.path.join(arguments.out, "claim-regions.md")
-    text = markdown(dict(load(name) for name in arguments.files), dict(load(name) for name in arguments.other))
+    evidence = dict(load(name) for name in arguments.files)
+    text = markdown(evidence, dict(load(name) for name in arguments.other))
     with open(file, "w", encoding="utf-8") as stream:
         stream.write(text)
     print(file)
+    ledger = os.path.join(arguments.out, VERDICTS)
+    with open(ledger, "w", encoding="utf-8") as stream:
+        stream.write(json.dumps(entries(judged(evidence)), indent=1) + "\n")
+    print(ledger)
     return 0
 
 

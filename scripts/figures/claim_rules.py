@@ -1,53 +1,48 @@
 # SPDX-FileCopyrightText: The lmdbench authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""The paper's claims K1 to K10: its words, our measure with the rule of the verdict, and the numbers of result files.
-The paper gives few numbers, so the thresholds are ours: they read its words ("almost the same", "slightly") and are not
-fitted to what a run shows. A claim that does not reproduce is a finding."""
+"""The paper's claims K1 to K10: its words, our measure, and the numbers of result files, which are one setting of the many that the
+verdict rests on (claim_verdicts.py): the rule says whether the claim holds in it. The paper gives few numbers, so the thresholds
+are ours: they read its words ("almost the same", "slightly") and are not fitted to what a run shows. A claim that does not
+reproduce is a finding."""
 
 from dataclasses import dataclass, field
 
 import numpy as np
 
+from claim_verdicts import NOT_MEASURED
 from intervals import Rate
 from lmdbench_results import median, quantile, truth_of
-
-REPRODUCED = "reproduced"
-NOT_REPRODUCED = "not reproduced"
-HOLDS_WHERE = "holds where"
-NOT_MEASURED = "not measured here"
-UNDECIDED = "undecided"
+from region_rules import FAILS, HOLDS, LEAST_REPETITIONS, OPEN, all_of
 
 
 @dataclass
 class Claim:
-    """One row of the ledger."""
+    """One row: a claim, what these runs say of it, and the ledger's verdict."""
 
     id: str
     paper: str
-    measure: str  # our reading of the words, with the rule of the verdict
+    measure: str  # our reading of the words, with the rule
     result: str  # our numbers in a sentence
-    verdict: str
-    because: str = ""
+    setting: str  # whether the claim holds in these runs: HOLDS, FAILS, OPEN or NOT_MEASURED
+    because: str = ""  # which of its parts do not, or are undecided
     numbers: dict = field(default_factory=dict)
+    verdict: str = NOT_MEASURED  # over all settings
+    reason: str = ""
 
 
 def judge(parts):
-    """Verdict over the named parts of a claim: all hold, none, or which do, which do not and which are undecided (None)."""
-    held, failed, undecided = ([name for name, holds in parts.items() if (holds if holds is None else bool(holds)) is kind]
-                               for kind in (True, False, None))
-    if len(held) == len(parts):
-        return REPRODUCED, ""
-    rest = [f"{words}: {'; '.join(names)}" for words, names in (("not", failed), ("undecided", undecided)) if names]
-    if not held:
-        return (NOT_REPRODUCED, "" if not undecided else "; ".join(rest)) if failed else (UNDECIDED, "; ".join(undecided))
-    return HOLDS_WHERE, "; ".join(held) + "; " + "; ".join(rest)
+    """Whether all named parts of a claim hold in these runs (None: undecided), and which do not."""
+    cells = {name: OPEN if holds is None else HOLDS if holds else FAILS for name, holds in parts.items()}
+    rest = [f"{words}: {'; '.join(name for name, cell in cells.items() if cell == kind)}"
+            for kind, words in ((FAILS, "not"), (OPEN, "undecided")) if kind in cells.values()]
+    return all_of(*cells.values()), "; ".join(rest)
 
 
 def inside(values, low=-np.inf, high=np.inf):
-    """Whether what the repetitions say lies within limits: None where they disagree, so that a verdict on times alone does not
-    turn from run to run."""
+    """Whether what the repetitions say lies within limits: None where they disagree or there is but one, so that nothing said of
+    times turns from run to run."""
     within = [bool(low <= value <= high) for value in values]
-    return within[0] if len(set(within)) == 1 else None
+    return within[0] if len(within) >= LEAST_REPETITIONS and len(set(within)) == 1 else None
 
 
 def both(result):
@@ -80,13 +75,16 @@ def switches(method):
     return Rate([np.count_nonzero((low < ZERO_SHARE) & (high > STRONG_SHARE))], [seconds])
 
 
+def events(rate):
+    return {"count": rate.count, "seconds": rate.seconds, "per_second": rate.value, "low": rate.low, "high": rate.high}
+
+
 def k1(hard):
     original, improved = both(hard)
     switch_o, switch_i = switches(original), switches(improved)
-    large_o, large_i = (method.number("jumps_per_second") for method in both(hard))
-    true = {method.label: method.number("true_jumps_per_second") for method in both(hard)}
-    verdict, because = judge({
-        "the improved force is stable: it changes by more than 25 % of F_max a tenth as often": large_i <= 0.1 * large_o,
+    large = {method.label: method.events("jumps") for method in both(hard)}
+    true = {method.label: method.events("true_jumps") for method in both(hard)}
+    setting, because = judge({
         "the improved force switches between zero and strong at most a tenth as often":
             True if switch_i.high <= 0.1 * switch_o.low else False if switch_i.low > 0.1 * switch_o.high else None,
         "the original jumps from zero to strong and back": inside((switch_o.low, switch_o.high), 1.0),
@@ -95,14 +93,14 @@ def k1(hard):
         "K1", "Hard: our method shows good force stability, the original jumps quickly from zero to strong force and "
         "back (6.1).",
         "Changes within one frame (1 ms at 1 kHz) between below 5 % and above 50 % of F_max, per second in contact: at "
-        "least 1 for the original, a tenth of it for the improved one, by the ends of their 95 % intervals (Poisson); and the "
-        "improved one has at most a tenth of the original's changes above 25 % of F_max.",
-        f"zero-to-strong switches: original {switch_o}/s, improved {switch_i}/s; changes above 25 %: original "
-        f"{large_o:.1f}/s (truth under its law {true['original']:.1f}/s), improved {large_i:.1f}/s (truth "
-        f"{true['improved']:.1f}/s). " + errors(hard),
-        verdict, because,
-        {"switches_per_second": {"original": switch_o.value, "improved": switch_i.value},
-         "large_changes_per_second": {"original": large_o, "improved": large_i, "truth": true}})
+        "least 1 for the original, at most a tenth of it for the improved one, by the ends of their 95 % intervals (Poisson).",
+        f"a second [95 %], or of fewer than ten how many in what time: zero-to-strong switches original {switch_o}, improved "
+        f"{switch_i}; changes above 25 % of F_max original {large['original']} (truth under its law {true['original']}), improved "
+        f"{large['improved']} (truth {true['improved']}). " + errors(hard),
+        setting, because,
+        {"switches": {"original": events(switch_o), "improved": events(switch_i)},
+         "large_changes": {name: events(rate) for name, rate in large.items()},
+         "true_large_changes": {name: events(rate) for name, rate in true.items()}})
 
 
 # K2 ------------------------------------------------------------------------------------------------------------------
@@ -113,13 +111,13 @@ def k2(hard):
     for method in both(hard):
         counts[method.label] = {name: method.number(f"lmd_count_{name}") for name in ("median", "p99", "maximum")}
     share = {method.label: float(np.mean(method.read("lmd_count")[hard.in_contact()] < 10)) for method in both(hard)}
-    verdict, because = judge({f"{label}'s set stays under 10": value["p99"] < 10 for label, value in counts.items()})
+    setting, because = judge({f"{label}'s set stays under 10": value["p99"] < 10 for label, value in counts.items()})
     text = "; ".join(f"{label} median {value['median']:.0f}, 99th percentile {value['p99']:.0f}, most "
                      f"{value['maximum']:.0f}, under 10 in {100 * share[label]:.1f} % of frames"
                      for label, value in counts.items())
     return Claim("K2", "Hard: the working set of LMDs is relatively small (under 10) (6.1).",
                  "LMDs within the cutoff, frames in contact: the 99th percentile is under 10 for both methods.",
-                 text + ".", verdict, because, {"lmd_count": counts, "share_under_10": share})
+                 text + ".", setting, because, {"lmd_count": counts, "share_under_10": share})
 
 
 # K3 ------------------------------------------------------------------------------------------------------------------
@@ -133,7 +131,7 @@ def k3(soft):
     excess = mean_o / mean_i - 1.0 if mean_i > 0 else float("nan")
     varying = force_o.std() > 0 and force_i.std() > 0
     correlation = float(np.corrcoef(force_o, force_i)[0, 1]) if varying else float("nan")
-    verdict, because = judge({
+    setting, because = judge({
         "the forces are very similar (correlation)": correlation >= 0.8,
         "the original's is higher": excess > 0.0,
         "by little (up to 50 %)": abs(excess) <= 0.5,
@@ -144,7 +142,7 @@ def k3(soft):
                  "to 50 % above the improved one's.",
                  f"correlation {correlation:.2f}; mean force original {mean_o:.2f} N, improved {mean_i:.2f} N "
                  f"({100 * excess:+.0f} %). " + errors(soft),
-                 verdict, because,
+                 setting, because,
                  {"correlation": correlation, "mean_force_n": {"original": mean_o, "improved": mean_i}})
 
 
@@ -166,11 +164,11 @@ def k4(results):
                      f"(ratio {ratio:.2f}); LMDs gained and lost per second original {change['original']:.0f}, "
                      f"improved {change['improved']:.0f}")
         numbers[result.name] = {"mean": mean, "changes_per_second": change}
-    verdict, because = judge(parts)
+    setting, because = judge(parts)
     return Claim("K4", "Both methods maintain a similar number of LMD pairs, though the original fluctuates more wildly "
                  "(6.1).",
                  "Frames in contact: means within a factor of 1.5; the original gains and loses more LMDs per second.",
-                 "; ".join(texts) + ".", verdict, because, numbers)
+                 "; ".join(texts) + ".", setting, because, numbers)
 
 
 # K5 ------------------------------------------------------------------------------------------------------------------
@@ -196,17 +194,15 @@ def k5(results):
         dense = np.mean([value for triangles, value in pooled if triangles == densities[-1]])
         parts["larger for denser meshes"] = dense > thin
         one_density = False
-    verdict, because = judge(parts)
-    if verdict == NOT_REPRODUCED and top > 40:
-        because = "the reduction is larger than the paper's: more candidates per LMD reach it"
-    if verdict == REPRODUCED and one_density:
+    setting, because = judge(parts)
+    if setting == HOLDS and one_density:
         because = "as far as measured; results of one density do not show the growth with the mesh"
     return Claim("K5", "The reduction process is able to reduce the total number of LMD pairs up to twenty times; with more "
                  "complex meshes the factor is greater (6.1), an order of magnitude in high-poly models (4.2.1).",
                  "Candidates divided by those left after the first reduction: the largest ratio of a search lies between "
                  "10 and 40; the ratio of the sums over all searches grows with the triangle count where results of "
                  "several densities are given.",
-                 "; ".join(texts) + ".", verdict, because, numbers)
+                 "; ".join(texts) + ".", setting, because, numbers)
 
 
 # K6 ------------------------------------------------------------------------------------------------------------------
@@ -238,13 +234,13 @@ def k6(results):
             f"{total:.2f} {errors(result)}")
         numbers[result.name] = {"base_ratio": base, "reduction_share_median": median(share),
                                 "reduction_share_p99": quantile(share, 0.99), "total_ratio": total}
-    verdict, because = judge(parts)
+    setting, because = judge(parts)
     return Claim("K6", "The base time of the global search is almost the same; the reduction after it can take the same time "
                  "as the search itself; search and first reduction are approximately two times longer than the "
                  "original (6.1).",
                  "Medians over searches in contact: base ratio 0.8 to 1.25; 99th percentile of reduction / search "
-                 "at least 0.8; total ratio 1.5 to 2.5; undecided where repetitions disagree.",
-                 "; ".join(texts) + ".", verdict, because, numbers)
+                 "at least 0.8; total ratio 1.5 to 2.5; undecided where repetitions disagree or there is one.",
+                 "; ".join(texts) + ".", setting, because, numbers)
 
 
 # K7 ------------------------------------------------------------------------------------------------------------------
@@ -270,7 +266,7 @@ def k7(hard, soft):
     (ratio_hard, time_hard, mean_hard), (ratio_soft, time_soft, mean_soft) = local_ratio(hard), local_ratio(soft)
     hard_ratios, soft_ratios = update_ratios(hard), update_ratios(soft)
     hard_ratios, soft_ratios = hard_ratios[: len(soft_ratios)], soft_ratios[: len(hard_ratios)]
-    verdict, because = judge({
+    setting, because = judge({
         "the local update is slower": inside(np.minimum(hard_ratios, soft_ratios), 1.0),
         "much slower when hard (at least twice)": inside(hard_ratios, 2.0),
         "less so when soft": inside(soft_ratios / hard_ratios, high=0.9),
@@ -278,13 +274,13 @@ def k7(hard, soft):
     return Claim("K7", "The local update time is worse with our method, much worse with the hard force simulation; with soft "
                  "force the difference is not as dramatic (6.1).",
                  "Ratio of the median local update times, frames in contact: above 1 for both, at least 2 when hard, "
-                 "smaller by a tenth or more when soft; undecided where repetitions disagree.",
+                 "smaller by a tenth or more when soft; undecided where repetitions disagree or there is one.",
                  f"hard {ratio_hard:.1f} ({time_hard['improved'] * 1e6:.1f} against {time_hard['original'] * 1e6:.1f} us), "
                  f"soft {ratio_soft:.1f} ({time_soft['improved'] * 1e6:.1f} against {time_soft['original'] * 1e6:.1f} us); "
                  f"ratio of the means, which sees the few long updates that receive a new search's set: hard "
                  f"{mean_hard:.2f}, soft {mean_soft:.2f}. "
                  + errors(hard) + " " + errors(soft),
-                 verdict, because, {"ratio": {"hard": ratio_hard, "soft": ratio_soft},
+                 setting, because, {"ratio": {"hard": ratio_hard, "soft": ratio_soft},
                                     "ratio_of_means": {"hard": mean_hard, "soft": mean_soft},
                                     "local_update_s": {"hard": time_hard, "soft": time_soft}})
 
@@ -316,10 +312,10 @@ def k9(results):
                      f"1 kHz), {100 * late:.3f} % of updates above 1 ms; meshes of at least {triangles:,} triangles "
                      + errors(result))
         numbers[result.name] = {"local_update_p99_s": p99, "share_above_1ms": late, "smallest_mesh_triangles": triangles}
-    verdict, because = judge(parts)
+    setting, because = judge(parts)
     return Claim("K9", "Update rates usually exceed 1 kHz (3), with bunnies of over 10,000 triangles each (6).",
-                 "The 99th percentile of the improved local update is under 1 ms in every repetition on meshes of more than 10,000 "
-                 "triangles.", "; ".join(texts) + ".", verdict, because, numbers)
+                 "The 99th percentile of the improved local update is under 1 ms in every repetition (two at least) on meshes of more than 10,000 "
+                 "triangles.", "; ".join(texts) + ".", setting, because, numbers)
 
 
 # K10 -----------------------------------------------------------------------------------------------------------------
@@ -342,13 +338,10 @@ def k10(results, unequal):
             parts[f"{result.name}: pairs are missed on large or unequal triangles"] = near >= 0.1
     if not parts:
         return Claim("K10", K10_PAPER, K10_MEASURE, "The results have no truth probe.", NOT_MEASURED)
-    verdict, because = judge(parts)
-    if not unequal:
-        if verdict == REPRODUCED:
-            because = "as far as measured; no result on large or unequal triangles was given"
-        else:
-            verdict, because = NOT_REPRODUCED, "the original misses pairs on dense meshes as well"
-    return Claim("K10", K10_PAPER, K10_MEASURE, "; ".join(texts) + ".", verdict, because, numbers)
+    setting, because = judge(parts)
+    if not unequal and setting == HOLDS:
+        because = "as far as measured; no result on large or unequal triangles was given"
+    return Claim("K10", K10_PAPER, K10_MEASURE, "; ".join(texts) + ".", setting, because, numbers)
 
 
 K10_PAPER = ("Missing pairs are infrequent on models with a dense triangle mesh, but become apparent with models containing "
@@ -357,7 +350,11 @@ K10_MEASURE = ("Share of true LMDs that the original's working set lacks, neighb
                "5 % on dense meshes, at least 10 % on meshes of large or unequal triangles.")
 
 
-def ledger(hard, soft, others=(), unequal=()):
+def rows(hard, soft, verdicts, others=(), unequal=()):
+    """@param verdicts what read_verdicts() read"""
     pair = [hard, soft]
-    return [k1(hard), k2(hard), k3(soft), k4(pair), k5([*pair, *others]), k6(pair), k7(hard, soft), k8(), k9(pair),
-            k10(pair, unequal)]
+    claims = [k1(hard), k2(hard), k3(soft), k4(pair), k5([*pair, *others]), k6(pair), k7(hard, soft), k8(), k9(pair), k10(pair, unequal)]
+    for claim in claims:
+        entry = verdicts.get(claim.id, {"verdict": NOT_MEASURED, "reason": "no ledger of verdicts (remedy: scripts/claims.sh)"})
+        claim.verdict, claim.reason = entry["verdict"], entry["reason"]
+    return claims

@@ -1,8 +1,9 @@
 #!/usr/bin/env python3
 # SPDX-FileCopyrightText: The lmdbench authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""The claims ledger: prints it and writes claims.md and claims.json. The claims and the rules of their verdicts are in
-claim_rules.py."""
+"""The paper's claims in two runs: prints them and writes claims.md and claims.json. Two runs are one setting of our free choices:
+their numbers stand beside the verdict of the ledger, which rests on all settings (claim_regions.py). The claims and their rules
+are in claim_rules.py."""
 
 import argparse
 import json
@@ -12,24 +13,31 @@ from dataclasses import asdict
 
 import numpy as np
 
-from claim_rules import ledger
+from claim_rules import rows
+from claim_verdicts import read_verdicts
 from lmdbench_results import Result, run_script
 
 
+def setting_text(claim):
+    return claim.setting + (f": {claim.because}" if claim.because else "")
+
+
 def verdict_text(claim):
-    return claim.verdict + (f": {claim.because}" if claim.because else "")
+    return f"{claim.verdict}: {claim.reason}"
 
 
 def markdown(claims, results):
-    lines = ["# Claims ledger", "",
-             "What the paper says, what that is in numbers, and what this machine shows. The paper gives few numbers: the "
-             "thresholds of the verdicts are ours and stand in the third column.", ""]
+    lines = ["# Claims", "",
+             "What the paper says, what that is in numbers, and what two runs show: one setting of the free choices that the paper leaves. "
+             "The verdict is over all settings that were measured (claim-regions.md), and has its reason beside it. The paper gives few "
+             "numbers: the thresholds are ours and stand in the third column.", ""]
     machine = results[0].machine()
     lines += [f"Machine: {machine.get('processor', 'unknown')}. Results: "
               + ", ".join(f"`{os.path.basename(result.file)}`" for result in results) + ".", "",
-              "| | the paper's words | our measure | our numbers | verdict |", "|---|---|---|---|---|"]
+              "| | the paper's words | our measure | our numbers | in this setting | verdict over all settings |", "|---|---|---|---|---|---|"]
     lines += ["| " + " | ".join(text.replace("|", "\\|") for text in
-                                (claim.id, claim.paper, claim.measure, claim.result, f"**{verdict_text(claim)}**")) + " |"
+                                (claim.id, claim.paper, claim.measure, claim.result, setting_text(claim),
+                                 f"**{claim.verdict}**: {claim.reason}")) + " |"
               for claim in claims]
     return "\n".join(lines) + "\n"
 
@@ -38,7 +46,7 @@ def plain(claims):
     blocks = []
     for claim in claims:
         lines = [f"{claim.id}: {verdict_text(claim)}"]
-        for title, text in (("paper", claim.paper), ("rule", claim.measure), ("here", claim.result)):
+        for title, text in (("paper", claim.paper), ("rule", claim.measure), ("here", f"{setting_text(claim)}. {claim.result}")):
             lines += textwrap.wrap(text, width=110, initial_indent=f"  {title + ':':<7}", subsequent_indent=" " * 9)
         blocks.append("\n".join(lines))
     return "\n".join(blocks)
@@ -69,11 +77,12 @@ def main(argv):
                         help="results on meshes of other densities (K5)")
     parser.add_argument("--unequal", nargs="*", default=[], metavar="RESULT.h5",
                         help="results on meshes of large or unequal triangles (K10)")
+    parser.add_argument("--verdicts", metavar="FILE", help="ledger of claim_regions.py (results/reference/claim-verdicts.json)")
     parser.add_argument("--out", required=True, metavar="DIR", help="directory of claims.md and claims.json")
     arguments = parser.parse_args(argv)
     hard, soft = Result(arguments.hard), Result(arguments.soft)
     others, unequal = ([Result(file) for file in files] for files in (arguments.other, arguments.unequal))
-    claims = ledger(hard, soft, others, unequal)
+    claims = rows(hard, soft, read_verdicts(arguments.verdicts), others, unequal)
     write_text(arguments.out, "claims.md", markdown(claims, [hard, soft, *others, *unequal]))
     write_text(arguments.out, "claims.json",
                json.dumps([without_nan(asdict(claim)) for claim in claims], indent=2) + "\n")

@@ -2,9 +2,8 @@
 # SPDX-FileCopyrightText: The lmdbench authors
 # SPDX-License-Identifier: BSD-3-Clause
 """Figure 7 of the paper from result files, in the paper hard contact on the left and soft contact on the right: over time
-the force, the LMD counts, the time of global searches and of local updates of the methods that search now and then and
-track locally in between; where a result has none of those, of all its methods. A column a result, or a force profile where
-a result has several.
+the force, the LMD counts, the time of global searches of the methods that search now and then and track locally in between, and
+the time of local updates: all methods of a result. A column a result, or a force profile where a result has several.
 Beyond the paper: the true force beside both forces, and the share of true LMDs that each method knows. Times are
 medians over the repetitions without the warm-up."""
 
@@ -42,8 +41,7 @@ class Column:
 
     def __init__(self, result, methods):
         self.result, self.time = result, result.time
-        two_rates = [method for method in methods if method.tracks_locally]
-        self.methods = two_rates or methods
+        self.methods = methods
         # Under several profiles the column's title names the profile, so that a method looks the same in all columns.
         self.names = {method.label: method.label.removesuffix(f"-{method.profile}") if method.profile else method.label for method in methods}
         colours = style.colours_of([SimpleNamespace(label=self.names[method.label], name=method.name, order=method.order) for method in methods])
@@ -170,23 +168,25 @@ def key(label, colour, line="-", width=1.2):
 
 def keys_of_rows(columns):
     """Legends of the rows; what stands in several columns is told once."""
-    base, laws, before, searches = {}, {}, {}, {}
+    base, laws, searches, reducing = {}, {}, {}, []
     for column in columns:
         for method in column.methods:
             look, name = column.look[method.label], column.names[method.label]
             plain = key(name, look["color"], look["ls"], width=1.5 if method.reduces else 1.0)
             base[name] = plain
             if method.reduces:
-                before[name] = key(f"{name}, before reduction", style.SKY)
-                searches[name + " alone"] = key(f"{name}, search alone", style.SKY)
                 searches[name] = key(f"{name}, with first reduction", look["color"], look["ls"])
+                reducing.append(name)
             elif method.tracks_locally:
                 searches[name] = plain
         for _, method in true_forces(column.methods):
             laws[method.force_law] = key(f"truth, {method.force_law} law", TRUTH_COLOURS[method.force_law], width=TRUTH_WIDTH)
+    # One method is named; the pale lines of several look alike.
+    whose = f"{reducing[0]}, " if len(set(reducing)) == 1 else "any method, "
+    before, alone = ([key(whose + words, style.SKY)] if reducing else [] for words in ("before reduction", "search alone"))
     near = [key("dotted: a neighbouring feature counts, too", "#444444", ":", width=0.9)]
     base = list(base.values())
-    return [base + list(laws.values()), base + list(before.values()), list(searches.values()), base, base + near]
+    return [base + list(laws.values()), base + before, list(searches.values()) + alone, base, base + near]
 
 
 ROWS = (

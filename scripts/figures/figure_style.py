@@ -4,6 +4,7 @@
 grey print, sizes for a page of two columns, and files that are the same bytes for the same data."""
 
 import itertools
+import math
 import os
 
 import matplotlib
@@ -76,6 +77,23 @@ def colours_of(methods):
 
 def line_of(method):
     return METHOD_LINES[method.order % len(METHOD_LINES)]
+
+
+MOST_LABELLED = 7  # decades of an axis; more stand over each other
+
+
+def labelled_decades(low, high):
+    """Powers of ten from 10**low to 10**high that get a label: all, or every second, third, ... of many."""
+    powers = range(math.ceil(low), math.floor(high) + 1)
+    step = max(1, -(-len(powers) // MOST_LABELLED))
+    return [10.0**power for power in powers if power % step == 0]
+
+
+def note_failures(figure, failures):
+    """At the foot: whose mark stands in the lane of failures, and why. @param failures {name: reason}"""
+    if failures:
+        figure.text(0.012, 0.004, "failed: " + "; ".join(f"{name}, {reason}" for name, reason in failures.items()), fontsize=5.5,
+                    color="#444444", wrap=True, va="bottom")
 
 
 def save(figure, directory, name):

@@ -8,7 +8,7 @@ import math
 import numpy as np
 
 from intervals import bootstrap
-from region_rules import (FAILS, HOLDS, OPEN, all_of, blocks, cutoff_share, decide, groups, interval, joined, mesh, partner, shown, span, table,
+from region_rules import (FAILS, HOLDS, OPEN, all_of, blocks, cutoff_share, decide, groups, interval, joined, mesh, of_repetitions, partner, shown, span, table,
                           triangles, usable)
 
 
@@ -91,8 +91,8 @@ def time_interval(columns, statistic):
     repetitions, with the bootstrap over N widened to the single repetitions."""
     middle = [np.median(column, axis=0) for column in columns]
     low, high = bootstrap(list(zip(*middle)), lambda rows: statistic(*np.array(rows).T))
-    singles = [statistic(*(column[r] for column in columns)) for r in range(min(len(column) for column in columns))]
-    return statistic(*middle), (min([low, *singles]), max([high, *singles]))
+    least, most = of_repetitions([statistic(*(column[r] for column in columns)) for r in range(min(len(column) for column in columns))])
+    return statistic(*middle), (min(least, low), max(most, high))
 
 
 def k6(sweep):
@@ -157,8 +157,8 @@ def update_ratio(one, other):
     pieces = list(zip(blocks(middle[0], busy_a), blocks(middle[1], busy_b)))
     low, high = bootstrap(pieces, lambda rows: float(np.median(joined([y for _, y in rows], 0)[joined([y for _, y in rows], 1)])
                                                      / np.median(joined([x for x, _ in rows], 0)[joined([x for x, _ in rows], 1)])))
-    singles = [statistic(a[r], b[r]) for r in range(min(len(a), len(b)))]
-    return statistic(*middle), (min([low, *singles]), max([high, *singles]))
+    least, most = of_repetitions([statistic(a[r], b[r]) for r in range(min(len(a), len(b)))])
+    return statistic(*middle), (min(least, low), max(most, high))
 
 
 def k7(sweep):
@@ -224,8 +224,8 @@ def k8(roles):
         late = [run["together"]["p99_s"] for run in runs]
         if label.startswith(("original", "improved")):
             method, _, profile = label.partition("-")
-            one_core = decide(min(late), max(late), at_most=1e-3)
-            need_less = lambda found: all_of(*(decide(min(values), max(values), at_most=0.5) for values in found), one_core)  # noqa: E731
+            one_core = decide(*of_repetitions(late), at_most=1e-3)
+            need_less = lambda found: all_of(*(decide(*of_repetitions(values), at_most=0.5) for values in found), one_core)  # noqa: E731
             cells[f"{method} | {profile}"] = need_less(ratios)
             if has_parts:
                 cells[f"{method}, the simulated device's motion left out | {profile}"] = need_less(against_the_others(runs, "force_share"))
@@ -260,7 +260,8 @@ def k9(*sweeps):
             counts = point.sweep.samples(point, "counts").astype(bool)
             singles = [float(np.quantile(run[counts], 0.99)) for run in times]
             value = float(np.quantile(np.median(times, axis=0)[counts], 0.99))
-            limits = (min([value, *singles]), max([value, *singles]))
+            least, most = of_repetitions(singles)
+            limits = (min(least, value), max(most, value))
             cell = decide(*limits, at_most=1e-3)
             share = f"cutoff {100 * cutoff_share(point):g} %" if math.isfinite(cutoff_share(point)) else "own cutoff"
             cells[f"{point.scene}, {mesh(point)}, {share} | a search every {point.period} frames"] = cell

@@ -11,7 +11,9 @@ import numpy as np
 
 from intervals import Rate
 
-HOLDS, FAILS, OPEN = "holds", "does not hold", "undecided"
+HOLDS, FAILS, OPEN = "holds", "does not hold", "undecided"  # a setting
+REPRODUCED, NOT_REPRODUCED, HOLDS_WHERE = "reproduced", "not reproduced", "holds where"  # a claim, or OPEN
+LEAST_REPETITIONS = 2  # one does not tell how far the next would lie from it
 MEAN_EDGE_DIAGONAL = 0.0128  # of bunny-16k: `lmdbench mesh info bunny-16k`, mean edge / diagonal
 BLOCK = 200  # frames that are resampled together: neighbours resemble each other
 
@@ -50,18 +52,24 @@ def all_of(*parts):
     return FAILS if FAILS in parts else OPEN if OPEN in parts else HOLDS
 
 
-def verdict(cells):
-    """Of {setting in words: HOLDS, FAILS or OPEN}."""
-    decided = {name: cell for name, cell in cells.items() if cell != OPEN}
-    good = [name for name, cell in decided.items() if cell == HOLDS]
-    rest = len(cells) - len(decided)
-    if not decided:
-        return "undecided: no setting has events enough"
+def of_repetitions(values):
+    """(low, high) of what the repetitions say; no interval where there are too few of them, so that they decide nothing."""
+    return (min(values), max(values)) if len(values) >= LEAST_REPETITIONS else (math.nan, math.nan)
+
+
+def verdict(cells, why=""):
+    """(verdict, its reason) of {setting in words: HOLDS, FAILS or OPEN}.
+    @param why what the claim fails on where it fails everywhere"""
+    good = [name for name, cell in cells.items() if cell == HOLDS]
+    undecided = sum(cell == OPEN for cell in cells.values())
+    if undecided == len(cells):
+        return OPEN, "no setting has an interval on one side of its threshold"
+    rest = f"; {undecided} undecided" if undecided else ""
     if not good:
-        return "not reproduced" + (f" ({rest} of {len(cells)} settings undecided)" if rest else "")
+        return NOT_REPRODUCED, f"in none of {len(cells)} settings{rest}" + (f": {why}" if why else "")
     if len(good) == len(cells):
-        return "reproduced"
-    return "holds where " + "; ".join(by_group(good, cells)) + ("; undecided in others" if rest else "")
+        return REPRODUCED, f"in all {len(cells)} settings" if len(cells) > 1 else "in the one setting"
+    return HOLDS_WHERE, "; ".join(by_group(good, cells)) + rest
 
 
 def by_group(good, cells):

@@ -8,6 +8,7 @@ contact, its whisker ends at the 99th percentile; each frame counts with the med
 fails is shown as a failure, not left out."""
 
 import argparse
+import math
 
 import numpy as np
 
@@ -22,6 +23,7 @@ MARKERS = ("o", "s", "^", "D", "v", "P")
 HAPTIC_BUDGET_MS = 1.0  # one frame at 1 kHz
 # Width of the lanes beside the logarithmic range, as a share of it: errors of exactly 0, and failures.
 LANE_SHARE = 0.2
+ROUNDING = 1e-8  # errors below this share of F_max are rounding, and drawn as 0
 LEGEND_COLUMNS = 6
 
 
@@ -36,7 +38,8 @@ class Point:
         if truth_of(method) is None:
             raise ResultError(f"{result.file}: no truth probe, so its times have no error to stand beside "
                               "(remedy: run with /probes/truth/stride_frames above 0)")
-        self.force_error = method.number("force_error_rms_n") / result.maximum_force()
+        error = method.number("force_error_rms_n") / result.maximum_force()
+        self.force_error = 0.0 if error < ROUNDING else error
         self.missed = 1.0 - method.number("recall")
         self.missed_adjacent = 1.0 - method.number("recall_adjacent")
         forces = method.read("force")
@@ -68,12 +71,14 @@ def error_axis(axes, errors, any_failed):
     right = 10 ** (high + lane) if any_failed else 10**high
     axes.set_xscale("log")
     axes.set_xlim(left, right)
-    decades = [10.0**power for power in range(int(np.ceil(low)), int(np.floor(high)) + 1)]
+    decades = style.labelled_decades(low, high)
     names = {zero: "0", failed: "failed"}
     axes.xaxis.set_major_locator(FixedLocator([zero] * has_zero + decades + [failed] * any_failed))
     axes.xaxis.set_major_formatter(FuncFormatter(lambda value, _: names.get(value, f"{value:g}")))
-    axes.xaxis.set_minor_locator(FixedLocator([step * decade for decade in [decades[0] / 10, *decades]
-                                          for step in range(2, 10) if 10**low <= step * decade < 10**high]))
+    # Between labels that leave decades out, the unlabelled decades are the small marks.
+    every = [10.0**power for power in range(math.floor(low), math.floor(high) + 1)]
+    small = every if len(every) > style.MOST_LABELLED else [step * decade for decade in every for step in range(2, 10)]
+    axes.xaxis.set_minor_locator(FixedLocator([mark for mark in small if 10**low <= mark < 10**high]))
     axes.xaxis.set_minor_formatter(NullFormatter())
     for begin, end in ((left, 10**low), (10**high, right)):
         if end > begin:
@@ -122,7 +127,7 @@ def draw(results):
     markers = dict(zip(names, MARKERS * (len(names) // len(MARKERS) + 1)))
     key_rows = -(-(len(colours) + len(names) + 1) // LEGEND_COLUMNS)
     figure, axes = plt.subplots(1, len(PANELS), figsize=(style.TWO_COLUMNS_IN, 3.5), sharey=True, gridspec_kw={
-        "left": 0.092, "right": 0.99, "bottom": 0.13, "top": 0.92 - 0.055 * key_rows, "wspace": 0.08})
+        "left": 0.092, "right": 0.99, "bottom": 0.145, "top": 0.92 - 0.055 * key_rows, "wspace": 0.08})
     for panel, (*quantities, label) in zip(axes, PANELS):
         draw_panel(panel, points, quantities, label, markers, colours)
     axes[0].set_yscale("log")
@@ -134,6 +139,7 @@ def draw(results):
              for name in names]
     keys.append(Line2D([], [], color="white", ls="none", marker="o", ms=5, mec="#444444", mew=0.9,
                        label="open: neighbouring features count"))
+    style.note_failures(figure, {f"{point.method.label} in {point.experiment}": point.failure for point in points if point.failure})
     figure.legend(handles=keys, loc="upper left", bbox_to_anchor=(0.085, 0.95), ncol=LEGEND_COLUMNS, handlelength=1.6,
                   columnspacing=1.6, borderpad=0.1)
     figure.text(0.092, 0.955, "Error against run time, lower left is better", fontsize=8.5, fontweight="bold")

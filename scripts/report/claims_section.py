@@ -1,8 +1,9 @@
 # SPDX-FileCopyrightText: The lmdbench authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""The paper's claims on the page: the ledger that the page's own results support, each row with links to what it rests on."""
+"""The paper's claims on the page: what the page's own results say, the ledger's verdict, and links to what it rests on."""
 
-from claim_rules import ledger
+from claim_rules import rows
+from claim_verdicts import read_verdicts
 from lmdbench_results import ResultError
 
 # Where the evidence of a claim stands, by the sections' ids; a page links to those that it has.
@@ -30,7 +31,7 @@ def claims_of(results):
     # Harder is what reaches less far.
     hard, soft = sorted([able[0], able[min(1, len(able) - 1)]], key=lambda result: result.scene("cutoff_m"))
     try:
-        claims = ledger(hard, soft)
+        claims = rows(hard, soft, read_verdicts())
     except ResultError as error:
         return {"problem": f"No claim can be judged: {error}"}
     return {"hard": hard.name, "soft": soft.name, "claims": claims}
