@@ -34,5 +34,24 @@ TEST(ProgressLine, KeepsItsLength) {
   EXPECT_THAT(progress_line("truth", 0, 0, 1.0), HasSubstr("100 %")) << "nothing to do is done";
 }
 
+/// What standard error, here no terminal, gets in two updates.
+std::string lines_of(bool enabled, std::chrono::milliseconds silence) {
+  ::testing::internal::CaptureStderr();
+  {
+    ProgressBar bar(enabled, silence);
+    bar.update("run", 1, 4);
+    bar.update("run", 2, 4);
+  }
+  return ::testing::internal::GetCapturedStderr();
+}
+
+TEST(ProgressBar, ALogGetsLinesNowAndThen) {
+  EXPECT_THAT(
+      lines_of(true, std::chrono::milliseconds(0)),
+      AllOf(HasSubstr("run   [#######"), HasSubstr(" 25 %"), HasSubstr(" 50 %"), Not(HasSubstr("\r"))));
+  EXPECT_EQ(lines_of(true, std::chrono::hours(1)), "") << "short commands are silent";
+  EXPECT_EQ(lines_of(false, std::chrono::milliseconds(0)), "");
+}
+
 }  // namespace
 }  // namespace lmdbench

@@ -23,7 +23,8 @@ std::string progress_line(const std::string& phase, std::int64_t done, std::int6
                      left % 60);
 }
 
-ProgressBar::ProgressBar(bool enabled) : enabled_(enabled && isatty(STDERR_FILENO) == 1) {}
+ProgressBar::ProgressBar(bool enabled, std::chrono::milliseconds silence)
+    : enabled_(enabled), terminal_(isatty(STDERR_FILENO) == 1), silence_(silence) {}
 
 ProgressBar::~ProgressBar() {
   wipe();
@@ -37,9 +38,15 @@ void ProgressBar::update(const std::string& phase, std::int64_t done, std::int64
     phase_begin_ = now;
     last_draw_ = {};
   }
+  const double elapsed = std::chrono::duration<double>(now - phase_begin_).count();
+  if (!terminal_) {
+    if (now - last_line_ < silence_) return;
+    last_line_ = now;
+    fmt::print(stderr, "{}\n", progress_line(phase, done, total, elapsed));
+    return;
+  }
   if (now - last_draw_ < std::chrono::milliseconds(100) && done < total) return;
   last_draw_ = now;
-  const double elapsed = std::chrono::duration<double>(now - phase_begin_).count();
   fmt::print(stderr, "\r{}\x1b[K", progress_line(phase, done, total, elapsed));
   std::fflush(stderr);
   drawn_ = true;

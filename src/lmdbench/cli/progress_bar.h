@@ -8,11 +8,12 @@
 
 namespace lmdbench {
 
-/// A bar with rate and estimated time left, on standard error; silent when that is no terminal.
+/// How far a long command is, on standard error: on a terminal a bar that moves, elsewhere (a log, a pipe) a line now and then.
 class ProgressBar {
  public:
-  /// @param enabled false switches the bar off whatever standard error is
-  explicit ProgressBar(bool enabled);
+  /// @param enabled false switches it off whatever standard error is
+  /// @param silence least time between the lines that no terminal gets, and before the first of them
+  explicit ProgressBar(bool enabled, std::chrono::milliseconds silence = std::chrono::seconds(10));
   ~ProgressBar();  ///< Wipes the bar.
   ProgressBar(const ProgressBar&) = delete;
   ProgressBar& operator=(const ProgressBar&) = delete;
@@ -24,6 +25,9 @@ class ProgressBar {
  private:
   using Clock = std::chrono::steady_clock;
   bool enabled_;
+  bool terminal_;
+  std::chrono::milliseconds silence_;
+  std::chrono::steady_clock::time_point last_line_ = std::chrono::steady_clock::now();
   bool drawn_ = false;
   std::string phase_;
   Clock::time_point phase_begin_;

@@ -53,7 +53,9 @@ void run_to_file(const RunOptions& options, const std::vector<std::string>& argv
     if (result.resumed_frames > 0)
       spdlog::info("the times of {} frames are those of the interrupted run", result.resumed_frames);
     const RunSummary summary = summarise(experiment, result);
-    for (const std::string& warning : summary.warnings) spdlog::warn("{}", warning);
+    // The table tells them itself; beside JSON they are for people.
+    if (options.json)
+      for (const std::string& warning : summary.warnings) spdlog::warn("{}", warning);
     for (const Track& track : result.tracks) {
       if (!track.fcl) continue;
       for (const FclException& e : track.fcl->exceptions)
