@@ -501,18 +501,30 @@ class Joining {
     return whole;
   }
 
+  /// An order of places that depends neither on the pose nor on how the meshes are cut: by coordinates in the moving mesh's frame,
+  /// where they differ by more than the tolerance.
+  bool lies_before(const Contact& a, const Contact& b) const {
+    const Vec3 p = pair_.moving.point_to_surface(a.point_moving),
+               q = pair_.moving.point_to_surface(b.point_moving);
+    for (int k = 0; k < 3; ++k)
+      if (std::abs(p[k] - q[k]) > tolerance_.known) return p[k] < q[k];
+    return false;
+  }
+
   /// The nearest. Of several at one distance that are apart, one between features of the highest kind, which is where the
-  /// minimum stays when the meshes are tilted further; of those in one place the first by name.
+  /// minimum stays when the meshes are tilted further, and of those the first by place; of those in one place the first by name.
   const Contact& nearest_contact(std::vector<const Contact*> contacts) {
     const double least =
         (*std::ranges::min_element(contacts, {}, [](const Contact* c) { return c->distance; }))->distance;
     std::erase_if(contacts,
                   [&](const Contact* contact) { return contact->distance > least + tolerance_.rounding; });
-    const auto rank = [](const Contact* contact) {
-      const int kinds = static_cast<int>(contact->moving.kind) + static_cast<int>(contact->fixed.kind);
-      return std::tuple(-kinds, contact->moving, contact->fixed);
+    const auto kinds = [](const Contact* contact) {
+      return static_cast<int>(contact->moving.kind) + static_cast<int>(contact->fixed.kind);
     };
-    const Contact* place = *std::ranges::min_element(contacts, {}, rank);
+    const Contact* place = contacts.front();
+    for (const Contact* contact : contacts)
+      if (kinds(contact) > kinds(place) || (kinds(contact) == kinds(place) && lies_before(*contact, *place)))
+        place = contact;
     std::erase_if(contacts,
                   [&](const Contact* contact) { return contact->dimension == 0 && !meet(*contact, *place); });
     return **std::ranges::min_element(

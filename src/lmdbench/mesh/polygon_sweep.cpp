@@ -122,10 +122,20 @@ class Sweep {
     before_.clear();
   }
 
+  /// Where two sides are at a height. A side that is all but level is known badly there: where the two seem to have crossed, the
+  /// steeper one says where.
+  static std::pair<double, double> ends_at(const Climb& left, const Climb& right, double y) {
+    const double from = left.x_at(y), to = right.x_at(y);
+    if (from <= to) return {from, to};
+    const double x = std::abs(left.slope) < std::abs(right.slope) ? from : to;
+    return {x, x};
+  }
+
   void trapezoid(const Climb& left, const Climb& right, double bottom, double top) {
-    const Vec2 left_bottom(left.x_at(bottom), bottom), left_top(left.x_at(top), top);
-    const Vec2 right_bottom(std::max(left_bottom[0], right.x_at(bottom)), bottom);
-    const Vec2 right_top(std::max(left_top[0], right.x_at(top)), top);
+    const auto [bottom_from, bottom_to] = ends_at(left, right, bottom);
+    const auto [top_from, top_to] = ends_at(left, right, top);
+    const Vec2 left_bottom(bottom_from, bottom), left_top(top_from, top);
+    const Vec2 right_bottom(bottom_to, bottom), right_top(top_to, top);
     if (owners_ == 2 && right_bottom[0] - left_bottom[0] <= tolerance_ &&
         right_top[0] - left_top[0] <= tolerance_)
       return;
