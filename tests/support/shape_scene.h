@@ -1,0 +1,75 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <lmdbench/lmd/decide.h>
+#include <lmdbench/lmd/join_contacts.h>
+#include <lmdbench/mesh/shape_complex.h>
+
+#include <support/scenes.h>
+
+#include <utility>
+#include <vector>
+
+namespace lmdbench::testing {
+
+/// Leads of all features of a shape.
+inline std::vector<FeatureId> leads_of(const Surface& surface, const ShapeComplex& shape) {
+  std::vector<FeatureId> leads;
+  const auto add = [&](FeatureKind kind, std::size_t count) {
+    for (std::int32_t i = 0; i < static_cast<std::int32_t>(count); ++i)
+      if (shape.is_lead({kind, i}) && (kind != FeatureKind::FACE || shape.region_of(i) >= 0))
+        leads.push_back({kind, i});
+  };
+  add(FeatureKind::VERTEX, surface.mesh.vertices.size());
+  add(FeatureKind::EDGE, surface.adjacency.edges.size());
+  add(FeatureKind::FACE, surface.mesh.triangles.size());
+  return leads;
+}
+
+/// Two meshes with their shapes, and what all pairs of their features share at a pose.
+class ShapeScene {
+ public:
+  ShapeScene(TriangleMesh moving, TriangleMesh fixed, double cutoff = 1.0)
+      : moving_(build_surface(std::move(moving))),
+        fixed_(build_surface(std::move(fixed))),
+        shape_moving_(ShapeComplex::of(moving_)),
+        shape_fixed_(ShapeComplex::of(fixed_)),
+        cutoff_(cutoff) {}
+  ShapeScene(const ShapeScene&) = delete;
+
+  const Surface& moving() const { return moving_; }
+  const Surface& fixed() const { return fixed_; }
+  const ShapeComplex& shape_moving() const { return shape_moving_; }
+  const ShapeComplex& shape_fixed() const { return shape_fixed_; }
+
+  /// Valid until the next call.
+  ShapePair at(const Pose& X_WM) {
+    X_WM_ = RigidTransform(X_WM);
+    return {{moving_, shape_moving_, X_WM_, true},
+            {fixed_, shape_fixed_, identity_, false},
+            ContactTolerance::of(moving_, shape_moving_, fixed_, shape_fixed_, X_WM_, cutoff_)};
+  }
+  ContactSet contacts(const ShapePair& pair) const {
+    ContactSet found;
+    for (const FeatureId& f : leads_of(moving_, shape_moving_))
+      for (const FeatureId& g : leads_of(fixed_, shape_fixed_)) decide(pair, f, g, found);
+    return found;
+  }
+  ContactSet contacts(const Pose& X_WM) { return contacts(at(X_WM)); }
+  LmdSet lmds(const Pose& X_WM) {
+    const ShapePair pair = at(X_WM);
+    ContactSet found = contacts(pair);
+    LmdSet lmds;
+    join_contacts(pair, 0, found, {}, lmds);
+    return lmds;
+  }
+
+ private:
+  Surface moving_, fixed_;
+  ShapeComplex shape_moving_, shape_fixed_;
+  double cutoff_;
+  RigidTransform X_WM_, identity_;
+};
+
+}  // namespace lmdbench::testing
