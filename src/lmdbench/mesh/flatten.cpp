@@ -12,6 +12,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <numeric>
 #include <optional>
 #include <vector>
 
@@ -37,6 +38,7 @@ struct Constraint {
   Plane plane;
   std::vector<std::int32_t> vertices;
   bool stands = true;
+  bool was_joined = false;  ///< Of several faces.
 };
 
 /// How many pairs of neighbouring triangles are within 1 and how many within BAND tolerances of one plane.
@@ -82,13 +84,6 @@ Coplanarity coplanarity(const Surface& surface, double tolerance) {
   return result;
 }
 
-double largest_height(const TriangleMesh& mesh, const Constraint& constraint) {
-  double result = 0.0;
-  for (const std::int32_t v : constraint.vertices)
-    result = std::max(result, std::abs(constraint.plane.height(mesh.vertices[static_cast<std::size_t>(v)])));
-  return result;
-}
-
 /// Faces of four and more vertices that chance does not explain.
 std::vector<Constraint> find_constraints(const Surface& surface, double tolerance) {
   std::vector<PlanarFace> faces = planar_faces(surface, tolerance);
@@ -122,43 +117,78 @@ std::vector<std::vector<std::size_t>> planes_of_vertices(const TriangleMesh& mes
 
 /// Joins faces that meet in a vertex and lie in one plane: two planes a rounding apart share no sensible
 /// line.
-void join_coplanar(const TriangleMesh& mesh, std::vector<Constraint>& constraints, double tolerance) {
-  const auto planes = planes_of_vertices(mesh, constraints);
-  std::vector<std::size_t> into(constraints.size());
-  for (std::size_t c = 0; c < into.size(); ++c) into[c] = c;
-  const auto root = [&](std::size_t c) {
-    while (into[c] != c) c = into[c];
-    return c;
-  };
-  for (const auto& at_vertex : planes) {
-    for (std::size_t i = 0; i < at_vertex.size(); ++i) {
-      for (std::size_t j = i + 1; j < at_vertex.size(); ++j) {
-        const std::size_t a = root(at_vertex[i]), b = root(at_vertex[j]);
-        if (a == b) continue;
-        Constraint& first = constraints[std::min(a, b)];
-        Constraint& second = constraints[std::max(a, b)];
-        if (first.plane.normal.cross(second.plane.normal).norm() > SAME_PLANE_SINE ||
-            !(first.plane.normal.dot(second.plane.normal) > 0.0))
-          continue;
-        Constraint both{first.plane, first.vertices, true};
-        both.vertices.insert(both.vertices.end(), second.vertices.begin(), second.vertices.end());
-        std::vector<Vec3> points;
-        for (const std::int32_t v : both.vertices)
-          points.push_back(mesh.vertices[static_cast<std::size_t>(v)]);
-        both.plane = fit_plane(points, first.plane.normal).plane;
-        if (largest_height(mesh, both) > tolerance) continue;
-        first = std::move(both);
-        second.stands = false;
-        into[std::max(a, b)] = std::min(a, b);
-      }
+class CoplanarJoining {
+ public:
+  CoplanarJoining(const TriangleMesh& mesh, std::vector<Constraint>& constraints, double tolerance)
+      : mesh_(mesh), constraints_(constraints), tolerance_(tolerance), into_(constraints.size()) {
+    std::iota(into_.begin(), into_.end(), std::size_t{0});
+  }
+
+  void run() {
+    for (const auto& at_vertex : planes_of_vertices(mesh_, constraints_))
+      for (std::size_t i = 0; i < at_vertex.size(); ++i)
+        for (std::size_t j = i + 1; j < at_vertex.size(); ++j)
+          try_to_join(root(at_vertex[i]), root(at_vertex[j]));
+    for (Constraint& constraint : constraints_) {
+      if (constraint.was_joined) constraint.plane = plane_of(constraint.vertices, constraint.plane.normal);
+      std::sort(constraint.vertices.begin(), constraint.vertices.end());
+      constraint.vertices.erase(std::unique(constraint.vertices.begin(), constraint.vertices.end()),
+                                constraint.vertices.end());
     }
   }
-  for (Constraint& constraint : constraints) {
-    std::sort(constraint.vertices.begin(), constraint.vertices.end());
-    constraint.vertices.erase(std::unique(constraint.vertices.begin(), constraint.vertices.end()),
-                              constraint.vertices.end());
+
+ private:
+  /// A face with fewer than this part of the other one's vertices has to fit into the other's plane as it is: to fit both anew for
+  /// each of the thousands of pieces of a plate takes the square of their number.
+  static constexpr std::size_t SMALL_PART = 8;
+
+  std::size_t root(std::size_t c) {
+    while (into_[c] != c) c = into_[c] = into_[into_[c]];
+    return c;
   }
-}
+
+  void try_to_join(std::size_t a, std::size_t b) {
+    if (a == b) return;
+    Constraint& first = constraints_[std::min(a, b)];
+    Constraint& second = constraints_[std::max(a, b)];
+    if (first.plane.normal.cross(second.plane.normal).norm() > SAME_PLANE_SINE ||
+        !(first.plane.normal.dot(second.plane.normal) > 0.0))
+      return;
+    const bool first_is_large = first.vertices.size() >= second.vertices.size();
+    const Constraint &large = first_is_large ? first : second, &small = first_is_large ? second : first;
+    Plane plane = large.plane;
+    if (SMALL_PART * small.vertices.size() > large.vertices.size()) {
+      std::vector<std::int32_t> both = large.vertices;
+      both.insert(both.end(), small.vertices.begin(), small.vertices.end());
+      plane = plane_of(both, first.plane.normal);
+      if (!all_near(both, plane)) return;
+    } else if (!all_near(small.vertices, plane)) {
+      return;
+    }
+    if (!first_is_large) first.vertices.swap(second.vertices);
+    first.vertices.insert(first.vertices.end(), second.vertices.begin(), second.vertices.end());
+    first.plane = plane;
+    first.was_joined = true;
+    second = Constraint{second.plane, {}, false};
+    into_[std::max(a, b)] = std::min(a, b);
+  }
+
+  Plane plane_of(const std::vector<std::int32_t>& vertices, const Vec3& towards) const {
+    std::vector<Vec3> points;
+    for (const std::int32_t v : vertices) points.push_back(mesh_.vertices[static_cast<std::size_t>(v)]);
+    return fit_plane(points, towards).plane;
+  }
+  bool all_near(const std::vector<std::int32_t>& vertices, const Plane& plane) const {
+    return std::ranges::all_of(vertices, [&](std::int32_t v) {
+      return std::abs(plane.height(mesh_.vertices[static_cast<std::size_t>(v)])) <= tolerance_;
+    });
+  }
+
+  const TriangleMesh& mesh_;
+  std::vector<Constraint>& constraints_;
+  double tolerance_;
+  std::vector<std::size_t> into_;
+};
 
 /// The nearest point that lies in all planes; nothing where they share none.
 std::optional<Vec3> put_into(const Vec3& p, const std::vector<std::size_t>& planes,
@@ -196,7 +226,7 @@ FlatteningReport flatten(TriangleMesh& mesh, const PlanarTolerance& choice) {
   const double flat = FLAT_ULPS * std::numeric_limits<double>::epsilon() * largest_coordinate(mesh.vertices);
   if (report.tolerance <= flat) return report;
   std::vector<Constraint> constraints = find_constraints(build_surface(mesh), report.tolerance);
-  join_coplanar(mesh, constraints, report.tolerance);
+  CoplanarJoining(mesh, constraints, report.tolerance).run();
 
   std::vector<Vec3> moved;
   for (bool settled = false; !settled;) {
