@@ -9,6 +9,9 @@ namespace lmdbench {
 
 namespace {
 
+constexpr const char* TURN_REMEDY =
+    "remedy: \"orient\": \"outward\" in an experiment, --orient outward of init and query";
+
 constexpr std::array<FeatureKind, 3> KINDS{FeatureKind::VERTEX, FeatureKind::EDGE, FeatureKind::FACE};
 
 std::int64_t feature_count(const ValidityReport& report, FeatureKind kind) {
@@ -49,10 +52,13 @@ std::vector<std::string> findings(const ValidityReport& report) {
     sentences.push_back(fmt::format("{} where surfaces touch in a point only",
                                     counted(report.non_manifold_vertices, "vertex", "vertices")));
   if (report.misoriented_edges > 0)
-    sentences.push_back(fmt::format("{} whose two triangles disagree on the outer side",
-                                    counted(report.misoriented_edges, "edge", "edges")));
+    sentences.push_back(fmt::format("{} whose two triangles disagree on the outer side ({})",
+                                    counted(report.misoriented_edges, "edge", "edges"), TURN_REMEDY));
   if (report.outward == false)
-    sentences.emplace_back("inside out: the triangles' normals point into the solid");
+    sentences.push_back(
+        fmt::format("inside out: the triangles' normals point into the solid (volume {:.4g}), so that nothing outside of it "
+                    "is a contact, for no method and not for the truth ({})",
+                    *report.volume, TURN_REMEDY));
   if (!report.closed)
     sentences.push_back(fmt::format("open: {} in {}",
                                     counted(report.boundary_edges, "boundary edge", "boundary edges"),

@@ -1,0 +1,173 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/base/error.h>
+#include <lmdbench/mesh/adjacency.h>
+#include <lmdbench/mesh/orientation_choice.h>
+#include <lmdbench/mesh/winding_number.h>
+
+#include <Eigen/Geometry>
+#include <fmt/format.h>
+
+#include <cmath>
+#include <cstddef>
+#include <utility>
+#include <vector>
+
+namespace lmdbench {
+namespace {
+
+using Corners = std::array<std::int32_t, 3>;
+
+/// Triangles that hang together over edges of two triangles.
+struct Piece {
+  std::vector<std::int32_t> triangles;
+  bool closed = true;
+  Eigen::AlignedBox3d box;
+};
+
+bool runs_along(const Corners& corners, std::int32_t from, std::int32_t to) {
+  for (std::size_t k = 0; k < 3; ++k)
+    if (corners[k] == from && corners[(k + 1) % 3] == to) return true;
+  return false;
+}
+
+void turn(Corners& corners) {
+  std::swap(corners[1], corners[2]);
+}
+
+/// Two triangles agree where they run along their common edge in opposite directions.
+bool agree(const TriangleMesh& mesh, const std::array<std::int32_t, 2>& edge, std::int32_t a, std::int32_t b) {
+  const bool first = runs_along(mesh.triangles[static_cast<std::size_t>(a)], edge[0], edge[1]);
+  const bool second = runs_along(mesh.triangles[static_cast<std::size_t>(b)], edge[0], edge[1]);
+  return first != second;
+}
+
+/// Makes the triangles of every piece agree, as far as they can.
+std::vector<Piece> agreeing_pieces(TriangleMesh& mesh, const Adjacency& adjacency) {
+  std::vector<Piece> pieces;
+  std::vector<bool> seen(mesh.triangles.size(), false);
+  for (std::size_t first = 0; first < mesh.triangles.size(); ++first) {
+    if (seen[first]) continue;
+    Piece piece;
+    piece.triangles.push_back(static_cast<std::int32_t>(first));
+    seen[first] = true;
+    std::vector<std::int32_t> turned;
+    for (std::size_t next = 0; next < piece.triangles.size(); ++next) {
+      const std::int32_t t = piece.triangles[next];
+      for (const std::int32_t e : adjacency.triangle_edges[static_cast<std::size_t>(t)]) {
+        const auto around = adjacency.edge_triangles[e];
+        if (around.size() != 2) {
+          piece.closed = false;
+          continue;
+        }
+        const std::int32_t other = around[0] == t ? around[1] : around[0];
+        if (other == t || seen[static_cast<std::size_t>(other)]) continue;
+        seen[static_cast<std::size_t>(other)] = true;
+        piece.triangles.push_back(other);
+        if (agree(mesh, adjacency.edges[static_cast<std::size_t>(e)], t, other)) continue;
+        turn(mesh.triangles[static_cast<std::size_t>(other)]);
+        turned.push_back(other);
+      }
+    }
+    if (2 * turned.size() > piece.triangles.size())  // the first triangle was of the minority
+      for (const std::int32_t t : piece.triangles) turn(mesh.triangles[static_cast<std::size_t>(t)]);
+    for (const std::int32_t t : piece.triangles)
+      for (const Vec3& corner : mesh.triangle(t)) piece.box.extend(corner);
+    pieces.push_back(std::move(piece));
+  }
+  return pieces;
+}
+
+Vec3 centroid(const TriangleMesh& mesh, const Piece& piece) {
+  Vec3 sum = Vec3::Zero();
+  double area = 0.0;
+  for (const std::int32_t t : piece.triangles) {
+    const Triangle c = mesh.triangle(t);
+    const double size = (c[1] - c[0]).cross(c[2] - c[0]).norm();
+    sum += size * (c[0] + c[1] + c[2]) / 3.0;
+    area += size;
+  }
+  return area > 0.0 ? Vec3(sum / area) : Vec3(Vec3::Zero());
+}
+
+/// Signed volume of the cone over the piece from its centroid, over the 3/2 power of its area.
+double relative_volume(const TriangleMesh& mesh, const Piece& piece) {
+  const Vec3 centre = centroid(mesh, piece);
+  double volume = 0.0;
+  double area = 0.0;
+  for (const std::int32_t t : piece.triangles) {
+    const Triangle c = mesh.triangle(t);
+    volume += (c[0] - centre).dot((c[1] - centre).cross(c[2] - centre)) / 6.0;
+    area += 0.5 * (c[1] - c[0]).cross(c[2] - c[0]).norm();
+  }
+  return area > 0.0 ? volume / std::pow(area, 1.5) : 0.0;
+}
+
+/// Whether an odd number of other closed pieces enclose this one.
+bool is_cavity(const TriangleMesh& mesh, const std::vector<Piece>& pieces, std::size_t which) {
+  const Vec3 point = mesh.triangle(pieces[which].triangles.front())[0];
+  bool odd = false;
+  for (std::size_t i = 0; i < pieces.size(); ++i)
+    if (i != which && pieces[i].closed && pieces[i].box.contains(point) &&
+        std::abs(winding_number(point, mesh, pieces[i].triangles)) > 0.5)
+      odd = !odd;
+  return odd;
+}
+
+}  // namespace
+
+std::string_view to_string(OrientationChoice choice) {
+  return choice == OrientationChoice::OUTWARD ? "outward" : "keep";
+}
+
+OrientationChoice parse_orientation(const std::string& text, const std::string& file, const std::string& place) {
+  for (const OrientationChoice choice : {OrientationChoice::KEEP, OrientationChoice::OUTWARD})
+    if (text == to_string(choice)) return choice;
+  throw UsageError(file, place, fmt::format("'{}' is no orientation", text), "give keep or outward");
+}
+
+OrientationReport orient_outward(TriangleMesh& mesh) {
+  const std::vector<Corners> before = mesh.triangles;
+  const Adjacency adjacency = build_adjacency(mesh);
+  std::vector<Piece> pieces = agreeing_pieces(mesh, adjacency);
+  OrientationReport report;
+  report.choice = OrientationChoice::OUTWARD;
+  report.pieces = static_cast<std::int64_t>(pieces.size());
+  std::vector<bool> wrong(pieces.size(), false);
+  for (std::size_t i = 0; i < pieces.size(); ++i) {
+    const double volume = relative_volume(mesh, pieces[i]);
+    if (pieces[i].closed)
+      wrong[i] = volume != 0.0 && (volume < 0.0) != is_cavity(mesh, pieces, i);
+    else if (std::abs(volume) < OPEN_VOLUME)
+      ++report.pieces_undecided;
+    else
+      wrong[i] = volume < 0.0;
+  }
+  for (std::size_t i = 0; i < pieces.size(); ++i)
+    if (wrong[i])
+      for (const std::int32_t t : pieces[i].triangles) turn(mesh.triangles[static_cast<std::size_t>(t)]);
+  for (std::size_t t = 0; t < before.size(); ++t)
+    if (mesh.triangles[t] != before[t]) ++report.turned_triangles;
+  for (std::int32_t e = 0; e < adjacency.edge_count(); ++e) {
+    const auto around = adjacency.edge_triangles[e];
+    if (around.size() == 2 && around[0] != around[1] &&
+        !agree(mesh, adjacency.edges[static_cast<std::size_t>(e)], around[0], around[1]))
+      ++report.disagreements;
+  }
+  return report;
+}
+
+std::string to_text(const OrientationReport& report) {
+  if (report.choice == OrientationChoice::KEEP) return "as in the file";
+  std::string text = report.turned_triangles == 0
+                         ? "outward already, nothing turned"
+                         : fmt::format("{} triangles turned outward", report.turned_triangles);
+  if (report.pieces_undecided > 0)
+    text += fmt::format("; {} of {} pieces are open sheets without an outer side", report.pieces_undecided,
+                        report.pieces);
+  if (report.disagreements > 0)
+    text += fmt::format("; {} edges have no common side (as on a Moebius strip)", report.disagreements);
+  return text;
+}
+
+}  // namespace lmdbench

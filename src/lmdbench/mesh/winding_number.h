@@ -1,0 +1,20 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <lmdbench/geometry/types.h>
+#include <lmdbench/mesh/triangle_mesh.h>
+
+#include <cstdint>
+#include <span>
+
+namespace lmdbench {
+
+/// How often a closed surface winds around a point: the sum of its triangles' signed solid angles (Van Oosterom
+/// and Strackee 1983) over 4 pi; 0 outside, 1 inside, -1 inside of one that is inside out.
+double winding_number(const Vec3& point, const TriangleMesh& mesh);
+
+/// The same of some of the mesh's triangles.
+double winding_number(const Vec3& point, const TriangleMesh& mesh, std::span<const std::int32_t> triangles);
+
+}  // namespace lmdbench

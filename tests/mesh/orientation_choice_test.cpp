@@ -1,0 +1,115 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/base/error.h>
+#include <lmdbench/catalogue/shapes.h>
+#include <lmdbench/mesh/flaws.h>
+#include <lmdbench/mesh/orientation_choice.h>
+#include <lmdbench/mesh/validity.h>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cstddef>
+#include <utility>
+
+namespace lmdbench {
+namespace {
+
+using ::testing::HasSubstr;
+
+TriangleMesh inside_out(TriangleMesh mesh) {
+  for (auto& corners : mesh.triangles) std::swap(corners[1], corners[2]);
+  return mesh;
+}
+
+TEST(OrientOutward, SoundSolidsAreLeftAsTheyAre) {
+  for (const TriangleMesh& mesh : {make_sphere(1, 2), make_torus(1, 0.3, 16, 8), make_l_block(1)}) {
+    TriangleMesh turned = mesh;
+    const OrientationReport report = orient_outward(turned);
+    EXPECT_EQ(turned.triangles, mesh.triangles);
+    EXPECT_EQ(report.turned_triangles, 0);
+    EXPECT_EQ(report.pieces, 1);
+    EXPECT_EQ(report.disagreements, 0);
+  }
+}
+
+TEST(OrientOutward, WhatIsInsideOutIsTurned) {
+  const TriangleMesh sound = make_torus(1, 0.3, 16, 8);
+  TriangleMesh mesh = inside_out(sound);
+  const OrientationReport report = orient_outward(mesh);
+  EXPECT_EQ(mesh.triangles, sound.triangles);
+  EXPECT_EQ(report.turned_triangles, static_cast<std::int64_t>(sound.triangles.size()));
+  EXPECT_THAT(to_text(report), HasSubstr("256 triangles turned outward"));
+}
+
+TEST(OrientOutward, SingleTurnedTrianglesJoinTheirNeighbours) {
+  const TriangleMesh sound = make_sphere(1, 2);
+  for (const bool turned_first : {false, true}) {
+    TriangleMesh mesh = with_flips(sound, 7);
+    if (turned_first) mesh = inside_out(mesh);
+    orient_outward(mesh);
+    const ValidityReport report = check_mesh(build_surface(mesh));
+    EXPECT_TRUE(report.consistently_oriented);
+    EXPECT_EQ(report.outward, true);
+  }
+}
+
+/// A ball with a bubble in it, in which a ball floats.
+TEST(OrientOutward, CavitiesFaceTheirInside) {
+  for (const int wrong : {0, 1, 2, 3}) {
+    TriangleMesh shells[] = {make_sphere(3, 2), inside_out(make_sphere(2, 2)), make_sphere(1, 2)};
+    if (wrong < 3) shells[wrong] = inside_out(shells[wrong]);
+    TriangleMesh mesh = merged(merged(shells[0], shells[1]), shells[2]);
+    const OrientationReport report = orient_outward(mesh);
+    EXPECT_EQ(report.pieces, 3);
+    EXPECT_EQ(report.turned_triangles, wrong < 3 ? static_cast<std::int64_t>(shells[0].triangles.size()) : 0) << wrong;
+    const double shell = *check_mesh(build_surface(make_sphere(1, 2))).volume;
+    EXPECT_NEAR(*check_mesh(build_surface(mesh)).volume, shell * (27.0 - 8.0 + 1.0), 1e-9);
+  }
+}
+
+TEST(OrientOutward, ScansWithHolesAreTurned) {
+  TriangleMesh mesh = with_holes(inside_out(make_sphere(1, 2)), 50);
+  const auto count = static_cast<std::int64_t>(mesh.triangles.size());
+  const OrientationReport report = orient_outward(mesh);
+  EXPECT_EQ(report.turned_triangles, count);
+  EXPECT_EQ(report.pieces_undecided, 0);
+}
+
+TEST(OrientOutward, SheetsHaveNoOuterSide) {
+  TriangleMesh sheet;
+  sheet.vertices = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
+  sheet.triangles = {{0, 1, 2}, {0, 3, 2}};  // they disagree
+  const OrientationReport report = orient_outward(sheet);
+  EXPECT_EQ(report.turned_triangles, 1) << "one of the two";
+  EXPECT_EQ(report.pieces_undecided, 1);
+  EXPECT_THAT(to_text(report), HasSubstr("without an outer side"));
+}
+
+/// Five quads in a ring whose ends are joined upside down.
+TEST(OrientOutward, AMoebiusStripStillDisagreesSomewhere) {
+  TriangleMesh strip;
+  constexpr int COUNT = 8;
+  for (int i = 0; i < COUNT; ++i) {
+    const double angle = 2.0 * 3.14159265358979 * i / COUNT;
+    for (const double side : {-0.3, 0.3}) {
+      const double r = 1.0 + side * std::cos(angle / 2);
+      strip.vertices.emplace_back(r * std::cos(angle), r * std::sin(angle), side * std::sin(angle / 2));
+    }
+  }
+  for (int i = 0; i < COUNT; ++i) {
+    const int a = 2 * i, b = 2 * i + 1;
+    const int c = i + 1 < COUNT ? a + 2 : 1, d = i + 1 < COUNT ? b + 2 : 0;
+    strip.triangles.push_back({a, b, c});
+    strip.triangles.push_back({b, d, c});
+  }
+  EXPECT_GE(orient_outward(strip).disagreements, 1);
+}
+
+TEST(OrientOutward, NamesAreChecked) {
+  EXPECT_EQ(parse_orientation("outward", "", "/moving/orient"), OrientationChoice::OUTWARD);
+  EXPECT_THROW(parse_orientation("inward", "", "/moving/orient"), UsageError);
+}
+
+}  // namespace
+}  // namespace lmdbench
