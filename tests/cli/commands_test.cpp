@@ -168,6 +168,75 @@ TEST(InitCommand, WritesAnExperimentThatRuns) {
             2);
 }
 
+constexpr const char* BOX_IN_MILLIMETRES =
+    "OFF\n8 12 0\n0 0 0\n40 0 0\n40 60 0\n0 60 0\n0 0 20\n40 0 20\n40 60 20\n0 60 20\n"
+    "3 0 2 1\n3 0 3 2\n3 4 5 6\n3 4 6 7\n3 0 1 5\n3 0 5 4\n3 1 2 6\n3 1 6 5\n3 2 3 7\n3 2 7 6\n3 3 0 4\n3 3 "
+    "4 7\n";
+
+TEST(InitCommand, UnlikeUnitsNeedAWord) {
+  const ScratchDirectory scratch;
+  scratch.write("box.off", BOX_IN_MILLIMETRES);
+  scratch.write(
+      "metres.off",
+      "OFF\n8 12 0\n0 0 0\n.04 0 0\n.04 .06 0\n0 .06 0\n0 0 .02\n.04 0 .02\n.04 .06 .02\n0 .06 .02\n"
+      "3 0 2 1\n3 0 3 2\n3 4 5 6\n3 4 6 7\n3 0 1 5\n3 0 5 4\n3 1 2 6\n3 1 6 5\n3 2 3 7\n3 2 7 6\n3 3 0 4\n"
+      "3 3 4 7\n");
+  const Outcome refused = lmdbench("init box.off metres.off --out new", scratch.path());
+  EXPECT_EQ(refused.code, USAGE);
+  EXPECT_THAT(refused.err, HasSubstr("--unit mm,m"));
+  const Outcome taken = lmdbench("init box.off metres.off --out new --unit mm,m", scratch.path());
+  EXPECT_EQ(taken.code, 0) << taken.err;
+}
+
+TEST(InitCommand, ContactsAreReadyForStability) {
+  const ScratchDirectory scratch;
+  scratch.write("box.off", BOX_IN_MILLIMETRES);
+  const Outcome made = lmdbench("init box.off box.off --contact --out new", scratch.path());
+  ASSERT_EQ(made.code, 0) << made.err;
+  EXPECT_THAT(made.out, HasSubstr("lmdbench stability new"));
+  const Outcome found =
+      lmdbench(R"(stability new/box-box-contact.json --json --set '/methods=[{"name": "certified"}]')",
+               scratch.path());
+  EXPECT_EQ(found.code, 0) << found.err;
+  EXPECT_GT(nlohmann::json::parse(found.out)[0]["critical_stiffness_n_per_m"].get<double>(), 0.0);
+}
+
+TEST(StabilityCommand, NoAnswerIsItsOwnExitCodeWithARemedy) {
+  const std::string wall = "stability '" LMDBENCH_SOURCE_DIR "/experiments/wall.json' --json ";
+  struct Case {
+    const char* settings;
+    const char* outcome;
+    const char* remedy;
+  };
+  for (const Case& c :
+       {Case{"--set /loop/friction_n=0.1", "stuck", "/loop/push_n of more than 0.8 N"},
+        {"--set /force/cutoff_m=0.001", "no_contact", "init --contact"},
+        {"--set /force/saturation_m=0.01999 --set '/loop/push_n=[0,0,0]'", "saturated", "saturation_m"},
+        {"--set /loop/damping_n_s_per_m=0", "never", "more damping"},
+        {"--trials 2", "undecided", "raise --seconds or --trials"}}) {
+    const Outcome outcome = lmdbench(wall + c.settings);
+    EXPECT_EQ(outcome.code, INPUT_DATA) << c.settings;
+    const auto rows = nlohmann::json::parse(outcome.out);
+    EXPECT_EQ(rows[0]["clean_until"], c.outcome);
+    EXPECT_THAT(outcome.err, HasSubstr(c.remedy));
+  }
+  EXPECT_EQ(lmdbench(wall).code, 0);
+}
+
+TEST(MeshCommand, SaysWhereAMeshCrossesItselfAndIsInsideOut) {
+  const ScratchDirectory scratch;
+  // Two tetrahedra that cross, the second one inside out.
+  scratch.write("cross.off",
+                "OFF\n8 8 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n.1 .1 .1\n1.1 .1 .1\n.1 1.1 .1\n.1 .1 1.1\n"
+                "3 0 2 1\n3 0 1 3\n3 0 3 2\n3 1 2 3\n3 4 6 5\n3 4 5 7\n3 4 7 6\n3 5 6 7\n");
+  scratch.write("turned.off", "OFF\n4 4 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 1 2\n3 0 3 1\n3 0 2 3\n3 1 3 2\n");
+  const Outcome cross = lmdbench("mesh info cross.off --json", scratch.path());
+  EXPECT_GT(nlohmann::json::parse(cross.out)["self_intersections"]["pairs"].get<int>(), 0);
+  const Outcome turned = lmdbench("mesh info turned.off", scratch.path());
+  EXPECT_THAT(turned.out, HasSubstr("crosses self  none"));
+  EXPECT_THAT(turned.out, HasSubstr("--orient outward"));
+}
+
 /// Two unit cubes; the moving one stands above the fixed one by the pose's z - 1.
 class QueryCommand : public ::testing::Test {
  protected:
@@ -179,6 +248,29 @@ class QueryCommand : public ::testing::Test {
   }
   ScratchDirectory scratch_;
 };
+
+TEST_F(QueryCommand, TakesUnitsAndTurnsWhatIsInsideOut) {
+  const std::string mesh = cube();
+  std::string turned = read_text(mesh);
+  turned = turned.substr(0, turned.find("3 0 2 1")) +
+           "3 0 1 2\n3 0 2 3\n3 4 6 5\n3 4 7 6\n3 0 5 1\n3 0 4 5\n3 1 6 2\n3 1 5 6\n3 2 7 3\n3 2 6 7\n3 3 4 "
+           "0\n3 3 7 4\n";
+  const std::string inside_out = scratch_.write("turned.off", turned);
+  const std::string pose = scratch_.write("p.tum", "0 0 0 0.00125 0 0 0 1\n");
+  const auto found = [&](const std::string& moving, const std::string& more) {
+    const Outcome outcome = lmdbench("query --moving '" + moving + "' --fixed '" + mesh +
+                                     "' --cutoff 0.0005 --json --poses '" + pose + "' " + more);
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    return json_lines(outcome.out).at(0);
+  };
+  EXPECT_NEAR(found(mesh, "--unit mm")["minimum_distance"].get<double>(), 0.00025, 1e-12)
+      << "answers stay in metres";
+  EXPECT_NEAR(found(mesh, "--unit 0.001,mm")["minimum_distance"].get<double>(), 0.00025, 1e-12);
+  EXPECT_TRUE(found(inside_out, "--unit mm")["lmds"].empty());
+  EXPECT_EQ(found(inside_out, "--unit mm --orient outward")["lmds"], found(mesh, "--unit mm")["lmds"]);
+  EXPECT_EQ(lmdbench("query --moving '" + mesh + "' --fixed '" + mesh + "' --cutoff 1 --unit mile").code,
+            USAGE);
+}
 
 TEST_F(QueryCommand, PrintsALineAPoseInWorldCoordinates) {
   // Turned by 45 degrees about x: an edge of the moving cube hangs over the fixed cube's upper face.

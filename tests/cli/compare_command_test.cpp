@@ -236,9 +236,11 @@ TEST_F(CompareCommand, BenchmarkFilesHoldBothSides) {
 
 TEST(DoctorCommand, NamesEveryFindingAndTheNoise) {
   const Outcome outcome = lmdbench("doctor --json");
-  ASSERT_EQ(outcome.code, 0) << outcome.err;
   const auto json = nlohmann::json::parse(outcome.out);
   EXPECT_GE(json["findings"].size(), 10U);
+  const bool bad = std::any_of(json["findings"].begin(), json["findings"].end(),
+                               [](const nlohmann::json& finding) { return finding["health"] == "bad"; });
+  EXPECT_EQ(outcome.code, bad ? 1 : 0) << outcome.err;
   for (const auto& finding : json["findings"])
     EXPECT_EQ(finding["health"] == "good", finding["remedy"].get<std::string>().empty()) << finding.dump();
   EXPECT_GT(json["noise"]["spread"].get<double>(), 0.0);

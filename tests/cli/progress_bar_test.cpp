@@ -46,11 +46,20 @@ std::string lines_of(bool enabled, std::chrono::milliseconds silence) {
 }
 
 TEST(ProgressBar, ALogGetsLinesNowAndThen) {
-  EXPECT_THAT(
-      lines_of(true, std::chrono::milliseconds(0)),
-      AllOf(HasSubstr("run   [#######"), HasSubstr(" 25 %"), HasSubstr(" 50 %"), Not(HasSubstr("\r"))));
+  EXPECT_THAT(lines_of(true, std::chrono::milliseconds(0)),
+              AllOf(HasSubstr("run: 25 %"), HasSubstr("run: 50 %"), Not(HasSubstr("\r"))));
   EXPECT_EQ(lines_of(true, std::chrono::hours(1)), "") << "short commands are silent";
   EXPECT_EQ(lines_of(false, std::chrono::milliseconds(0)), "");
+}
+
+TEST(ProgressLine, WithoutATotalIsThePhase) {
+  EXPECT_EQ(progress_line("trial 7", 0, -1, 3.0), "trial 7");
+  EXPECT_EQ(progress_note("trial 7", 0, -1, 3.0), "trial 7");
+}
+
+TEST(ProgressNote, TellsShareAndTimeLeftInWords) {
+  EXPECT_EQ(progress_note("run", 250, 1000, 50.0), "run: 25 %, 150 s left");
+  EXPECT_EQ(progress_note("run", 0, 1000, 0.0), "run: 0 %");
 }
 
 }  // namespace

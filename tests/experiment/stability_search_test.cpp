@@ -12,6 +12,9 @@
 
 #include <cmath>
 #include <cstdlib>
+#include <fstream>
+#include <iterator>
+#include <numbers>
 #include <random>
 #include <string>
 #include <tuple>
@@ -20,6 +23,13 @@
 
 namespace lmdbench {
 namespace {
+
+using Json = nlohmann::json;
+
+std::string text_of(const std::string& file) {
+  std::ifstream stream(file);
+  return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+}
 
 StabilityRow search(const std::vector<Override>& overrides) {
   return find_critical_stiffness(load_experiment(testing::WALL_FILE, overrides)).at(0);
@@ -204,11 +214,171 @@ TEST(StabilitySearch, OverdampedDevicesAreExact) {
   }
 }
 
+/// The wall's ball 2.02 mm within the cutoff, on a device that never clips: a tap of a quarter of that.
+std::vector<Override> pressed(const std::vector<Override>& more) {
+  std::vector<Override> overrides{"/loop/push_n=[0, 0, 0]", "/force/cutoff_m=0.022"};
+  overrides.insert(overrides.end(), more.begin(), more.end());
+  return overrides;
+}
+constexpr double PRESSED_M = 0.00202;
+
+struct CoulombDevice {
+  double mass, damping, friction;
+  int delay;
+};
+
+/// One axis by itself: mass, damper, Coulomb friction that holds, a sampled spring about the place of rest. Steps of a five hundredth of
+/// a period, velocity first.
+/// @return whether a tap that would swing to `tap` dies down before it swings to half of PRESSED_M
+bool dies_down(const CoulombDevice& device, double stiffness, double tap) {
+  constexpr double PERIOD = 1e-3;
+  constexpr int STEPS = 500;
+  constexpr double STEP = PERIOD / STEPS;
+  double x = 0.0;
+  double v = tap * std::sqrt(stiffness / device.mass);
+  std::vector<double> under_way(static_cast<std::size_t>(device.delay), 0.0);
+  int still = 0;
+  for (int period = 0; period < 200'000; ++period) {
+    under_way.push_back(-stiffness * x);
+    const double spring = under_way.front();
+    under_way.erase(under_way.begin());
+    bool moved = false;
+    for (int step = 0; step < STEPS; ++step) {
+      if (v == 0.0 && std::abs(spring) <= device.friction) continue;
+      moved = true;
+      const double against =
+          v != 0.0 ? std::copysign(device.friction, v) : std::copysign(device.friction, spring);
+      const double next = v + STEP * (spring - device.damping * v - against) / device.mass;
+      v = v * next < 0.0 ? 0.0 : next;
+      x += STEP * v;
+      if (std::abs(x) > 0.5 * PRESSED_M) return false;
+    }
+    still = moved ? 0 : still + 1;
+    if (still > device.delay + 1) return true;
+  }
+  return true;
+}
+
+double critical_by_itself(const CoulombDevice& device, double tap) {
+  double low = 10.0, high = 10.0;
+  while (dies_down(device, high, tap)) low = std::exchange(high, 1.5 * high);
+  while (high > 1.002 * low) {
+    const double middle = std::sqrt(low * high);
+    (dies_down(device, middle, tap) ? low : high) = middle;
+  }
+  return low;
+}
+
+/// Through meshes, method and the device's exact integrator, as by an integration that shares nothing with them.
+TEST(StabilitySearch, FrictionIsAsAnIndependentIntegrationHasIt) {
+  for (const CoulombDevice& device :
+       {CoulombDevice{0.045, 0.005, 0.06, 0}, CoulombDevice{0.04, 0.8, 0.1, 0},
+        CoulombDevice{0.075, 0.005, 0.04, 1}, CoulombDevice{0.2, 0.3, 0.03, 3}}) {
+    const StabilityRow row = search(pressed({fmt::format("/loop/mass_kg={}", device.mass),
+                                             fmt::format("/loop/damping_n_s_per_m={}", device.damping),
+                                             fmt::format("/loop/friction_n={}", device.friction),
+                                             fmt::format("/loop/delay_frames={}", device.delay)}));
+    EXPECT_NEAR(row.tap_m, FRICTION_TAP_SHARE * PRESSED_M, 0.02 * PRESSED_M);
+    const double expected = critical_by_itself(device, row.tap_m);
+    EXPECT_NEAR(row.critical_stiffness_n_per_m, expected, 0.02 * expected)
+        << device.mass << " kg, " << device.damping << " N s/m, " << device.friction << " N, "
+        << device.delay;
+    EXPECT_GT(row.critical_stiffness_n_per_m, row.exact_n_per_m) << "friction only takes energy";
+    EXPECT_TRUE(row.has_answer());
+  }
+}
+
+/// What friction f takes, 4 f a an oscillation, against what a held force of a stiffness K gives, pi w a^2 (K (T/2 + t_d) - b).
+TEST(StabilitySearch, FrictionIsNearItsEnergyBalance) {
+  for (const auto& [friction, delay] : {std::pair{0.06, 0}, {0.03, 1}, {0.12, 0}}) {
+    const StabilityRow row = search(
+        pressed({"/loop/mass_kg=0.045", "/loop/damping_n_s_per_m=0.005",
+                 fmt::format("/loop/friction_n={}", friction), fmt::format("/loop/delay_frames={}", delay)}));
+    const double k = row.critical_stiffness_n_per_m;
+    const double a = row.tap_m;
+    const double given = std::numbers::pi * std::sqrt(k / 0.045) * a * a * (k * 1e-3 * (0.5 + delay) - 0.005);
+    EXPECT_NEAR(given, 4.0 * friction * a, 0.15 * given) << friction << " N, " << delay << " frames";
+  }
+}
+
+TEST(StabilitySearch, LargerTapsBearLessStiffness) {
+  const auto at = [](double cutoff) {
+    return search({"/loop/push_n=[0, 0, 0]", "/loop/friction_n=0.06", "/loop/mass_kg=0.045",
+                   "/loop/damping_n_s_per_m=0.005", fmt::format("/force/cutoff_m={}", cutoff)});
+  };
+  const StabilityRow small = at(0.0215);
+  const StabilityRow large = at(0.024);
+  EXPECT_LT(small.tap_m, large.tap_m);
+  EXPECT_GT(small.critical_stiffness_n_per_m, large.critical_stiffness_n_per_m);
+}
+
+/// 1 um within the cutoff no tap beats 0.1 N: "stuck", where a search by growth found 26,024 N/m.
+TEST(StabilitySearch, TapsWithinFrictionAreStuck) {
+  for (const char* counts : {"0", "3e-5"}) {
+    const StabilityRow row = search({"/loop/friction_n=0.1", std::string("/loop/resolution_m=") + counts});
+    EXPECT_EQ(row.clean_until, "stuck");
+    EXPECT_TRUE(std::isnan(row.critical_stiffness_n_per_m));
+    EXPECT_FALSE(row.has_answer());
+    EXPECT_LT(row.trials, 100);
+    EXPECT_NE(advice(row).find("/loop/push_n of more than 0.8 N"), std::string::npos) << advice(row);
+  }
+  // The remedy is one.
+  const StabilityRow row = search({"/loop/friction_n=0.1", "/loop/push_n=[0, 0, -2]"});
+  EXPECT_TRUE(row.has_answer());
+  EXPECT_GT(row.critical_stiffness_n_per_m, row.exact_n_per_m);
+}
+
+/// Friction and counts of real devices: an answer with a reason, in few trials.
+TEST(StabilitySearch, PhantomsHaveAnAnswer) {
+  for (const char* device : {"phantom-desktop", "phantom-premium-1.5", "phantom-premium-1.5-6dof",
+                             "phantom-omni", "phantom-premium-3.0-6dof"}) {
+    Json file = Json::parse(text_of(testing::WALL_FILE));
+    for (const char* figure : {"mass_kg", "damping_n_s_per_m", "friction_n", "resolution_m"})
+      file["loop"].erase(figure);
+    file["device"] = device;
+    const StabilityRow row =
+        find_critical_stiffness(parse_experiment(file.dump(), testing::WALL_FILE, pressed({}))).at(0);
+    EXPECT_TRUE(row.has_answer()) << device << ": " << row.clean_until;
+    EXPECT_GT(row.critical_stiffness_n_per_m, row.exact_n_per_m) << device;
+    EXPECT_LT(row.trials, 60) << device;
+  }
+}
+
+TEST(StabilitySearch, NearerThanTheSaturationIsSaturated) {
+  const StabilityRow row = search({"/force/saturation_m=0.01999", "/loop/push_n=[0, 0, 0]"});
+  EXPECT_EQ(row.clean_until, "saturated");
+  EXPECT_FALSE(row.has_answer());
+  EXPECT_NE(advice(row).find("init --contact"), std::string::npos);
+}
+
+TEST(StabilitySearch, SpentBudgetIsUndecided) {
+  const Experiment experiment = load_experiment(testing::WALL_FILE);
+  const StabilityRow row = find_critical_stiffness(experiment, {}, {.trials = 3}).at(0);
+  EXPECT_EQ(row.clean_until, "undecided");
+  EXPECT_EQ(row.trials, 3);
+  EXPECT_FALSE(row.has_answer());
+  EXPECT_LE(row.critical_stiffness_n_per_m, row.exact_n_per_m) << "what is known so far";
+  EXPECT_EQ(find_critical_stiffness(experiment, {}, {.seconds = 1e-9}).at(0).clean_until, "undecided");
+}
+
+TEST(StabilitySearch, ProgressTellsTrialsAndStops) {
+  const Experiment experiment = load_experiment(testing::WALL_FILE);
+  std::string last;
+  find_critical_stiffness(experiment, [&](const std::string& phase, std::int64_t, std::int64_t) {
+    last = phase;
+    return true;
+  });
+  EXPECT_NE(last.find("trial 5, clean to 15"), std::string::npos) << last;
+  EXPECT_THROW(find_critical_stiffness(experiment,
+                                       [](const std::string&, std::int64_t, std::int64_t) { return false; }),
+               Interrupted);
+}
+
 TEST(StabilitySearch, OpenLoopIsRefused) {
   EXPECT_THROW(search({"/loop/kind=open"}), UsageError);
 }
 
-TEST(StabilitySearch, JsonHasExactlyTheContractsNames) {
+TEST(StabilitySearch, JsonHasTheContractsNamesAndTheTap) {
   StabilityRow row;
   row.method = "certified";
   const auto json = nlohmann::json::parse(stability_json({row}));
@@ -221,7 +391,9 @@ TEST(StabilitySearch, JsonHasExactlyTheContractsNames) {
                                        "critical_stiffness_n_per_m",
                                        "exact_n_per_m",
                                        "bound_n_per_m",
-                                       "clean_until"};
+                                       "clean_until",
+                                       "tap_m",
+                                       "trials"};
   ASSERT_EQ(json.size(), 1u);
   EXPECT_EQ(json[0].size(), names.size());
   for (const std::string& name : names) EXPECT_TRUE(json[0].contains(name)) << name;

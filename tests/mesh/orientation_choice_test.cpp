@@ -62,7 +62,8 @@ TEST(OrientOutward, CavitiesFaceTheirInside) {
     TriangleMesh mesh = merged(merged(shells[0], shells[1]), shells[2]);
     const OrientationReport report = orient_outward(mesh);
     EXPECT_EQ(report.pieces, 3);
-    EXPECT_EQ(report.turned_triangles, wrong < 3 ? static_cast<std::int64_t>(shells[0].triangles.size()) : 0) << wrong;
+    EXPECT_EQ(report.turned_triangles, wrong < 3 ? static_cast<std::int64_t>(shells[0].triangles.size()) : 0)
+        << wrong;
     const double shell = *check_mesh(build_surface(make_sphere(1, 2))).volume;
     EXPECT_NEAR(*check_mesh(build_surface(mesh)).volume, shell * (27.0 - 8.0 + 1.0), 1e-9);
   }

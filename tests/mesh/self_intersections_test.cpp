@@ -43,7 +43,8 @@ TEST(SelfIntersections, SolidsThatCrossAreFound) {
   // Each against each, the long way.
   std::int64_t expected = 0;
   for (std::int32_t i = 0; i < 12; ++i)
-    for (std::int32_t j = 12; j < 24; ++j) expected += triangles_intersect(mesh.triangle(i), mesh.triangle(j)) ? 1 : 0;
+    for (std::int32_t j = 12; j < 24; ++j)
+      expected += triangles_intersect(mesh.triangle(i), mesh.triangle(j)) ? 1 : 0;
   const SelfIntersections found = self_intersections(mesh);
   EXPECT_GT(expected, 0);
   EXPECT_EQ(found.pairs, expected);
@@ -89,7 +90,8 @@ TEST(SelfIntersections, NeighboursAreToldFromFolds) {
       {{Vec3(0.2, 0.2, 1e-30), Vec3(0.2, 0.2, 1), Vec3(0.3, 0.2, 1)}, false, "a corner just above its face"},
       {FLAT, false, "a duplicate, which the validity report counts"},
   };
-  for (const Case& c : cases) EXPECT_EQ(self_intersections(two_triangles(FLAT, c.other)).pairs, c.meets ? 1 : 0) << c.what;
+  for (const Case& c : cases)
+    EXPECT_EQ(self_intersections(two_triangles(FLAT, c.other)).pairs, c.meets ? 1 : 0) << c.what;
 }
 
 TEST(SelfIntersections, ScaleAndPlainFlawsDoNotMatter) {
@@ -106,7 +108,8 @@ TEST(SelfIntersections, ScaleAndPlainFlawsDoNotMatter) {
 
 TEST(SelfIntersections, SaysWhereItEnded) {
   TriangleMesh pile;
-  for (int i = 0; i < 100; ++i) pile = merged(pile, two_triangles(FLAT, {Vec3(0.1, 0.1, -1), Vec3(0.2, 0.1, 1), Vec3(0.1, 0.2, 1)}));
+  for (int i = 0; i < 100; ++i)
+    pile = merged(pile, two_triangles(FLAT, {Vec3(0.1, 0.1, -1), Vec3(0.2, 0.1, 1), Vec3(0.1, 0.2, 1)}));
   const SelfIntersections found = self_intersections(pile, 50);
   EXPECT_FALSE(found.complete);
   EXPECT_LE(found.pairs, 50);

@@ -12,11 +12,11 @@ void add_commands(CLI::App& app, const std::vector<std::string>& argv, int& exit
   add_run_command(app, argv);
   add_plan_command(app);
   add_init_command(app);
-  add_stability_command(app);
+  add_stability_command(app, exit_status);
   add_record_command(app);
   add_query_command(app);
   add_compare_command(app, exit_status);
-  add_doctor_command(app);
+  add_doctor_command(app, exit_status);
   add_report_command(app);
   add_export_command(app);
   add_anatomy_command(app);

@@ -23,8 +23,10 @@ void add_init_command(CLI::App& app);
 void add_query_command(CLI::App& app);
 /// @param exit_status receives the exit code of the verdict
 void add_compare_command(CLI::App& app, int& exit_status);
-void add_doctor_command(CLI::App& app);
-void add_stability_command(CLI::App& app);
+/// @param exit_status CHECK_FAILED where something is bad
+void add_doctor_command(CLI::App& app, int& exit_status);
+/// @param exit_status INPUT_DATA where a search found no stiffness
+void add_stability_command(CLI::App& app, int& exit_status);
 void add_record_command(CLI::App& app);
 void add_report_command(CLI::App& app);
 void add_work_precision_command(CLI::App& app, const std::vector<std::string>& argv);

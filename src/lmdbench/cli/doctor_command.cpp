@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/base/error.h>
 #include <lmdbench/cli/commands.h>
 #include <lmdbench/comparison/machine_health.h>
 #include <lmdbench/comparison/noise_floor.h>
@@ -9,6 +10,7 @@
 #include <nlohmann/json.hpp>
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
 #include <memory>
 #include <string>
 #include <vector>
@@ -58,17 +60,21 @@ std::string doctor_text(const std::vector<HealthFinding>& findings, const NoiseF
 
 }  // namespace
 
-void add_doctor_command(CLI::App& app) {
+void add_doctor_command(CLI::App& app, int& exit_status) {
   auto* command =
       app.add_subcommand("doctor", "Say what makes timings on this machine unreliable, and the remedies");
   const auto json = std::make_shared<bool>(false);
   command->add_flag("--json", *json, "findings and noise floor as JSON");
-  command->callback([json] {
+  command->footer("Exit codes: 0 nothing is bad; 1 something is, and timings here are unreliable.");
+  command->callback([json, &exit_status] {
     const std::vector<HealthFinding> findings = judge_machine(machine_facts());
     spdlog::info("measuring the noise for {:g} s", NOISE_SECONDS);
     const NoiseFloor noise = measure_noise_floor(NOISE_SECONDS);
     fmt::print("{}{}", *json ? doctor_json(findings, noise) : doctor_text(findings, noise),
                *json ? "\n" : "");
+    const bool bad = std::any_of(findings.begin(), findings.end(),
+                                 [](const HealthFinding& finding) { return finding.health == Health::BAD; });
+    if (bad) exit_status = static_cast<int>(ExitCode::CHECK_FAILED);
   });
 }
 

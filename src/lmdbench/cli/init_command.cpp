@@ -20,6 +20,9 @@ void add_init_command(CLI::App& app) {
     std::string fixed;
     std::string out = ".";
     std::string mesh_folder = DEFAULT_MESH_FOLDER;
+    std::string unit;
+    std::string orient;
+    bool contact = false;
   };
   auto* command = app.add_subcommand(
       "init", "Write an experiment for two meshes, with a path that grazes: ready to run and to edit");
@@ -30,22 +33,43 @@ void add_init_command(CLI::App& app) {
   command->add_option("--out,-o", options->out, "folder of the new files")->capture_default_str();
   command->add_option("--dir", options->mesh_folder, "folder of manifest.json and of the built meshes")
       ->capture_default_str();
+  command->add_option("--unit", options->unit,
+                      "what a unit of the files' coordinates is: m, cm, mm, um, in, ft or a number of "
+                      "metres; of the moving and the "
+                      "fixed mesh with a comma: mm,m. Without it millimetres where one of them spans more "
+                      "than 10, else metres");
+  command->add_option("--orient", options->orient,
+                      "keep, or outward: triangles are turned away from the solid; without it outward for "
+                      "meshes that need it");
+  command->add_flag(
+      "--contact", options->contact,
+      "begin at rest in contact, in a closed loop: for `lmdbench stability`; no path that grazes");
   command->callback([options] {
+    InitChoices chosen;
+    if (!options->unit.empty()) chosen.unit = options->unit;
+    if (!options->orient.empty()) chosen.orientation = parse_orientation(options->orient, "", "--orient");
+    chosen.contact = options->contact;
     ProgressBar bar(progress_welcome());
-    const NewExperiment made =
-        new_experiment(options->moving, options->fixed, options->out, options->mesh_folder,
-                       [&bar](std::int64_t done, std::int64_t total) {
-                         bar.update("path", done, total);
-                         return true;
-                       });
+    const NewExperiment made = new_experiment(
+        options->moving, options->fixed, options->out, options->mesh_folder,
+        [&bar](std::int64_t done, std::int64_t total) {
+          bar.update("path", done, total);
+          return true;
+        },
+        chosen);
     bar.wipe();
     write_new_experiment(made);
-    fmt::print("{}\n{}\n{}\n", made.experiment_file.string(), made.specification_file.string(),
-               made.path_file.string());
+    fmt::print("{}\n", made.experiment_file.string());
+    if (!made.specification_text.empty()) fmt::print("{}\n", made.specification_file.string());
+    fmt::print("{}\n", made.path_file.string());
     for (const DefaultNote& choice : made.choices)
       fmt::print("  {:<24} {} ({})\n", choice.key, choice.value, choice.from);
-    fmt::print("edit them, then: lmdbench run {}\nanother path: lmdbench path generate {} --out {}\n",
-               made.experiment_file.string(), made.specification_file.string(), made.path_file.string());
+    if (chosen.contact)
+      fmt::print("edit them, then: lmdbench stability {0}\nor let the hand hold it there: lmdbench run {0}\n",
+                 made.experiment_file.string());
+    else
+      fmt::print("edit them, then: lmdbench run {}\nanother path: lmdbench path generate {} --out {}\n",
+                 made.experiment_file.string(), made.specification_file.string(), made.path_file.string());
   });
 }
 

@@ -7,6 +7,7 @@
 #include <lmdbench/catalogue/manifest.h>
 #include <lmdbench/cli/mesh_command.h>
 #include <lmdbench/mesh/flatten.h>
+#include <lmdbench/mesh/self_intersections.h>
 #include <lmdbench/mesh/surface.h>
 #include <lmdbench/mesh/validity.h>
 
@@ -37,6 +38,7 @@ void print_info(const MeshArguments& arguments) {
   for (const std::string& name : arguments.names) {
     ResolvedMesh resolved = resolve_mesh(name, arguments.folder);
     const FlatteningReport flattening = flatten(resolved.mesh, tolerance);
+    const SelfIntersections crossings = self_intersections(resolved.mesh);
     const ValidityReport report = check_mesh(build_surface(std::move(resolved.mesh)));
     if (arguments.json) {
       nlohmann::ordered_json line{
@@ -48,10 +50,14 @@ void print_info(const MeshArguments& arguments) {
                         {"planes", flattening.planes},
                         {"moved_vertices", flattening.moved_vertices},
                         {"largest_move", flattening.largest_move}};
+      line["self_intersections"] = {
+          {"pairs", crossings.pairs},
+          {"first", crossings.first ? nlohmann::ordered_json(*crossings.first) : nullptr},
+          {"complete", crossings.complete}};
       fmt::print("{}\n", json_line(line));
     } else {
-      fmt::print("mesh          {}\n{}planes        {}\n", printable(name), to_text(report),
-                 to_text(flattening));
+      fmt::print("mesh          {}\n{}crosses self  {}\nplanes        {}\n", printable(name), to_text(report),
+                 to_text(crossings), to_text(flattening));
     }
     std::fflush(stdout);
   }
@@ -136,8 +142,9 @@ void add_mesh_command(CLI::App& app) {
     command->add_flag("--json", arguments->json, "one JSON object a mesh, a line each");
   };
 
-  CLI::App* info =
-      mesh->add_subcommand("info", "report what a mesh is like: closed, manifold, degenerate triangles");
+  CLI::App* info = mesh->add_subcommand(
+      "info",
+      "report what a mesh is like: closed, manifold, outward, degenerate triangles, crossings with itself");
   info->add_option("MESH", arguments->names, "names of the manifest or mesh files")->required();
   info->add_option("--planar-tolerance", arguments->planar_tolerance,
                    "as in query: auto, off, metres, or percent of the diagonal")

@@ -12,6 +12,7 @@ namespace lmdbench {
 
 std::string progress_line(const std::string& phase, std::int64_t done, std::int64_t total, double elapsed) {
   constexpr int WIDTH = 30;
+  if (total < 0) return phase;
   const double share = total > 0 ? static_cast<double>(done) / static_cast<double>(total) : 1.0;
   const int filled = static_cast<int>(share * WIDTH);
   const std::string bar = std::string(static_cast<std::size_t>(filled), '#') +
@@ -23,8 +24,18 @@ std::string progress_line(const std::string& phase, std::int64_t done, std::int6
                      left % 60);
 }
 
+std::string progress_note(const std::string& phase, std::int64_t done, std::int64_t total, double elapsed) {
+  if (total <= 0) return phase;
+  std::string text =
+      fmt::format("{}: {:.0f} %", phase, 100.0 * static_cast<double>(done) / static_cast<double>(total));
+  if (elapsed > 0.0 && done > 0)
+    text += fmt::format(", {:.0f} s left",
+                        std::ceil(elapsed * static_cast<double>(total - done) / static_cast<double>(done)));
+  return text;
+}
+
 ProgressBar::ProgressBar(bool enabled, std::chrono::milliseconds silence)
-    : enabled_(enabled), terminal_(isatty(STDERR_FILENO) == 1), silence_(silence) {}
+    : enabled_(enabled), on_terminal_(isatty(STDERR_FILENO) == 1), silence_(silence) {}
 
 ProgressBar::~ProgressBar() {
   wipe();
@@ -39,13 +50,14 @@ void ProgressBar::update(const std::string& phase, std::int64_t done, std::int64
     last_draw_ = {};
   }
   const double elapsed = std::chrono::duration<double>(now - phase_begin_).count();
-  if (!terminal_) {
+  if (!on_terminal_) {
     if (now - last_line_ < silence_) return;
     last_line_ = now;
-    fmt::print(stderr, "{}\n", progress_line(phase, done, total, elapsed));
+    fmt::print(stderr, "lmdbench: info: {} ({:.0f} s so far)\n", progress_note(phase, done, total, elapsed),
+               std::chrono::duration<double>(now - begin_).count());
     return;
   }
-  if (now - last_draw_ < std::chrono::milliseconds(100) && done < total) return;
+  if (now - last_draw_ < std::chrono::milliseconds(100) && (done < total || total < 0)) return;
   last_draw_ = now;
   fmt::print(stderr, "\r{}\x1b[K", progress_line(phase, done, total, elapsed));
   std::fflush(stderr);

@@ -18,23 +18,28 @@ class ProgressBar {
   ProgressBar(const ProgressBar&) = delete;
   ProgressBar& operator=(const ProgressBar&) = delete;
 
-  /// Draws at most ten times a second. A new phase starts a new clock.
+  /// Draws at most ten times a second. A new phase starts a new clock, but not a new line.
+  /// @param total negative where nobody knows it: the phase says all there is to say
   void update(const std::string& phase, std::int64_t done, std::int64_t total);
   void wipe();
 
  private:
   using Clock = std::chrono::steady_clock;
   bool enabled_;
-  bool terminal_;
+  bool on_terminal_;
   std::chrono::milliseconds silence_;
-  std::chrono::steady_clock::time_point last_line_ = std::chrono::steady_clock::now();
   bool drawn_ = false;
   std::string phase_;
   Clock::time_point phase_begin_;
   Clock::time_point last_draw_;
+  Clock::time_point begin_ = Clock::now();
+  Clock::time_point last_line_ = begin_;
 };
 
-/// "run [#####-----]  50 % 1200/s ETA 0:42": the bar's text, for `elapsed` seconds in this phase.
+/// "run [#####-----]  50 % 1200/s ETA 0:42": the bar's text, for `elapsed` seconds in this phase; of a negative total the phase alone.
 std::string progress_line(const std::string& phase, std::int64_t done, std::int64_t total, double elapsed);
+
+/// "run: 50 %, 42 s left": the same for a log.
+std::string progress_note(const std::string& phase, std::int64_t done, std::int64_t total, double elapsed);
 
 }  // namespace lmdbench

@@ -6,6 +6,9 @@
 #include <lmdbench/cli/commands.h>
 #include <lmdbench/geometry/tolerance.h>
 #include <lmdbench/mesh/flatten.h>
+#include <lmdbench/mesh/length_unit.h>
+#include <lmdbench/mesh/orientation_choice.h>
+#include <lmdbench/mesh/placement.h>
 #include <lmdbench/mesh/surface.h>
 #include <lmdbench/mesh/validity.h>
 #include <lmdbench/methods/query.h>
@@ -34,16 +37,24 @@ struct QueryOptions {
   std::vector<std::string> options;
   std::string poses;
   std::string planar_tolerance = "auto";
+  std::string unit = "m";
+  std::string orient = "keep";
   std::string folder = DEFAULT_MESH_FOLDER;
   bool json = false;
 };
 
-/// Coordinates are metres, taken as they are but for rounded planes.
-std::shared_ptr<const Body> load(const std::string& name, const std::string& folder,
-                                 const PlanarTolerance& tolerance) {
-  TriangleMesh mesh = resolve_mesh(name, folder).mesh;
-  const FlatteningReport flattening = flatten(mesh, tolerance);
+/// In metres, taken as it is but for rounded planes and triangles that are to be turned.
+std::shared_ptr<const Body> load(const std::string& name, const QueryOptions& options, double metres) {
+  PlanarTolerance tolerance = parse_planar_tolerance(options.planar_tolerance, "", "--planar-tolerance");
+  if (tolerance.kind == PlanarTolerance::Kind::LENGTH) tolerance.value /= metres;
+  TriangleMesh mesh = resolve_mesh(name, options.folder).mesh;
+  if (parse_orientation(options.orient, "", "--orient") == OrientationChoice::OUTWARD)
+    spdlog::info("{}: {}", name, to_text(orient_outward(mesh)));
+  FlatteningReport flattening = flatten(mesh, tolerance);
+  flattening.tolerance *= metres;
+  flattening.largest_move *= metres;
   if (flattening.moved_vertices > 0) spdlog::info("{}: {}", name, to_text(flattening));
+  mesh = placed(std::move(mesh), {.scale = metres});
   auto body = std::make_shared<const Body>(name, build_surface(std::move(mesh)));
   for (const std::string& finding : findings(check_mesh(body->surface())))
     spdlog::warn("{}: {}", name, finding);
@@ -76,11 +87,9 @@ void run_query(const QueryOptions& options) {
   // First, because a misspelt name or option should not wait for the meshes.
   const nlohmann::json method_options = chosen_options(options);
   const Path poses = poses_of(options);
-  const PlanarTolerance tolerance =
-      parse_planar_tolerance(options.planar_tolerance, "", "--planar-tolerance");
-  const Scene scene{load(options.moving, options.folder, tolerance),
-                    {load(options.fixed, options.folder, tolerance)},
-                    options.cutoff};
+  const auto [of_moving, of_fixed] = metres_of_units(options.unit, "--unit");
+  const Scene scene{
+      load(options.moving, options, of_moving), {load(options.fixed, options, of_fixed)}, options.cutoff};
   const std::unique_ptr<Method> method = make_method(options.method, scene, method_options);
   for (const TimedPose& pose : poses) {
     const QueryAnswer answer = query(*method, pose.pose, options.cutoff, pose.time);
@@ -93,7 +102,7 @@ void run_query(const QueryOptions& options) {
 void add_query_command(CLI::App& app) {
   auto* command = app.add_subcommand("query", "Print the LMD set of two meshes at one or many poses");
   const auto options = std::make_shared<QueryOptions>();
-  command->add_option("--moving", options->moving, "moving mesh: a name of the manifest or a file; metres")
+  command->add_option("--moving", options->moving, "moving mesh: a name of the manifest or a file")
       ->required();
   command->add_option("--fixed", options->fixed, "fixed mesh, likewise")->required();
   command->add_option("--cutoff", options->cutoff, "LMDs up to this distance [m]")->required();
@@ -110,6 +119,17 @@ void add_query_command(CLI::App& app) {
           "--planar-tolerance", options->planar_tolerance,
           "vertices this near to a common plane are put back into it: auto (what single-precision "
           "coordinates leave, nothing for others), off, metres, or percent of the diagonal (0.0001%)")
+      ->capture_default_str();
+  command
+      ->add_option("--unit", options->unit,
+                   "what a unit of the meshes' coordinates is: m, cm, mm, um, in, ft or a number of metres; "
+                   "of the moving and "
+                   "the fixed mesh with a comma: mm,m. Cutoff, poses and answers are in metres all the same")
+      ->capture_default_str();
+  command
+      ->add_option(
+          "--orient", options->orient,
+          "keep, or outward: triangles are turned away from the solid, for meshes that are inside out")
       ->capture_default_str();
   command->add_option("--dir", options->folder, "folder of manifest.json and of the built meshes")
       ->capture_default_str();

@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/base/error.h>
 #include <lmdbench/cli/commands.h>
 #include <lmdbench/cli/progress_bar.h>
 #include <lmdbench/cli/talk.h>
@@ -7,6 +8,7 @@
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <spdlog/spdlog.h>
 
 #include <memory>
 #include <string>
@@ -18,24 +20,35 @@ namespace {
 struct StabilityOptions {
   std::string experiment;
   std::vector<std::string> overrides;
+  StabilityBudget budget;
   bool json = false;
 };
 
-void search(const StabilityOptions& options) {
+/// @return whether every row has an answer
+bool search(const StabilityOptions& options) {
   const Experiment experiment = load_experiment(options.experiment, options.overrides);
   ProgressBar bar(progress_welcome());
   const std::vector<StabilityRow> rows = find_critical_stiffness(
-      experiment, [&bar](const std::string& phase, std::int64_t done, std::int64_t total) {
+      experiment,
+      [&bar](const std::string& phase, std::int64_t done, std::int64_t total) {
         bar.update(phase, done, total);
         return true;
-      });
+      },
+      options.budget);
   bar.wipe();
   fmt::print("{}{}", options.json ? stability_json(rows) : stability_text(rows), options.json ? "\n" : "");
+  bool all = true;
+  for (const StabilityRow& row : rows) {
+    if (row.has_answer()) continue;
+    all = false;
+    spdlog::error("{}", advice(row));
+  }
+  return all;
 }
 
 }  // namespace
 
-void add_stability_command(CLI::App& app) {
+void add_stability_command(CLI::App& app, int& exit_status) {
   auto* command = app.add_subcommand("stability", "Find the largest clean stiffness of a closed loop");
   const auto options = std::make_shared<StabilityOptions>();
   command->add_option("experiment", options->experiment, "experiment file (JSON) whose loop is closed")
@@ -43,7 +56,22 @@ void add_stability_command(CLI::App& app) {
   command->add_option("--set", options->overrides, "override a value: /json/pointer=value; repeatable")
       ->allow_extra_args(false);
   command->add_flag("--json", options->json, "a JSON array, one object a method");
-  command->callback([options] { search(*options); });
+  command
+      ->add_option("--seconds", options->budget.seconds, "a method's search ends after this time, undecided")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  command->add_option("--trials", options->budget.trials, "and after this many closed loops")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  command->footer(
+      "With Coulomb friction the answer is that of the tap in the table; `exact` is the linear loop without "
+      "friction.\n"
+      "Exit codes: 0 every row has a stiffness; 3 one has none: no_contact, saturated, stuck, never or "
+      "undecided, with the remedy on "
+      "standard error.");
+  command->callback([options, &exit_status] {
+    if (!search(*options)) exit_status = static_cast<int>(ExitCode::INPUT_DATA);
+  });
 }
 
 }  // namespace lmdbench

@@ -8,6 +8,7 @@
 #include <lmdbench/experiment/rules.h>
 #include <lmdbench/force/force_law.h>
 #include <lmdbench/geometry/pose.h>
+#include <lmdbench/mesh/orientation_choice.h>
 #include <lmdbench/mesh/placement.h>
 #include <lmdbench/mesh/planar_tolerance.h>
 #include <lmdbench/motion/interpolate.h>
@@ -30,6 +31,7 @@ struct MeshChoice {
   Placement placement;               ///< In its own frame.
   Pose pose;                         ///< X_WF of a fixed mesh; identity for the moving one.
   PlanarTolerance planar_tolerance;  ///< Of rounded planes, see flatten.h; a length is in the scene's metres.
+  OrientationChoice orientation = OrientationChoice::KEEP;  ///< Which side is outside.
 };
 
 /// Constants of the force profile (decision E8: the paper states none of them). Some are relative to the

@@ -34,7 +34,8 @@ MeshChoice mesh_choice(const Json& entry, const std::string& place, const std::s
   // A number's own text is among those that the option takes.
   const std::string text = tolerance.is_string() ? tolerance.get<std::string>() : tolerance.dump();
   return {entry["mesh"].get<std::string>(), read_placement(entry, file, place), Pose{},
-          parse_planar_tolerance(text, file, place + "/planar_tolerance")};
+          parse_planar_tolerance(text, file, place + "/planar_tolerance"),
+          parse_orientation(entry["orient"].get<std::string>(), file, place + "/orient")};
 }
 
 Pose pose_of(const Json& entry, const std::string& place, const std::string& file) {

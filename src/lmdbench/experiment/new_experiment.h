@@ -4,15 +4,26 @@
 
 #include <lmdbench/experiment/defaults.h>
 #include <lmdbench/experiment/lockstep.h>
+#include <lmdbench/mesh/length_unit.h>
+#include <lmdbench/mesh/orientation_choice.h>
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
 namespace lmdbench {
 
-/// A mesh whose coordinates span more than this is taken for one in millimetres [m].
-inline constexpr double LARGEST_PLAUSIBLE_DIAGONAL = 10.0;
+/// What `lmdbench init` may be told.
+struct InitChoices {
+  /// What a unit of the files' coordinates is: as `metres_of_units` reads it. Without it one unit is chosen for both files:
+  /// millimetres where either spans more than LARGEST_PLAUSIBLE_DIAGONAL, else metres. Meshes of the manifest are in metres.
+  std::optional<std::string> unit = std::nullopt;
+  /// Without it outward for a mesh that is inside out or disagrees with itself, else keep.
+  std::optional<OrientationChoice> orientation = std::nullopt;
+  bool contact =
+      false;  ///< A closed loop that begins at rest in contact (resting_pose.h), for `lmdbench stability`.
+};
 
 /// Files of an experiment that is ready to run and to edit.
 struct NewExperiment {
@@ -30,12 +41,13 @@ struct NewExperiment {
 /// @param moving,fixed  names of the manifest or mesh files, as seen from the present folder
 /// @param folder        where the files will stand; mesh files are named relative to it
 /// @param mesh_folder   of the manifest
-/// @throws InputError for a mesh that cannot be used, or meshes that no path brings together
+/// @throws InputError for a mesh that cannot be used, or meshes that no path brings together; UsageError for meshes of sizes more
+///         than UNLIKELY_SIZE_RATIO apart where nobody says their units
 NewExperiment new_experiment(const std::string& moving, const std::string& fixed,
                              const std::filesystem::path& folder, const std::filesystem::path& mesh_folder,
-                             const Progress& progress = {});
+                             const Progress& progress = {}, const InitChoices& chosen = {});
 
-/// Writes the three files, making the folder.
+/// Writes the files (an empty text: none), making the folder.
 /// @throws UsageError where one of them is there already: it may have been edited
 void write_new_experiment(const NewExperiment& experiment);
 

@@ -4,13 +4,15 @@
 #include <lmdbench/base/file_hash.h>
 #include <lmdbench/base/input_file.h>
 #include <lmdbench/base/parallel.h>
+#include <lmdbench/base/statistics.h>
 #include <lmdbench/catalogue/manifest.h>
 #include <lmdbench/experiment/prepare.h>
 #include <lmdbench/experiment/truth_probe.h>
+#include <lmdbench/lmd/method_description.h>
 #include <lmdbench/mesh/placement.h>
 #include <lmdbench/mesh/surface.h>
 #include <lmdbench/methods/registry.h>
-#include <lmdbench/motion/grazing.h>
+#include <lmdbench/motion/grazing_choice.h>
 #include <lmdbench/motion/interpolate.h>
 #include <lmdbench/motion/mesh_scene.h>
 #include <lmdbench/motion/tum_file.h>
@@ -27,6 +29,12 @@
 namespace lmdbench {
 namespace {
 
+/// Of the diagonal: vertices this little before a face are in its plane, as rounding leaves them.
+constexpr double CONVEX_TOLERANCE = 1e-7;
+constexpr std::size_t MOST_CONVEX_TRIANGLES = 2000;
+/// Of a made path's poses every so many are looked at for their contacts.
+constexpr std::size_t CONTACT_STRIDE = 5;
+
 /// A mesh at its place in the scene, with its note.
 std::shared_ptr<const Body> load_body(const MeshChoice& choice, const std::string& role,
                                       const Experiment& experiment, std::vector<MeshNote>& notes) {
@@ -39,6 +47,8 @@ std::shared_ptr<const Body> load_body(const MeshChoice& choice, const std::strin
   const double scale = choice.placement.factor(mesh);
   PlanarTolerance tolerance = choice.planar_tolerance;
   if (tolerance.kind == PlanarTolerance::Kind::LENGTH) tolerance.value /= scale;
+  OrientationReport orientation;
+  if (choice.orientation == OrientationChoice::OUTWARD) orientation = orient_outward(mesh);
   FlatteningReport flattening = flatten(mesh, tolerance);
   flattening.tolerance *= scale;
   flattening.largest_move *= scale;
@@ -49,7 +59,7 @@ std::shared_ptr<const Body> load_body(const MeshChoice& choice, const std::strin
   refuse_extreme_size(mesh, choice.mesh);
   auto body = std::make_shared<const Body>(choice.mesh, build_surface(std::move(mesh)));
   notes.push_back({role, choice.mesh, resolved.file, resolved.size, resolved.sha256,
-                   check_mesh(body->surface()), flattening});
+                   check_mesh(body->surface()), flattening, orientation});
   return body;
 }
 
@@ -68,8 +78,51 @@ Path load_frames(const Experiment& experiment, std::vector<InputFile>& files,
   return resample(path, experiment.frame_rate_hz, wanted);
 }
 
+/// Diagonal of the smallest mesh [m].
+double least_diagonal(const Scene& scene) {
+  double least = bounding_box_diagonal(scene.moving->surface().mesh);
+  for (const auto& fixed : scene.fixed) least = std::min(least, bounding_box_diagonal(fixed->surface().mesh));
+  return least;
+}
+
+/// Every vertex lies behind every face. Two such meshes have at most one LMD. Of large meshes nobody asks: no.
+bool is_convex(const Surface& surface) {
+  if (surface.mesh.triangles.size() > MOST_CONVEX_TRIANGLES) return false;
+  const double slack = CONVEX_TOLERANCE * bounding_box_diagonal(surface.mesh);
+  for (std::size_t t = 0; t < surface.mesh.triangles.size(); ++t) {
+    const Vec3 corner = surface.mesh.triangle(static_cast<std::int32_t>(t))[0];
+    for (const Vec3& vertex : surface.mesh.vertices)
+      if (surface.face_normals[t].dot(vertex - corner) > slack) return false;
+  }
+  return true;
+}
+
+/// LMDs in the median frame of those in contact.
+double median_contacts(const Scene& scene, const Path& path) {
+  const std::unique_ptr<Method> method = make_method("certified", scene);
+  std::vector<double> counts;
+  LmdSet lmds;
+  WorkCounters ignored;
+  for (std::size_t i = 0; i < path.size(); i += CONTACT_STRIDE) {
+    lmds.clear();
+    method->search(path[i].pose, lmds, ignored);
+    if (!lmds.empty()) counts.push_back(static_cast<double>(lmds.size()));
+  }
+  return counts.empty() ? 0.0 : median(counts);
+}
+
 /// A path for a scene that has none.
 GrazingPath make_path(const Experiment& experiment, const Scene& scene, const Progress& progress) {
+  const double smallest = least_diagonal(scene);
+  if (scene.cutoff > smallest)
+    throw UsageError(experiment.file.string(), "/force/cutoff_m",
+                     fmt::format("the cutoff of {:.4g} m is larger than the smallest mesh, {:.4g} m: all of "
+                                 "it would be in contact "
+                                 "everywhere, and no path grazes",
+                                 scene.cutoff, smallest),
+                     fmt::format("give a cutoff in metres, of a hundredth of the mesh or so ({:.3g}), or "
+                                 "leave it out; check scale",
+                                 0.01 * smallest));
   TriangleMesh fixed;  // all of them as one
   for (const auto& body : scene.fixed) {
     const TriangleMesh& mesh = body->surface().mesh;
@@ -78,8 +131,11 @@ GrazingPath make_path(const Experiment& experiment, const Scene& scene, const Pr
     for (const auto& corners : mesh.triangles)
       fixed.triangles.push_back({first + corners[0], first + corners[1], first + corners[2]});
   }
-  return grazing_path(
+  const bool one_contact = scene.fixed.size() == 1 && is_convex(scene.moving->surface()) &&
+                           is_convex(scene.fixed.front()->surface());
+  return rich_grazing_path(
       mesh_scene(scene.moving->surface().mesh, std::move(fixed)), scene.cutoff, experiment.frame_rate_hz,
+      [&](const Path& path) { return one_contact ? RICH_CONTACTS : median_contacts(scene, path); },
       [&](std::size_t done, std::size_t all) {
         if (progress && !progress(static_cast<std::int64_t>(done), static_cast<std::int64_t>(all)))
           throw Interrupted();
@@ -222,6 +278,9 @@ PreparedRun prepare(const Experiment& experiment, const Progress& progress) {
     if (note.flattening.moved_vertices > 0)
       prepared.warnings.emplace_back(
           fmt::format("{} mesh {}: {}", note.role, note.name, to_text(note.flattening)));
+    if (note.orientation.choice == OrientationChoice::OUTWARD)
+      prepared.warnings.emplace_back(
+          fmt::format("{} mesh {}: {}", note.role, note.name, to_text(note.orientation)));
     for (const std::string& finding : findings(note.report))
       prepared.warnings.emplace_back(fmt::format("{} mesh {}: {}", note.role, note.name, finding));
   }

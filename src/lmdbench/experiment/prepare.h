@@ -27,6 +27,7 @@ struct MeshNote {
   std::string sha256;  ///< Of that file, or of the file that a generated shape would be built to.
   ValidityReport report;
   FlatteningReport flattening;  ///< In metres of the scene.
+  OrientationReport orientation;
 };
 
 /// A force profile with the scene that it reaches into: the meshes under its cutoff, which all profiles share.

@@ -177,7 +177,8 @@ bool same_body(const Experiment& experiment, std::size_t index) {
   const MeshChoice& moving = experiment.moving;
   const MeshChoice& fixed = experiment.fixed[index];
   return moving.mesh == fixed.mesh && moving.placement == fixed.placement &&
-         moving.planar_tolerance == fixed.planar_tolerance && same_pose(fixed.pose, Pose{});
+         moving.planar_tolerance == fixed.planar_tolerance && moving.orientation == fixed.orientation &&
+         same_pose(fixed.pose, Pose{});
 }
 
 }  // namespace lmdbench

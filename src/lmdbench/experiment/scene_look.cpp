@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/experiment/prepare.h>
 #include <lmdbench/experiment/scene_look.h>
+#include <lmdbench/mesh/winding_number.h>
 #include <lmdbench/snch/minimum_distance.h>
 
 #include <Eigen/Geometry>
@@ -10,26 +11,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <utility>
 
 namespace lmdbench {
 namespace {
-
-/// How often a closed surface winds around a point: the sum of its triangles' signed solid angles (Van Oosterom
-/// and Strackee 1983) over 4 pi; 0 outside, 1 inside, -1 inside of one that is inside out.
-double winding_number(const Vec3& point, const TriangleMesh& mesh) {
-  double angle = 0.0;
-  for (const auto& corners : mesh.triangles) {
-    const Vec3 a = mesh.vertices[static_cast<std::size_t>(corners[0])] - point;
-    const Vec3 b = mesh.vertices[static_cast<std::size_t>(corners[1])] - point;
-    const Vec3 c = mesh.vertices[static_cast<std::size_t>(corners[2])] - point;
-    const double la = a.norm(), lb = b.norm(), lc = c.norm();
-    angle +=
-        2.0 * std::atan2(a.dot(b.cross(c)), la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb);
-  }
-  return angle / (4.0 * std::numbers::pi);
-}
 
 /// A mesh and its box, outside of which nothing is inside the mesh.
 struct BoxedMesh {
@@ -60,6 +45,17 @@ void look_at_sizes(SceneLook& look) {
     look.warnings.push_back({fmt::format("the smallest mesh, {} {}, is {:.4g} m large", least->role,
                                          least->name, least->diagonal),
                              "where coordinates are millimetres, give every mesh \"scale\": 0.001"});
+}
+
+void look_at_cutoff(SceneLook& look) {
+  const auto least = std::min_element(
+      look.meshes.begin(), look.meshes.end(),
+      [](const SceneLook::Mesh& a, const SceneLook::Mesh& b) { return a.diagonal < b.diagonal; });
+  if (look.cutoff > least->diagonal)
+    look.warnings.push_back(
+        {fmt::format("the cutoff of {:.4g} m is larger than {} {}, {:.4g} m: all of it is in contact at once",
+                     look.cutoff, least->role, least->name, least->diagonal),
+         "lower /force/cutoff_m, which is in metres, or check scale and diagonal_m"});
 }
 
 /// Distances do not tell inside from outside.
@@ -155,6 +151,7 @@ SceneLook look_at(const Experiment& experiment, const PreparedRun& prepared,
   look.frames_in_contact = std::count(in_contact.begin(), in_contact.end(), true);
   look.defaults = prepared.defaults;
   look_at_sizes(look);
+  look_at_cutoff(look);
   // In a closed loop the path is what the hand means: it may well lie inside.
   if (!experiment.loop.closed) {
     look_inside(look, prepared);

@@ -29,6 +29,8 @@ constexpr double DECIDED_GROWTH = std::numbers::ln10;
 
 /// The contact at rest, and the tap that fits it.
 struct Rest {
+  bool friction = false;  ///< The rules of friction hold, ...
+  bool counts = false;    ///< ... or the encoders count: it may come to rest beside its place.
   Pose pose;
   RenderedForce rendered;
   Vec3 lever_W = Vec3::Zero();     ///< From the device's point to the watched one.
@@ -43,6 +45,7 @@ struct Rest {
 struct TrialState {
   Swing swing;
   std::optional<double> decided;  ///< Growth, where no measurement is needed.
+  bool limit_cycle = false;
   bool over = false;
 };
 
@@ -89,12 +92,29 @@ class TrialPoses final : public PoseSource {
     if (speed * last_speed_ < 0.0) ++sign_changes_;
     if (speed != 0.0) last_speed_ = speed;
     const auto frames = static_cast<double>(swing.position_W.size());
-    if (way > DEAD_SHARE * rest_.tap_m ||
-        std::abs(speed) > DEAD_SHARE * rest_.tap_m * rest_.natural_frequency)
-      last_lively_ = frames;
+    // Friction and counts leave the device beside the place where it rested.
+    const bool away = !rest_.friction && !rest_.counts && way > DEAD_SHARE * rest_.tap_m;
+    const double any_speed = rest_.friction ? swing.velocity_W.back().norm() : std::abs(speed);
+    if (away || any_speed > DEAD_SHARE * rest_.tap_m * rest_.natural_frequency) last_lively_ = frames;
     if (way > ESCAPED_SHARE * rest_.range_m) state_->decided = DECIDED_GROWTH;
-    if (frames - last_lively_ > natural_period_frames_) state_->decided = -DECIDED_GROWTH;
-    state_->over = state_->decided || sign_changes_ >= 2 * CYCLES;
+    if (frames - last_lively_ > natural_period_frames_ + static_cast<double>(under_way_.size()))
+      state_->decided = -DECIDED_GROWTH;
+    state_->over = state_->decided || sign_changes_ >= 2 * CYCLES * rounds_;
+    if (rest_.friction && state_->over && !state_->decided) look_whether_it_ends();
+  }
+
+  /// After a round of oscillations under friction: grows, goes on for ever, or may still die down.
+  void look_whether_it_ends() {
+    const Cleanliness judged = judge(state_->swing);
+    if (judged.amplitude_m < state_->swing.resolution_m) return;  // within the counts
+    const double growth = judged.growth;
+    if (std::abs(growth) <= SUSTAINED_GROWTH) {
+      state_->limit_cycle = true;
+      state_->decided = DECIDED_GROWTH;
+    }
+    if (growth >= -SUSTAINED_GROWTH || rounds_ >= MOST_ROUNDS) return;
+    rounds_ *= 2;
+    state_->over = false;
   }
 
   Rest rest_;
@@ -108,6 +128,7 @@ class TrialPoses final : public PoseSource {
   std::deque<RenderedForce> under_way_;
   double last_speed_ = 0.0;
   std::int64_t sign_changes_ = 0;
+  std::int64_t rounds_ = 1;
   double last_lively_ = 0.0;
 };
 
@@ -157,7 +178,28 @@ double moving_mass(const DeviceDynamics& dynamics) {
   return dynamics.mass_kg + (rigid_hand ? dynamics.hand->mass_kg : 0.0);
 }
 
+/// Friction that a motion along a direction meets: that of each axis times its share of the way.
+double felt_friction(const DeviceDynamics& dynamics, const Vec3& along) {
+  return dynamics.friction_n * along.lpNorm<1>();
+}
+
+/// The way over which friction holds the watched point against the springs of contact and hand.
+double stiction_band(const LoopChoice& loop, const Rest& rest, double stiffness) {
+  const Vec3 along_W = rest.rendered.force.normalized();
+  double friction = felt_friction(loop.dynamics, along_W);
+  const Vec3 turn_W = rest.lever_W.cross(along_W);
+  if (loop.rotation && turn_W.norm() > 0.0)
+    friction =
+        std::max(friction, felt_friction(loop.rotation->dynamics, turn_W.normalized()) / turn_W.norm());
+  const bool rigid_hand = loop.dynamics.hand && !loop.dynamics.hand->has_grip();
+  return friction / (stiffness + (rigid_hand ? loop.dynamics.hand->stiffness_n_per_m : 0.0));
+}
+
 }  // namespace
+
+bool has_friction(const LoopChoice& loop) {
+  return loop.dynamics.friction_n > 0.0 || (loop.rotation && loop.rotation->dynamics.friction_n > 0.0);
+}
 
 StabilityTrial try_stiffness(const Experiment& experiment, const LockstepInput& input,
                              const LockstepMethod& method, const Progress& progress) {
@@ -196,6 +238,7 @@ StabilityTrial try_stiffness(const Experiment& experiment, const LockstepInput& 
   rest.range_m = std::min(method.profile.cutoff - at_rest.minimum_distance,
                           at_rest.minimum_distance - method.profile.saturation_distance);
   trial.in_contact = at_rest.effective_stiffness > 0.0 && at_rest.force.norm() > 0.0 && rest.range_m > 0.0;
+  trial.saturated = !trial.in_contact && at_rest.minimum_distance <= method.profile.saturation_distance;
   if (!trial.in_contact || trial.clipped) return trial;
   double felt_mass = moving_mass(loop.dynamics);
   if (loop.rotation) {
@@ -208,11 +251,17 @@ StabilityTrial try_stiffness(const Experiment& experiment, const LockstepInput& 
     rest.inertia_ratio = felt_mass / inertia;
   }
   rest.natural_frequency = std::sqrt(trial.stiffness_n_per_m / felt_mass);
-  rest.tap_m = TAP_SHARE * rest.range_m;
+  rest.friction = has_friction(loop);
+  rest.counts = loop.resolution_m > 0.0 || (loop.rotation && loop.rotation->resolution_rad > 0.0);
+  rest.tap_m = trial.tap_m = (rest.friction ? FRICTION_TAP_SHARE : TAP_SHARE) * rest.range_m;
+  if (rest.friction) {
+    trial.stuck = rest.tap_m < STICTION_BANDS * stiction_band(loop, rest, trial.stiffness_n_per_m);
+    if (trial.stuck) return trial;
+  }
 
   auto state = std::make_shared<TrialState>();
   LockstepInput tapped = held;
-  tapped.frames = hold_frames + MOST_SWING_FRAMES;
+  tapped.frames = hold_frames + (rest.friction ? MOST_FRICTION_FRAMES : MOST_SWING_FRAMES);
   tapped.make_poses = [&, state] {
     return std::make_unique<TrialPoses>(loop, rest, input.reference_M, 1.0 / input.frame_rate_hz, hold_frames,
                                         state);
@@ -228,6 +277,7 @@ StabilityTrial try_stiffness(const Experiment& experiment, const LockstepInput& 
   }
   trial.frames = static_cast<std::int64_t>(state->swing.position_W.size());
   trial.outcome = judge(state->swing);
+  trial.limit_cycle = state->limit_cycle;
   if (state->decided) trial.outcome.growth = *state->decided;
   return trial;
 }

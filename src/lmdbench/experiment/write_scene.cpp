@@ -36,6 +36,8 @@ void write_scene(ResultWriter& writer, const RunResult& result) {
     writer.attribute(group, "planar_tolerance_m", mesh.flattening.tolerance);
     writer.attribute(group, "planar_moved_vertices", mesh.flattening.moved_vertices);
     writer.attribute(group, "planar_largest_move_m", mesh.flattening.largest_move);
+    writer.attribute(group, "orient", std::string(to_string(mesh.orientation.choice)));
+    writer.attribute(group, "turned_triangles", mesh.orientation.turned_triangles);
     writer.attribute(group, "validity", to_json(mesh.report).dump());
   }
   writer.attribute("/scene", "starts_touching", std::int64_t{prepared.starts_touching});

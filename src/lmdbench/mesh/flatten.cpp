@@ -272,10 +272,11 @@ std::string to_text(const FlatteningReport& report) {
   if (report.moved_vertices == 0)
     return fmt::format("no vertex had to be put back into a plane (tolerance {:.3g})", report.tolerance);
   // A vertex on two or three planes goes farther than it is from each of them.
-  return fmt::format("{} vertices put back into {} planes that they were within {:.3g} of; the farthest moved by {:.3g} "
-                     "(allowed: {:.3g})",
-                     report.moved_vertices, report.planes, report.tolerance, report.largest_move,
-                     LARGEST_MOVE * report.tolerance);
+  return fmt::format(
+      "{} vertices put back into {} planes that they were within {:.3g} of; the farthest moved by {:.3g} "
+      "(allowed: {:.3g})",
+      report.moved_vertices, report.planes, report.tolerance, report.largest_move,
+      LARGEST_MOVE * report.tolerance);
 }
 
 }  // namespace lmdbench

@@ -36,7 +36,8 @@ void turn(Corners& corners) {
 }
 
 /// Two triangles agree where they run along their common edge in opposite directions.
-bool agree(const TriangleMesh& mesh, const std::array<std::int32_t, 2>& edge, std::int32_t a, std::int32_t b) {
+bool agree(const TriangleMesh& mesh, const std::array<std::int32_t, 2>& edge, std::int32_t a,
+           std::int32_t b) {
   const bool first = runs_along(mesh.triangles[static_cast<std::size_t>(a)], edge[0], edge[1]);
   const bool second = runs_along(mesh.triangles[static_cast<std::size_t>(b)], edge[0], edge[1]);
   return first != second;
@@ -120,7 +121,8 @@ std::string_view to_string(OrientationChoice choice) {
   return choice == OrientationChoice::OUTWARD ? "outward" : "keep";
 }
 
-OrientationChoice parse_orientation(const std::string& text, const std::string& file, const std::string& place) {
+OrientationChoice parse_orientation(const std::string& text, const std::string& file,
+                                    const std::string& place) {
   for (const OrientationChoice choice : {OrientationChoice::KEEP, OrientationChoice::OUTWARD})
     if (text == to_string(choice)) return choice;
   throw UsageError(file, place, fmt::format("'{}' is no orientation", text), "give keep or outward");

@@ -21,15 +21,18 @@ enum class OrientationChoice : std::uint8_t {
 std::string_view to_string(OrientationChoice choice);
 
 /// @throws UsageError naming `place`
-OrientationChoice parse_orientation(const std::string& text, const std::string& file, const std::string& place);
+OrientationChoice parse_orientation(const std::string& text, const std::string& file,
+                                    const std::string& place);
 
 /// What `orient_outward` did.
 struct OrientationReport {
   OrientationChoice choice = OrientationChoice::KEEP;
   std::int64_t turned_triangles = 0;
-  std::int64_t pieces = 0;            ///< Groups of triangles that hang together over manifold edges.
-  std::int64_t pieces_undecided = 0;  ///< Open ones of which no side is outside; left as most of their triangles lie.
-  std::int64_t disagreements = 0;     ///< Edges whose two triangles still disagree: a Moebius strip has one at least.
+  std::int64_t pieces = 0;  ///< Groups of triangles that hang together over manifold edges.
+  std::int64_t pieces_undecided =
+      0;  ///< Open ones of which no side is outside; left as most of their triangles lie.
+  std::int64_t disagreements =
+      0;  ///< Edges whose two triangles still disagree: a Moebius strip has one at least.
 };
 
 /// Turns triangles until every piece of the surface has one outer side, away from the solid.

@@ -88,7 +88,8 @@ class BoxTree {
       for (std::size_t l = same ? k + 1 : b.begin; l < b.end; ++l) {
         const std::int32_t first = order_[k];
         const std::int32_t second = order_[l];
-        if (!boxes_[static_cast<std::size_t>(first)].intersects(boxes_[static_cast<std::size_t>(second)])) continue;
+        if (!boxes_[static_cast<std::size_t>(first)].intersects(boxes_[static_cast<std::size_t>(second)]))
+          continue;
         if (!look(std::min(first, second), std::max(first, second))) return false;
       }
     return true;
@@ -131,7 +132,8 @@ bool meet_elsewhere(const Triangle& a, const Triangle& b) {
       return triangles_intersect(a, b);
     case 1: {
       const auto [i, j] = common.front();
-      return segment_meets(a[(i + 1) % 3], a[(i + 2) % 3], b) || segment_meets(b[(j + 1) % 3], b[(j + 2) % 3], a);
+      return segment_meets(a[(i + 1) % 3], a[(i + 2) % 3], b) ||
+             segment_meets(b[(j + 1) % 3], b[(j + 2) % 3], a);
     }
     case 2: {
       const auto [i, j] = common[0];

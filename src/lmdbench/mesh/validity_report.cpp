@@ -56,7 +56,8 @@ std::vector<std::string> findings(const ValidityReport& report) {
                                     counted(report.misoriented_edges, "edge", "edges"), TURN_REMEDY));
   if (report.outward == false)
     sentences.push_back(
-        fmt::format("inside out: the triangles' normals point into the solid (volume {:.4g}), so that nothing outside of it "
+        fmt::format("inside out: the triangles' normals point into the solid (volume {:.4g}), so that "
+                    "nothing outside of it "
                     "is a contact, for no method and not for the truth ({})",
                     *report.volume, TURN_REMEDY));
   if (!report.closed)

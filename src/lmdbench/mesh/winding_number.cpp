@@ -16,8 +16,7 @@ double solid_angle(const Vec3& point, const Triangle& triangle) {
   const Vec3 b = triangle[1] - point;
   const Vec3 c = triangle[2] - point;
   const double la = a.norm(), lb = b.norm(), lc = c.norm();
-  return 2.0 *
-         std::atan2(a.dot(b.cross(c)), la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb);
+  return 2.0 * std::atan2(a.dot(b.cross(c)), la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb);
 }
 
 }  // namespace
