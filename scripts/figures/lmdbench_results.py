@@ -20,6 +20,7 @@ from intervals import Rate
 
 FORMAT = "lmdbench-result"
 FORMAT_VERSION = 2
+OLDEST_FORMAT_VERSION = 1  # read, too; results/README.md, "Versions", says what these files lack
 EXIT_CHECK_FAILED = 1
 EXIT_INPUT_DATA = 3
 EXIT_ENVIRONMENT = 4
@@ -47,6 +48,33 @@ def check_content(file, h5):
                           "(remedy: make the file again with lmdbench run; who changed it on purpose deletes the attribute)")
 
 
+# What format 1 left to its readers to know of its methods: place, tracks locally, trackings after a search.
+METHODS_OF_FORMAT_1 = {"original": (0, True, 0), "improved": (1, True, 2), "certified": (2, False, 0), "exhaustive": (3, False, 0)}
+
+
+def open_h5(file):
+    """The file, open for reading, once it is known to be a result of a format that is read here."""
+    remedy = "(remedy: name a file that `lmdbench run` or `lmdbench work-precision` wrote)"
+    try:
+        h5 = h5py.File(file, "r")
+    except OSError as error:
+        raise ResultError(f"{file}: cannot be read: {error} {remedy}")
+    found, creator = (value.decode() if isinstance(value, bytes) else value
+                      for value in (h5.attrs.get(name) for name in ("format", "creator")))
+    if found == "lmdbench-part":
+        raise ResultError(f"{file}: is an unfinished run (remedy: finish it with lmdbench run --resume)")
+    if found != FORMAT or "format_version" not in h5.attrs:
+        raise ResultError(f"{file}: is not a result of lmdbench {remedy}")
+    version = int(h5.attrs["format_version"])
+    if version > FORMAT_VERSION:
+        raise ResultError(f"{file}: has format version {version}, this script reads {OLDEST_FORMAT_VERSION} to {FORMAT_VERSION} "
+                          f"(remedy: use the scripts of the lmdbench that wrote it, {creator or 'unknown'}, or of a newer one)")
+    if version < OLDEST_FORMAT_VERSION:
+        raise ResultError(f"{file}: has format version {version}, which never was {remedy}")
+    check_content(file, h5)
+    return h5
+
+
 class Method:
     """One group of /methods. What kind of method it is stands in its attributes."""
 
@@ -57,10 +85,12 @@ class Method:
         self.name = result.text_attribute(group, "method", label)
         self.force_law = result.text_attribute(group, "force_law", "exponential")
         attributes = result.h5[group].attrs
-        self.order = int(attributes["method_order"])
         self.promise = result.text_attribute(group, "promise")
-        self.tracks_locally = bool(attributes["tracks_locally"])
-        self.reduces = int(attributes["trackings_after_search"]) > 0
+        if result.format_version == 1:
+            order, tracks, trackings = METHODS_OF_FORMAT_1[self.name]
+        else:
+            order, tracks, trackings = (attributes[name] for name in ("method_order", "tracks_locally", "trackings_after_search"))
+        self.order, self.tracks_locally, self.reduces = int(order), bool(tracks), int(trackings) > 0
         self.profile = result.text_attribute(group, "profile") or ""
 
     def has(self, dataset):
@@ -118,22 +148,8 @@ class Result:
     def __init__(self, file):
         self.file = str(file)
         OPENED.append(self.file)
-        try:
-            self.h5 = h5py.File(self.file, "r")
-        except OSError as error:
-            raise ResultError(f"{self.file}: cannot be read: {error} (remedy: name a file that `lmdbench run` wrote)")
-        found = self.text_attribute("/", "format")
-        if found == "lmdbench-part":
-            raise ResultError(f"{self.file}: is an unfinished run (remedy: finish it with lmdbench run --resume)")
-        if found != FORMAT:
-            raise ResultError(f"{self.file}: is not a result of lmdbench (remedy: name a file that `lmdbench run` wrote)")
-        version = int(self.h5.attrs["format_version"])
-        if version != FORMAT_VERSION:
-            raise ResultError(
-                f"{self.file}: has format version {version}, this script reads {FORMAT_VERSION} "
-                "(remedy: use the scripts of the same version as the program)"
-            )
-        check_content(self.file, self.h5)
+        self.h5 = open_h5(self.file)
+        self.format_version = int(self.h5.attrs["format_version"])
         self.experiment = json.loads(self.read_text("/provenance/experiment"))
         self.name = self.experiment.get("name", self.file)
         self.time = self.read("/path/time")
@@ -150,6 +166,8 @@ class Result:
 
     def _remedy_for(self, path):
         """What makes a run keep a dataset that is not there."""
+        if self.format_version == 1 and ("summary/" in path or path == "/scene/in_contact"):
+            return "format 1 did not hold it: run the experiment again"
         record = getattr(self, "experiment", {}).get("record", {})
         name = path.split("/")[-1]
         kind = "timings" if name.endswith("_time") else "counters" if "counters/" in path else "frames"

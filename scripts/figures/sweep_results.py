@@ -9,7 +9,7 @@ import math
 import h5py
 import numpy as np
 
-from lmdbench_results import FORMAT, FORMAT_VERSION, ResultError, check_content
+from lmdbench_results import ResultError, open_h5
 
 MISSES_ALL = "finds no true LMD"
 
@@ -90,13 +90,9 @@ class Sweep:
         self.file = str(file)
         remedy = "(remedy: name a file that `lmdbench work-precision` wrote)"
         try:
-            with h5py.File(self.file, "r") as h5:
-                attribute = h5.attrs.get("format", "")
-                if (attribute.decode() if isinstance(attribute, bytes) else attribute) != FORMAT or "sweep" not in h5:
+            with open_h5(self.file) as h5:
+                if "sweep" not in h5:
                     raise ResultError(f"{self.file}: is no sweep of lmdbench {remedy}")
-                if int(h5.attrs["format_version"]) != FORMAT_VERSION:
-                    raise ResultError(f"{self.file}: has another format version than this script reads {remedy}")
-                check_content(self.file, h5)
                 self.texts, self.columns = {}, {}
                 for name, dataset in h5["points"].items():
                     values = dataset[()]

@@ -354,14 +354,14 @@ class Surroundings(unittest.TestCase):
     def test_results_of_other_versions_and_files(self):
         self.assertEqual(self.run_program(self.short_run("r.h5")).returncode, DONE)
 
-        def older(file):
-            file.attrs.modify("format_version", 1)
+        def newer(file):
+            file.attrs.modify("format_version", 3)
 
         def replace(file, name, make):
             del file[name]
             make(file, name)
         alterations = {
-            "format_version": older,
+            "format_version": newer,
             "links": lambda f: replace(f, "methods/improved", lambda f, n: f.__setitem__(n, h5py.ExternalLink("/etc/passwd", "/"))),
             "other files": lambda f: replace(f, "methods/improved/force", lambda f, n: f.create_dataset(
                 n, (20, 3), "f8", external=[("/etc/passwd", 0, 480)])),

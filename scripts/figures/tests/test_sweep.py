@@ -161,7 +161,7 @@ class SweepFile(unittest.TestCase):
 
     def test_another_file_is_refused(self):
         with h5py.File(self.file, "w") as h5:
-            h5.attrs["format"] = "lmdbench-result"
+            h5.attrs["format"], h5.attrs["format_version"] = "lmdbench-result", 2
         with self.assertRaisesRegex(ResultError, "is no sweep"):
             sweep_results.Sweep(self.file)
 

@@ -23,6 +23,8 @@ struct InputFile {
 inline constexpr const char* RESULT_FORMAT = "lmdbench-result";
 /// Major version: readers refuse an unknown one. It rises when a dataset changes its meaning or disappears.
 inline constexpr int RESULT_FORMAT_VERSION = 2;
+/// Files from this version on are read; what later versions added is missing in them (results/README.md, "Versions").
+inline constexpr int OLDEST_RESULT_FORMAT_VERSION = 1;
 
 /// Writes root attributes (`format`, `format_version`, `creator`, `created_utc`) and the group /provenance of
 /// the result contract: program version, git commit, dirty flag, compiler and flags, processor, cores,

@@ -215,12 +215,18 @@ class ResultReader::Implementation {
                        format == PART_FORMAT ? "an unfinished run: finish it with lmdbench run --resume"
                                              : "give a result file of lmdbench run");
     const auto version = number_attribute<std::int64_t>("/", "format_version", H5T_INTEGER, H5T_NATIVE_INT64);
-    if (version != RESULT_FORMAT_VERSION)
-      throw InputError(
-          name_.string(), "attribute format_version",
-          fmt::format("{} where this program reads {}",
-                      version ? std::to_string(*version) : std::string("missing"), RESULT_FORMAT_VERSION),
-          "read it with the version that wrote it (attribute creator), or run the experiment again");
+    const auto refuse = [&](const std::string& found, const std::string& remedy) {
+      throw InputError(name_.string(), "attribute format_version",
+                       fmt::format("{} where this program reads {} to {}", found,
+                                   OLDEST_RESULT_FORMAT_VERSION, RESULT_FORMAT_VERSION),
+                       remedy);
+    };
+    if (!version) refuse("missing", "give a result file of lmdbench run");
+    if (*version > RESULT_FORMAT_VERSION)
+      refuse(std::to_string(*version),
+             fmt::format("read it with the lmdbench that wrote it ({}) or a newer one",
+                         text_attribute("/", "creator").value_or("attribute creator is missing")));
+    if (*version < OLDEST_RESULT_FORMAT_VERSION) refuse(std::to_string(*version), "run the experiment again");
   }
 
   Hdf5Handle open_object(const std::string& path) const {
