@@ -1,22 +1,19 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include <lmdbench/base/build_info.h>
 #include <lmdbench/base/error.h>
-#include <lmdbench/base/limits.h>
-#include <lmdbench/cli/commands.h>
+#include <lmdbench/cli/app.h>
 #include <lmdbench/cli/talk.h>
 
 #include <CLI/CLI.hpp>
-#include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
 #include <csignal>
 #include <cstdio>
 #include <exception>
+#include <memory>
 #include <new>
 #include <string>
 #include <system_error>
-#include <vector>
 
 namespace {
 
@@ -25,38 +22,14 @@ int exit_with(lmdbench::ExitCode code, const std::string& message) {
   return static_cast<int>(code);
 }
 
-std::string limits_help() {
-  std::string text = "raise or lower a limit on input; repeatable. Limits and their usual values:";
-  for (const lmdbench::LimitInfo& info : lmdbench::limit_table())
-    text += fmt::format("\n{} ({}): {}", info.name, info.usual, info.meaning);
-  return text;
-}
-
 int run_program(int argc, char** argv) {
   using namespace lmdbench;
-  CLI::App app("Bench for multi-contact haptic rendering with local minimum distances", "lmdbench");
-  app.require_subcommand(1);
-  app.fallthrough();  // -v and -q work behind the subcommand, too
-  app.set_version_flag("--version", version_text());
-  int verbose = 0;
-  int quiet = 0;
-  app.add_flag("-v,--verbose", verbose, "tell more on standard error");
-  app.add_flag("-q,--quiet", quiet, "tell errors only");
-  std::vector<std::string> limits;
-  app.add_option("--limit", limits, limits_help())->type_name("NAME=NUMBER")->allow_extra_args(false);
-  app.parse_complete_callback([&] {
-    set_up_talk(verbose - quiet);
-    for (const std::string& limit : limits) set_limit(limit);
-  });
-  app.footer(
-      "Exit codes: 0 done; 1 a check failed; 2 usage or experiment file wrong; 3 input data wrong; "
-      "4 the environment lacks something; 70 a bug of lmdbench.");
   int exit_status = static_cast<int>(ExitCode::DONE);
-  add_commands(app, {argv, argv + argc}, exit_status);
+  const std::shared_ptr<CLI::App> app = make_app({argv, argv + argc}, exit_status);
   try {
-    app.parse(argc, argv);
+    app->parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    const int code = app.exit(error);  // prints help or what is wrong
+    const int code = app->exit(error);  // prints help or what is wrong
     return code == 0 ? 0 : static_cast<int>(ExitCode::USAGE);
   }
   // Results that did not arrive must not look like success; a command that flushes by itself leaves the mark.

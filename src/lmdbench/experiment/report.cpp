@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/base/atomic_file.h>
+#include <lmdbench/base/data_folder.h>
 #include <lmdbench/base/error.h>
 #include <lmdbench/base/run_program.h>
 #include <lmdbench/base/temporary_folder.h>
@@ -23,12 +24,13 @@ constexpr const char* MODULES = "import h5py, jinja2, markdown, matplotlib, nump
 constexpr const char* PACKAGES =
     "apt-get install python3-h5py python3-jinja2 python3-markdown python3-matplotlib python3-numpy "
     "python3-pil";
-/// Where the scripts are, if not where the program was built.
+/// Where the scripts are, if not in the program's data folder.
 constexpr const char* SCRIPTS_VARIABLE = "LMDBENCH_SCRIPTS";
 
 fs::path report_script() {
   const char* folder = std::getenv(SCRIPTS_VARIABLE);
-  fs::path script = fs::path(folder != nullptr ? folder : LMDBENCH_SCRIPTS_FOLDER) / "report" / "report.py";
+  fs::path script =
+      (folder != nullptr ? fs::path(folder) : data_folder() / "scripts") / "report" / "report.py";
   if (!fs::exists(script))
     throw EnvironmentError(script.string(), "", "is missing: it makes the page",
                            fmt::format("set {} to the folder scripts/ of lmdbench", SCRIPTS_VARIABLE));

@@ -1,0 +1,134 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/base/build_info.h>
+#include <lmdbench/catalogue/import.h>
+#include <lmdbench/catalogue/mesh_limits.h>
+#include <lmdbench/geometry/tolerance.h>
+#include <lmdbench/lmd/scene.h>
+#include <lmdbench/lmdbench.h>
+#include <lmdbench/mesh/flatten.h>
+#include <lmdbench/mesh/placement.h>
+#include <lmdbench/mesh/surface.h>
+#include <lmdbench/mesh/validity.h>
+#include <lmdbench/methods/query.h>
+#include <lmdbench/methods/registry.h>
+#include <lmdbench/motion/tum_file.h>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <cmath>
+#include <utility>
+
+namespace lmdbench {
+namespace {
+
+std::shared_ptr<const Body> prepare(TriangleMesh mesh, const std::string& planar_tolerance,
+                                    const std::string& name) {
+  flatten(mesh, parse_planar_tolerance(planar_tolerance, name, "planar_tolerance"));
+  return std::make_shared<const Body>(name, build_surface(std::move(mesh)));
+}
+
+/// What reading a file makes sure of.
+void check_mesh_in_memory(const TriangleMesh& mesh, const std::string& name) {
+  const auto count = static_cast<std::int64_t>(mesh.vertices.size());
+  if (mesh.triangles.empty())
+    throw InputError(name, "", "holds no triangle", "give at least one row of three vertex numbers");
+  for (std::int64_t v = 0; v < count; ++v)
+    if (!mesh.vertices[static_cast<std::size_t>(v)].allFinite())
+      throw InputError(name, fmt::format("vertex {}", v), "has a coordinate that is not finite",
+                       "repair the mesh or leave the vertex out");
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+    for (const std::int32_t corner : mesh.triangles[t])
+      if (corner < 0 || corner >= count)
+        throw InputError(name, fmt::format("triangle {}", t),
+                         fmt::format("names vertex {} of {}", corner, count),
+                         "vertices count from 0 in the order of the array");
+  refuse_extreme_size(mesh, name);
+  check_mesh_limits(mesh, name);
+}
+
+Scene scene_of(const PreparedMesh& moving, const std::vector<PreparedMesh>& fixed, double cutoff) {
+  if (!(cutoff > 0.0 && cutoff <= LARGEST_COORDINATE))
+    throw UsageError("", "cutoff",
+                     fmt::format("{} is not a distance above 0 and at most {:g}", cutoff, LARGEST_COORDINATE),
+                     "give metres, for example 0.005");
+  if (fixed.empty()) throw UsageError("", "fixed", "names no mesh", "give at least one");
+  Scene scene{moving.body(), {}, cutoff};
+  for (const PreparedMesh& mesh : fixed) scene.fixed.push_back(mesh.body());
+  return scene;
+}
+
+nlohmann::json options_of(const std::string& method, const std::string& text) {
+  const MethodDescription& description = method_description(method);  // a misspelt name first
+  nlohmann::json options = nlohmann::json::parse(text, nullptr, false);
+  if (!options.is_object())
+    throw UsageError("", "options", fmt::format("'{}' is no JSON object", text),
+                     R"(give one, for example {"visibility": "off"})");
+  return complete_options(description, std::move(options), "options");
+}
+
+}  // namespace
+
+PreparedMesh::PreparedMesh(const std::filesystem::path& file, const std::string& planar_tolerance)
+    : body_(prepare(import_mesh(file), planar_tolerance, file.string())) {}
+
+PreparedMesh::PreparedMesh(TriangleMesh mesh, const std::string& planar_tolerance, const std::string& name) {
+  check_mesh_in_memory(mesh, name);
+  body_ = prepare(std::move(mesh), planar_tolerance, name);
+}
+
+const TriangleMesh& PreparedMesh::mesh() const {
+  return body_->surface().mesh;
+}
+
+std::vector<std::array<std::int32_t, 2>> PreparedMesh::edges() const {
+  return body_->surface().adjacency.edges;
+}
+
+std::vector<std::string> PreparedMesh::findings() const {
+  return lmdbench::findings(check_mesh(body_->surface()));
+}
+
+struct LmdSearch::State {
+  Scene scene;
+  std::unique_ptr<Method> method;
+};
+
+LmdSearch::LmdSearch(const PreparedMesh& moving, const std::vector<PreparedMesh>& fixed, double cutoff,
+                     const std::string& method, const std::string& options) {
+  const nlohmann::json chosen = options_of(method, options);
+  Scene scene = scene_of(moving, fixed, cutoff);
+  std::unique_ptr<Method> made = make_method(method, scene, chosen);
+  state_ = std::make_unique<State>(State{std::move(scene), std::move(made)});
+}
+
+LmdSearch::LmdSearch(const PreparedMesh& moving, const PreparedMesh& fixed, double cutoff,
+                     const std::string& method, const std::string& options)
+    : LmdSearch(moving, std::vector<PreparedMesh>{fixed}, cutoff, method, options) {}
+
+LmdSearch::~LmdSearch() = default;
+LmdSearch::LmdSearch(LmdSearch&&) noexcept = default;
+LmdSearch& LmdSearch::operator=(LmdSearch&&) noexcept = default;
+
+LmdSet LmdSearch::at(const Pose& X_WM) {
+  const double length = X_WM.rotation.norm();
+  const bool rigid = X_WM.translation.allFinite() &&
+                     X_WM.translation.cwiseAbs().maxCoeff() <= LARGEST_COORDINATE &&
+                     std::abs(length - 1.0) <= QUATERNION_LENGTH_TOLERANCE;  // false for NaN, too
+  if (!rigid)
+    throw UsageError(
+        "", "pose", "is no rigid transform of finite size",
+        fmt::format("give a unit quaternion and a translation up to {:g} m", LARGEST_COORDINATE));
+  return query(*state_->method, X_WM, state_->scene.cutoff).lmds;
+}
+
+double LmdSearch::cutoff() const {
+  return state_->scene.cutoff;
+}
+
+std::string library_version() {
+  return build_info().version;
+}
+
+}  // namespace lmdbench

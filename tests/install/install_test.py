@@ -1,0 +1,159 @@
+# SPDX-FileCopyrightText: The lmdbench authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Installs the build tree into a prefix, moves it, and uses it from outside: a project of twenty lines by CMake with g++ and
+clang++, Debug and Release, and by pkg-config; the program with the data and scripts beside it. Argument: the build tree."""
+
+import json
+import os
+import shlex
+import shutil
+import subprocess
+import sys
+import tempfile
+import unittest
+
+HERE = os.path.dirname(os.path.abspath(__file__))
+ROOT = os.path.abspath(os.path.join(HERE, "..", ".."))
+CONSUMER = os.path.join(HERE, "consumer")
+BUILD = None
+BOX = """OFF\n8 12 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n0 0 1\n1 0 1\n1 1 1\n0 1 1
+3 0 2 1\n3 0 3 2\n3 4 5 6\n3 4 6 7\n3 0 1 5\n3 0 5 4\n3 1 2 6\n3 1 6 5\n3 2 3 7\n3 2 7 6\n3 3 0 4\n3 3 4 7\n"""
+
+
+def run(*command, **options):
+    return subprocess.run(command, capture_output=True, text=True, timeout=1200, **options)
+
+
+class Installed(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.scratch = tempfile.TemporaryDirectory()
+        cls.staged = os.path.join(cls.scratch.name, "staged")
+        cls.prefix = os.path.join(cls.scratch.name, "moved", "to here")
+        for component in ("Runtime", "Development"):
+            done = run("cmake", "--install", BUILD, "--prefix", cls.staged, "--component", component)
+            if done.returncode != 0:
+                raise RuntimeError(done.stdout + done.stderr)
+        os.makedirs(os.path.dirname(cls.prefix))
+        shutil.copytree(cls.staged, cls.prefix, symlinks=True)
+        cls.mesh = os.path.join(cls.scratch.name, "box.off")
+        with open(cls.mesh, "w", encoding="ascii") as stream:
+            stream.write(BOX)
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.scratch.cleanup()
+
+    def libdir(self):
+        return os.path.join(self.prefix, self.package_folder().split("/cmake/")[0])
+
+    def package_folder(self):
+        for folder, _, files in os.walk(self.prefix):
+            if "lmdbenchConfig.cmake" in files:
+                return os.path.relpath(folder, self.prefix)
+        self.fail("no lmdbenchConfig.cmake")
+
+    def configure(self, prefix, name, *arguments):
+        folder = os.path.join(self.scratch.name, name)
+        return folder, run("cmake", "-S", CONSUMER, "-B", folder, "-G", "Ninja", f"-DCMAKE_PREFIX_PATH={prefix}", *arguments)
+
+    def assert_answers(self, program):
+        done = run(program, self.mesh, self.mesh, "0.05")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        wanted = run(os.path.join(BUILD, "lmdbench"), "query", "--moving", self.mesh, "--fixed", self.mesh, "--cutoff", "0.05",
+                     "--poses", "-", "--json", input="0 0.2 0.3 1.02 0 0 0 1\n")
+        lmds = json.loads(wanted.stdout)["lmds"]
+        self.assertEqual(len(lmds), 1)
+        for line, lmd in zip(done.stdout.splitlines(), lmds):
+            moving, fixed = lmd["feature_moving"], lmd["feature_fixed"]
+            self.assertEqual(line, f"{float(lmd['distance']).hex().replace('0000000000000p', 'p')} {moving['kind']} "
+                                   f"{moving['index']} {fixed['kind']} {fixed['index']}")
+        self.assertEqual(len(done.stdout.splitlines()), len(lmds))
+        missing = run(program, "missing.off", self.mesh, "0.05")
+        self.assertEqual(missing.returncode, 3)
+        self.assertIn("missing.off", missing.stderr)
+
+    def test_cmake_finds_it_from_any_compiler_and_build_type(self):
+        for compiler in ("g++", "clang++"):
+            for kind in ("Debug", "Release"):
+                for prefix in (self.staged, self.prefix):
+                    with self.subTest(compiler=compiler, kind=kind, prefix=prefix):
+                        folder, done = self.configure(prefix, f"{compiler}-{kind}-{os.path.basename(prefix)}",
+                                                      f"-DCMAKE_CXX_COMPILER={compiler}", f"-DCMAKE_BUILD_TYPE={kind}")
+                        self.assertEqual(done.returncode, 0, done.stderr)
+                        done = run("cmake", "--build", folder)
+                        self.assertEqual(done.returncode, 0, done.stdout)
+                        self.assert_answers(os.path.join(folder, "consumer"))
+
+    def test_components_and_versions_that_are_not_there_are_refused(self):
+        _, done = self.configure(self.prefix, "formats", "-DWANTED=formats;nearest")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        _, done = self.configure(self.prefix, "unknown", "-DWANTED=record")
+        self.assertNotEqual(done.returncode, 0)
+        self.assertIn("record", done.stderr)
+        _, done = self.configure(self.prefix, "other-minor", "-DVERSION_WANTED=0.2")
+        self.assertNotEqual(done.returncode, 0)
+        self.assertIn("0.2", done.stderr)
+
+    def test_pkg_config_finds_it(self):
+        environment = {**os.environ, "PKG_CONFIG_PATH": os.path.join(self.libdir(), "pkgconfig")}
+        done = run("pkg-config", "--cflags", "--libs", "lmdbench", env=environment)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        flags = shlex.split(done.stdout)  # the prefix has a space
+        self.assertIn("-DEIGEN_MAX_ALIGN_BYTES=16", flags)
+        program = os.path.join(self.scratch.name, "by-pkg-config")
+        done = run("g++", "-std=c++20", "-O1", os.path.join(CONSUMER, "main.cpp"), "-o", program, *flags)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assert_answers(program)
+
+    def test_flags_that_make_the_results_stay_private(self):
+        with open(os.path.join(self.prefix, self.package_folder(), "lmdbenchTargets.cmake"), encoding="utf-8") as stream:
+            targets = stream.read()
+        self.assertIn("EIGEN_MAX_ALIGN_BYTES=16", targets)
+        for private in ("ffp-contract", "-march", "-W", "fast-math"):
+            self.assertNotIn(private, targets)
+
+    def test_nothing_installed_names_the_tree_it_was_built_in(self):
+        for folder, _, files in os.walk(self.staged):
+            for name in files:
+                with open(os.path.join(folder, name), "rb") as stream:
+                    content = stream.read()
+                for place in (ROOT, BUILD, self.staged):
+                    self.assertNotIn(place.encode() + b"/", content, os.path.join(folder, name))
+
+    def test_man_pages_and_completion_are_where_readers_look(self):
+        self.assertTrue(os.path.exists(os.path.join(self.prefix, "share/man/man1/lmdbench-run.1.gz")))
+        for file in ("share/bash-completion/completions/lmdbench", "share/zsh/vendor-completions/_lmdbench"):
+            self.assertTrue(os.path.exists(os.path.join(self.prefix, file)), file)
+
+    def test_the_moved_program_runs_its_experiment_and_makes_its_page(self):
+        program = os.path.join(self.prefix, "bin", "lmdbench")
+        environment = {name: value for name, value in os.environ.items() if name != "LMDBENCH_SCRIPTS"}
+        work = os.path.join(self.scratch.name, "work")
+        os.makedirs(work, exist_ok=True)
+        experiment = os.path.join(self.prefix, "share/lmdbench/experiments/shapes.json")
+        done = run(program, "-q", "run", experiment, "--set", "/frames=40", cwd=work, env=environment)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        done = run(program, "-q", "report", "results/shapes.h5", "--out", "page", cwd=work, env=environment)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        with open(os.path.join(work, "page", "index.html"), encoding="utf-8") as stream:
+            self.assertGreater(len(stream.read()), 100_000)
+        for other in os.listdir(os.path.join(self.prefix, "share/lmdbench/experiments")):
+            if not other.endswith(".json"):
+                continue
+            done = run(program, "-q", "plan", os.path.join(self.prefix, "share/lmdbench/experiments", other), cwd=work)
+            if done.returncode != 0:
+                self.assertRegex(done.stderr, r"is not built yet", other)
+
+    def test_the_program_without_its_data_says_what_it_lacks(self):
+        lonely = os.path.join(self.scratch.name, "lonely")
+        shutil.copy(os.path.join(self.prefix, "bin", "lmdbench"), lonely)
+        environment = {name: value for name, value in os.environ.items() if name != "LMDBENCH_SCRIPTS"}
+        done = run(lonely, "report", "any.h5", "--out", "page", cwd=self.scratch.name, env=environment)
+        self.assertEqual(done.returncode, 4)
+        self.assertRegex(done.stderr, r"report.py.*LMDBENCH_SCRIPTS")
+
+
+if __name__ == "__main__":
+    BUILD = os.path.abspath(sys.argv.pop(1))
+    unittest.main()
