@@ -19,18 +19,18 @@ set(CPACK_DEBIAN_PACKAGE_RELEASE ${LMDBENCH_PACKAGE_RELEASE})
 set(CPACK_DEBIAN_PACKAGE_CONTROL_STRICT_PERMISSION ON)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 
-set(about "Local minimum distance pairs (LMDs) of two triangle meshes: every place where
- they come nearest to each other, for multi-contact haptic rendering, virtual
- assembly and robotics.")
+set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "local minimum distance pairs of two triangle meshes")
+set(about "Finds every place where two triangle meshes come nearest to each other (local
+minimum distance pairs, LMDs), for multi-contact haptic rendering, virtual
+assembly and robotics.
+")
 set(CPACK_DEBIAN_RUNTIME_PACKAGE_NAME lmdbench)
 set(CPACK_DEBIAN_RUNTIME_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_RUNTIME_PACKAGE_RECOMMENDS
     "libjs-dygraphs, libjs-three, python3, python3-h5py, python3-jinja2, python3-markdown, python3-matplotlib, python3-numpy, python3-pil")
-set(CPACK_COMPONENT_RUNTIME_DESCRIPTION "bench of multi-contact haptic rendering
-${about}
- .
- This package holds the program lmdbench: it runs experiments with several
- algorithms side by side and reports the error beside the run time.")
+set(CPACK_COMPONENT_RUNTIME_DESCRIPTION "${about}
+This package holds the program lmdbench: it runs experiments with several
+algorithms side by side and reports the error beside the run time.")
 
 # Static: what its objects call is searched for by its users (src/lmdbench/library/lmdbenchConfig.cmake.in).
 set(needed libeigen3-dev libfmt-dev libhwy-dev libmeshoptimizer-dev libssl-dev)
@@ -47,14 +47,14 @@ set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME liblmdbench-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS "${needed}")
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SHLIBDEPS OFF)
-set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION "find all contacts of two triangle meshes: C++ library
-${about}
- .
- This package holds the C++20 library with its headers, for CMake and
- pkg-config.")
+set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION "${about}
+This package holds the C++20 library with its headers, for CMake and
+pkg-config.")
 
 if(LMDBENCH_WITH_PYTHON)
   list(APPEND CPACK_COMPONENTS_ALL Python)
+  set(Python_EXECUTABLE "${LMDBENCH_PYTHON}")
+  find_package(Python REQUIRED COMPONENTS Interpreter)
   math(EXPR next "${Python_VERSION_MINOR} + 1")
   set(CPACK_DEBIAN_PYTHON_PACKAGE_NAME python3-lmdbench)
   set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
@@ -62,11 +62,9 @@ if(LMDBENCH_WITH_PYTHON)
       "python3 (>= 3.${Python_VERSION_MINOR}), python3 (<< 3.${next}), python3-numpy")
   set(CPACK_DEBIAN_PYTHON_PACKAGE_RECOMMENDS "python3-h5py, python3-pandas")
   set(CPACK_DEBIAN_PYTHON_PACKAGE_SUGGESTS lmdbench)
-  set(CPACK_COMPONENT_PYTHON_DESCRIPTION "find all contacts of two triangle meshes: Python module
-${about}
- .
- This package holds the Python module: meshes and poses as numpy arrays, LMD
- sets as structured arrays, results of lmdbench as pandas frames.")
+  set(CPACK_COMPONENT_PYTHON_DESCRIPTION "${about}
+This package holds the Python module: meshes and poses as numpy arrays, LMD
+sets as structured arrays, results of lmdbench as pandas frames.")
 endif()
 
 # What Debian wants in every package; gzip without name and time, so that the same sources give the same bits.
@@ -82,9 +80,7 @@ foreach(component ${CPACK_COMPONENTS_ALL})
   set(package "${CPACK_DEBIAN_${upper}_PACKAGE_NAME}")
   install(FILES "${CMAKE_CURRENT_LIST_DIR}/copyright" "${folder}/changelog.Debian.gz" "${folder}/changelog.gz"
           DESTINATION "${CMAKE_INSTALL_DATADIR}/doc/${package}" COMPONENT ${component})
-  if(EXISTS "${CMAKE_CURRENT_LIST_DIR}/${package}.lintian-overrides")
-    install(FILES "${CMAKE_CURRENT_LIST_DIR}/${package}.lintian-overrides"
-            DESTINATION "${CMAKE_INSTALL_DATADIR}/lintian/overrides" RENAME ${package} COMPONENT ${component})
-  endif()
+  configure_file("${CMAKE_CURRENT_LIST_DIR}/lintian-overrides.in" "${folder}/overrides/${package}" @ONLY)
+  install(FILES "${folder}/overrides/${package}" DESTINATION "${CMAKE_INSTALL_DATADIR}/lintian/overrides" COMPONENT ${component})
 endforeach()
 include(CPack)

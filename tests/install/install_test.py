@@ -66,8 +66,9 @@ class Installed(unittest.TestCase):
         self.assertEqual(len(lmds), 1)
         for line, lmd in zip(done.stdout.splitlines(), lmds):
             moving, fixed = lmd["feature_moving"], lmd["feature_fixed"]
-            self.assertEqual(line, f"{float(lmd['distance']).hex().replace('0000000000000p', 'p')} {moving['kind']} "
-                                   f"{moving['index']} {fixed['kind']} {fixed['index']}")
+            distance, *features = line.split()
+            self.assertEqual(float(distance), lmd["distance"])
+            self.assertEqual(features, [moving["kind"], str(moving["index"]), fixed["kind"], str(fixed["index"])])
         self.assertEqual(len(done.stdout.splitlines()), len(lmds))
         missing = run(program, "missing.off", self.mesh, "0.05")
         self.assertEqual(missing.returncode, 3)

@@ -386,8 +386,11 @@ class Types(unittest.TestCase):
     def test_stubs_match_the_module(self):
         environment = {**os.environ, "PYTHONPATH": MODULE, "MYPYPATH": MODULE}
         with tempfile.TemporaryDirectory() as folder:
-            done = subprocess.run([sys.executable, "-m", "mypy.stubtest", "lmdbench._lmdbench", "--ignore-missing-stub"], cwd=folder,
-                                  env=environment, capture_output=True, text=True, timeout=600)
+            # pybind11's classes have a metaclass and an initialiser of its own.
+            with open(os.path.join(folder, "allowed"), "w", encoding="ascii") as stream:
+                stream.write("lmdbench._lmdbench.(Mesh|Poses|Search|Sets)(.__init__)?\n")
+            done = subprocess.run([sys.executable, "-m", "mypy.stubtest", "lmdbench._lmdbench", "--ignore-missing-stub", "--allowlist",
+                                   "allowed"], cwd=folder, env=environment, capture_output=True, text=True, timeout=600)
             self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
             with open(os.path.join(folder, "user.py"), "w", encoding="ascii") as stream:
                 stream.write("import lmdbench\nimport numpy as np\nsets = lmdbench.query('a', 'b', np.eye(4), 0.1)\n"

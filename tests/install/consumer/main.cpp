@@ -13,7 +13,7 @@ int main(int argc, char** argv) try {
   lmdbench::Pose pose;
   pose.translation = {0.2, 0.3, 1.02};
   for (const lmdbench::Lmd& lmd : search.at(pose))
-    std::printf("%a %s %d %s %d\n", lmd.distance, to_string(lmd.feature_moving.kind).data(),
+    std::printf("%.17g %s %d %s %d\n", lmd.distance, to_string(lmd.feature_moving.kind).data(),
                 lmd.feature_moving.index, to_string(lmd.feature_fixed.kind).data(), lmd.feature_fixed.index);
   return 0;
 } catch (const lmdbench::Error& error) {
