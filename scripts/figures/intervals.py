@@ -92,8 +92,8 @@ class Rate:
         self.low, self.high = low, high
 
     def __str__(self):
-        """"212 [200, 225]" a second, or "2 in 0.598 s [0.4, 12]", and "-" for what was not counted."""
+        """"212 [200, 225]" a second, or "2 in 0.598 s [0.405, 12.1]", and "-" for what was not counted."""
         if not (math.isfinite(self.count) and self.seconds > 0):
             return "-"
         shown = f"{self.value:.3g}" if math.isfinite(self.value) else f"{self.count:.0f} in {self.seconds:.3g} s"
-        return f"{shown} [{self.low:.2g}, {self.high:.2g}]"
+        return f"{shown} [{self.low:.3g}, {self.high:.3g}]"

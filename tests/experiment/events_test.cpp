@@ -39,9 +39,9 @@ TEST(Events, NoTimeIsNoCount) {
 
 TEST(Events, TextHasCountTimeAndInterval) {
   EXPECT_EQ(events_text(count_events(2, 0.5), 0.5, " in contact"),
-            "2 in 0.5 s in contact (95 %: 0.48 to 14 a second)");
+            "2 in 0.5 s in contact (95 %: 0.484 to 14.4 a second)");
   EXPECT_EQ(events_text(count_events(100, 2.0), 2.0, ""),
-            "100 in 2 s, 50 a second (95 %: 41 to 61 a second)");
+            "100 in 2 s, 50 a second (95 %: 40.7 to 60.8 a second)");
 }
 
 }  // namespace

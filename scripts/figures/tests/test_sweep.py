@@ -191,9 +191,9 @@ class Intervals(unittest.TestCase):
     def test_fewer_than_ten_events_have_no_rate(self):
         few = intervals.Rate([2], [0.5])
         self.assertTrue(math.isnan(few.value))
-        self.assertEqual(str(few), "2 in 0.5 s [0.48, 14]")
-        self.assertEqual(str(intervals.Rate([10], [0.5])), "20 [9.6, 37]")
-        self.assertEqual(str(intervals.Rate([0], [2.0])), "0 in 2 s [0, 1.8]")
+        self.assertEqual(str(few), "2 in 0.5 s [0.484, 14.4]")
+        self.assertEqual(str(intervals.Rate([10], [0.5])), "20 [9.59, 36.8]")
+        self.assertEqual(str(intervals.Rate([0], [2.0])), "0 in 2 s [0, 1.84]")
         self.assertEqual(str(intervals.Rate([math.nan], [2.0])), "-")
 
     def test_bootstrap_is_the_same_every_time(self):

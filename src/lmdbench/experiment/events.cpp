@@ -33,7 +33,7 @@ std::string events_text(const Events& events, double seconds, const std::string&
   if (std::isnan(events.count)) return "-";
   std::string text = fmt::format("{:.0f} in {:.3g} s{}", events.count, seconds, within);
   if (!std::isnan(events.per_second)) text += fmt::format(", {:.3g} a second", events.per_second);
-  return text + fmt::format(" (95 %: {:.2g} to {:.2g} a second)", events.low, events.high);
+  return text + fmt::format(" (95 %: {:.3g} to {:.3g} a second)", events.low, events.high);
 }
 
 }  // namespace lmdbench

@@ -25,7 +25,7 @@ struct Events {
 /// @param seconds in which they were looked for; all is unset where it is not above 0
 Events count_events(std::int64_t count, double seconds);
 
-/// "2 in 0.598 s (95 %: 0.4 to 12.1 a second)", and before the interval the rate where there is one; "-" for what was not
+/// "2 in 0.598 s (95 %: 0.405 to 12.1 a second)", and before the interval the rate where there is one; "-" for what was not
 /// counted. `within` says what the time is of, such as " in contact".
 std::string events_text(const Events& events, double seconds, const std::string& within);
 
