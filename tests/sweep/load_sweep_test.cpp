@@ -93,10 +93,9 @@ TEST_F(LoadSweep, WhatChangesTheTruthMakesProblemsApart) {
       << "a schedule and a method's options are no other question";
   EXPECT_THAT(
       problems(method + R"(, "axes": [{"/force/sharpness": [1, 2]}, {"/moving/mesh": ["blob", "sphere"]}]})"),
-      ElementsAre("shapes, force/sharpness 1.0, moving/mesh blob",
-                  "shapes, force/sharpness 1.0, moving/mesh sphere",
-                  "shapes, force/sharpness 2.0, moving/mesh blob",
-                  "shapes, force/sharpness 2.0, moving/mesh sphere"));
+      ElementsAre(
+          "shapes, force/sharpness 1, moving/mesh blob", "shapes, force/sharpness 1, moving/mesh sphere",
+          "shapes, force/sharpness 2, moving/mesh blob", "shapes, force/sharpness 2, moving/mesh sphere"));
   EXPECT_THAT(
       problems(method + R"(, "label": "a"}, )" + method + R"(, "label": "b", "set": {"/frames": 30}})"),
       ElementsAre("shapes", "shapes, frames 30"))
