@@ -56,7 +56,7 @@ void sort_by_features(std::vector<Intersection>& intersections) {
   intersections.swap(sorted);
 }
 
-struct Contact {
+struct CrossingContact {
   int dimension = 0;
   double measure = 0.0;  ///< Of the pieces of that dimension; of points, their number.
   Vec3 centroid = Vec3::Zero();
@@ -95,7 +95,7 @@ void append_contacts(const Scene& scene, std::vector<Intersection>& intersection
   }
   // A group is named by its first piece, so that its contact exists before the others come.
   std::vector<std::uint32_t> contact_of(intersections.size());
-  std::vector<Contact> contacts;
+  std::vector<CrossingContact> contacts;
   for (std::size_t i = 0; i < intersections.size(); ++i) {
     const std::size_t group = groups.group_of(i);
     if (group == i) {
@@ -106,10 +106,10 @@ void append_contacts(const Scene& scene, std::vector<Intersection>& intersection
     }
     contacts[contact_of[i]].add(intersections[i]);
   }
-  for (Contact& contact : contacts) contact.centroid /= contact.measure;
+  for (CrossingContact& contact : contacts) contact.centroid /= contact.measure;
   for (std::size_t i = 0; i < intersections.size(); ++i) contacts[contact_of[i]].name(intersections[i]);
 
-  for (const Contact& contact : contacts) {
+  for (const CrossingContact& contact : contacts) {
     const Intersection& piece = *contact.nearest;
     Lmd lmd;
     lmd.distance = 0.0;
