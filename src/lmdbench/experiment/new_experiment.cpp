@@ -44,7 +44,7 @@ std::string stem_of(const std::string& mesh) {
 }
 
 /// A mesh of the new scene.
-struct Part {
+struct GivenMesh {
   std::string name;   ///< As the user gave it.
   std::string place;  ///< JSON pointer of its entry.
   ResolvedMesh mesh;
@@ -53,23 +53,24 @@ struct Part {
   std::string why;
 };
 
-Part part_of(const std::string& name, const std::string& place, const std::filesystem::path& mesh_folder) {
-  Part part{name, place, resolve_mesh(name, mesh_folder), 0.0, 1.0, {}};
+GivenMesh part_of(const std::string& name, const std::string& place,
+                  const std::filesystem::path& mesh_folder) {
+  GivenMesh part{name, place, resolve_mesh(name, mesh_folder), 0.0, 1.0, {}};
   part.diagonal = bounding_box_diagonal(part.mesh.mesh);
   return part;
 }
 
 /// One decision for both: parts that are to meet come out of one drawing far more often than out of two.
-void choose_units(Part& moving, Part& fixed, const std::optional<std::string>& unit) {
+void choose_units(GivenMesh& moving, GivenMesh& fixed, const std::optional<std::string>& unit) {
   if (unit) {
     std::tie(moving.metres, fixed.metres) = metres_of_units(*unit, "--unit");
     moving.why = fixed.why = "--unit " + *unit;
   } else {
-    const auto is_long = [](const Part& part) {
+    const auto is_long = [](const GivenMesh& part) {
       return !is_mesh_name(part.name) && part.diagonal > LARGEST_PLAUSIBLE_DIAGONAL;
     };
     const bool millimetres = is_long(moving) || is_long(fixed);
-    for (Part* part : {&moving, &fixed}) {
+    for (GivenMesh* part : {&moving, &fixed}) {
       const bool file = !is_mesh_name(part->name);
       part->metres = file && millimetres ? 0.001 : 1.0;
       part->why = !file ? "the manifest's meshes are in metres"
@@ -92,7 +93,7 @@ void choose_units(Part& moving, Part& fixed, const std::optional<std::string>& u
         "fixed one");
 }
 
-OrientationChoice choose_orientation(const Part& part, const std::optional<OrientationChoice>& chosen,
+OrientationChoice choose_orientation(const GivenMesh& part, const std::optional<OrientationChoice>& chosen,
                                      std::vector<DefaultNote>& choices) {
   if (chosen) {
     choices.push_back({part.place + "/orient", std::string(to_string(*chosen)), "--orient"});
@@ -109,7 +110,7 @@ OrientationChoice choose_orientation(const Part& part, const std::optional<Orien
 }
 
 /// Its entry in the experiment.
-OrderedJson mesh_entry(const Part& part, const InitChoices& chosen, const std::filesystem::path& folder,
+OrderedJson mesh_entry(const GivenMesh& part, const InitChoices& chosen, const std::filesystem::path& folder,
                        std::vector<DefaultNote>& choices) {
   OrderedJson entry{{"mesh", seen_from(folder, part.name)}};
   if (part.metres != 1.0) entry["scale"] = part.metres;
@@ -170,8 +171,8 @@ NewExperiment new_experiment(const std::string& moving, const std::string& fixed
                    {"title", fmt::format("{} past {}", stem_of(moving), stem_of(fixed))}};
   if (is_mesh_name(moving) || is_mesh_name(fixed))
     json["mesh_folder"] = std::filesystem::proximate(mesh_folder, folder).generic_string();
-  Part moving_part = part_of(moving, "/moving", mesh_folder);
-  Part fixed_part = part_of(fixed, "/fixed/0", mesh_folder);
+  GivenMesh moving_part = part_of(moving, "/moving", mesh_folder);
+  GivenMesh fixed_part = part_of(fixed, "/fixed/0", mesh_folder);
   choose_units(moving_part, fixed_part, chosen.unit);
   json["moving"] = mesh_entry(moving_part, chosen, folder, result.choices);
   json["fixed"] = OrderedJson::array({mesh_entry(fixed_part, chosen, folder, result.choices)});
