@@ -62,6 +62,7 @@ if(LMDBENCH_WITH_PYTHON)
       "python3 (>= 3.${Python_VERSION_MINOR}), python3 (<< 3.${next}), python3-numpy")
   set(CPACK_DEBIAN_PYTHON_PACKAGE_RECOMMENDS "python3-h5py, python3-pandas")
   set(CPACK_DEBIAN_PYTHON_PACKAGE_SUGGESTS lmdbench)
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_CONTROL_EXTRA "${CMAKE_CURRENT_LIST_DIR}/prerm")
   set(CPACK_COMPONENT_PYTHON_DESCRIPTION "${about}
 This package holds the Python module: meshes and poses as numpy arrays, LMD
 sets as structured arrays, results of lmdbench as pandas frames.")
