@@ -7,6 +7,7 @@
 #include <Eigen/Geometry>
 
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <random>
 
@@ -22,6 +23,11 @@ class Random {
   /// Uniform in [0, 1), multiples of 2^-53.
   double uniform() { return static_cast<double>(engine_() >> 11U) * 0x1p-53; }
   double uniform(double low, double high) { return low + (high - low) * uniform(); }
+
+  /// One of 0 to count - 1.
+  std::size_t index(std::size_t count) {
+    return static_cast<std::size_t>(uniform() * static_cast<double>(count));
+  }
 
   /// Uniform on the unit sphere (Marsaglia 1972).
   Vec3 direction() {

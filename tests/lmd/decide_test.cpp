@@ -22,6 +22,7 @@ using testing::make_body;
 using testing::moved;
 using testing::ShapeScene;
 using testing::sheet_of;
+using testing::turned_by;
 using testing::uniform;
 
 /// Kinds of both features and the dimension, for messages and comparisons: "VE0".
@@ -42,10 +43,6 @@ std::vector<std::string> kinds_of(const ContactSet& set, double nearer_than) {
   return kinds;
 }
 using Kinds = std::vector<std::string>;
-
-Pose turned_by(double angle, const Vec3& axis, const Vec3& translation) {
-  return {translation, Eigen::Quaterniond(Eigen::AngleAxisd(angle, axis.normalized()))};
-}
 
 /// What every contact promises.
 void expect_sound(const ShapePair& pair, const ContactSet& set) {

@@ -25,6 +25,7 @@ namespace {
 using testing::moved;
 using testing::ShapeScene;
 using testing::sheet_of;
+using testing::turned_by;
 using testing::uniform;
 using enum FeatureKind;
 
@@ -67,11 +68,7 @@ Lmd only(ShapeScene& scene, const Pose& pose) {
   return lmd;
 }
 
-Pose turned_by(double angle, const Vec3& axis, const Vec3& translation) {
-  return {translation, Eigen::Quaterniond(Eigen::AngleAxisd(angle, axis.normalized()))};
-}
-
-TriangleMesh table(double side = 4.0, int cells = 1) {
+TriangleMesh square_table(double side = 4.0, int cells = 1) {
   return translated(make_box({side, side, 1.0}, cells), Vec3(0.0, 0.0, -0.5));
 }
 /// Unit box over the plane z = 0.
@@ -82,7 +79,7 @@ TriangleMesh box(int cells = 1) {
 TEST(JoinContacts, ABoxOnATableHasOneLmdHoweverBothAreCut) {
   for (const int cells : {1, 2, 5})
     for (const Pose& whole : {Pose{}, testing::pose_of_seed(1)}) {
-      ShapeScene scene(box(cells), testing::placed(table(4.0, 7 - cells), whole));
+      ShapeScene scene(box(cells), testing::placed(square_table(4.0, 7 - cells), whole));
       for (const double yaw : {0.0, 0.3, 0.25 * std::numbers::pi})
         for (const double gap : {1e-7, 1e-3, 0.2}) {
           const Lmd lmd = only(scene, whole * turned_by(yaw, Vec3::UnitZ(), Vec3(0.3, -0.2, gap)));
@@ -97,7 +94,7 @@ TEST(JoinContacts, ABoxOnATableHasOneLmdHoweverBothAreCut) {
 
 TEST(JoinContacts, TheOrderOfContactsDoesNotMatter) {
   std::mt19937_64 random(2);
-  ShapeScene scene(merged(box(2), translated(box(), Vec3(1.5, 0.0, 0.0))), table());
+  ShapeScene scene(merged(box(2), translated(box(), Vec3(1.5, 0.0, 0.0))), square_table());
   for (const Pose& pose : {moved(0.2, 0.1, 0.05), turned_by(1e-9, Vec3::UnitX(), Vec3(0.0, 0.3, 0.1)),
                            turned_by(0.2, Vec3(1.0, 0.3, 0.1), Vec3(0.0, 0.0, 0.4))}) {
     LmdSet expected = scene.lmds(pose);
@@ -125,7 +122,7 @@ TEST(JoinContacts, TheOrderOfContactsDoesNotMatter) {
 
 TEST(JoinContacts, EdgeOverEdgeIsOneLmdAndOnlyItsNameSwitches) {
   // The box ends where the table does; moved in and out by an offset.
-  ShapeScene scene(box(), table());
+  ShapeScene scene(box(), square_table());
   const double gap = 0.01;
   for (const double sign : {-1.0, 1.0})
     for (const double offset : {0.0, 1e-16, 1e-14, 1e-12, 1e-10, 1e-8, 1e-6, 1e-5}) {
@@ -149,7 +146,7 @@ TEST(JoinContacts, TheFacesOfAStepAreTwoLmdsAndALevelRecessIsNone) {
     return merged(translated(make_box({1.0, 1.0, 1.0}), Vec3(0.5, 0.5, 0.7)),
                   translated(make_box({1.0, 1.0, 1.1}), Vec3(1.5, 0.5, 0.65)));
   };
-  ShapeScene two(step(), table());
+  ShapeScene two(step(), square_table());
   LmdSet lmds = two.lmds(Pose{});
   std::ranges::sort(lmds, lmd_less);
   ASSERT_EQ(lmds.size(), 2u) << text(lmds);
@@ -172,7 +169,7 @@ TEST(JoinContacts, TheFacesOfAStepAreTwoLmdsAndALevelRecessIsNone) {
   }
   pan.triangles.push_back({4, 6, 5});
   pan.triangles.push_back({4, 7, 6});
-  ShapeScene recess(pan, table());
+  ShapeScene recess(pan, square_table());
   const LmdSet of_pan = recess.lmds(Pose{});
   // Its level border alone: one place, four segments, at .1.
   for (const Lmd& lmd : of_pan) EXPECT_NEAR(lmd.distance, 0.1, 1e-13) << text(of_pan);
@@ -191,7 +188,7 @@ TEST(JoinContacts, OfACylinderTheLowestFacetCounts) {
   cylinder = testing::placed(std::move(cylinder), turned_by(half, Vec3::UnitZ(), Vec3::Zero()));
   cylinder =
       testing::placed(std::move(cylinder), turned_by(0.5 * std::numbers::pi, Vec3::UnitY(), Vec3::Zero()));
-  ShapeScene scene(cylinder, table());
+  ShapeScene scene(cylinder, square_table());
   const Lmd lmd = only(scene, moved(0.2, 0.3, inradius + 0.05));
   EXPECT_NEAR(lmd.distance, 0.05, 1e-8);
   EXPECT_NEAR((lmd.point_fixed - Vec3(0.2, 0.3, 0.0)).norm(), 0.0, 1e-6);
@@ -202,7 +199,7 @@ TEST(JoinContacts, OfACylinderTheLowestFacetCounts) {
 }
 
 TEST(JoinContacts, OfARingItIsTheMiddleOfTheHole) {
-  ShapeScene scene(make_sleeve(circle_outline(0.5), circle_outline(0.3), {0.4, 24, 1, 2}), table());
+  ShapeScene scene(make_sleeve(circle_outline(0.5), circle_outline(0.3), {0.4, 24, 1, 2}), square_table());
   LmdSet lmds = scene.lmds(moved(0.1, -0.2, 0.25));
   ASSERT_EQ(lmds.size(), 1u) << text(lmds);
   EXPECT_NEAR((lmds[0].point_fixed - Vec3(0.1, -0.2, 0.0)).norm(), 0.0, 1e-12);
@@ -212,11 +209,11 @@ TEST(JoinContacts, OfARingItIsTheMiddleOfTheHole) {
 }
 
 TEST(JoinContacts, ACheckerboardsSquaresAreOneLmdAndSquaresApartAreNot) {
-  ShapeScene touching(sheet_of({"#.", ".#"}, 0.5, false), table());
+  ShapeScene touching(sheet_of({"#.", ".#"}, 0.5, false), square_table());
   const LmdSet one = touching.lmds(moved(0.3, 0.1, 0.05));
   ASSERT_EQ(one.size(), 1u) << text(one);
   EXPECT_NEAR((one[0].point_fixed - Vec3(0.3, 0.1, 0.0)).norm(), 0.0, 1e-13) << "the corner of both";
-  ShapeScene apart(sheet_of({"#.#"}, 0.5, false), table());
+  ShapeScene apart(sheet_of({"#.#"}, 0.5, false), square_table());
   EXPECT_EQ(apart.lmds(moved(0.3, 0.1, 0.05)).size(), 2u);
 }
 
@@ -228,7 +225,7 @@ TEST(JoinContacts, TwoRegionsOfOnePlaneAreOneLmd) {
     return mesh;
   };
   for (const double angle : {2e-10, -2e-10}) {
-    ShapeScene scene(bent(angle), table());
+    ShapeScene scene(bent(angle), square_table());
     ASSERT_EQ(scene.shape_moving().regions.region_count(), 2);
     const LmdSet lmds = scene.lmds(moved(0.1, 0.2, 0.05));
     ASSERT_EQ(lmds.size(), 1u) << angle << "\n" << text(lmds);
@@ -260,7 +257,7 @@ TEST(JoinContacts, AChainOverTwoTeethIsOneLmdATooth) {
 TEST(JoinContacts, ATiltedBoxIsRepresentedOnItsFeatureAtEveryTilt) {
   std::mt19937_64 random(3);
   for (const Pose& whole : {Pose{}, testing::pose_of_seed(4)}) {
-    ShapeScene scene(box(2), testing::placed(table(), whole));
+    ShapeScene scene(box(2), testing::placed(square_table(), whole));
     const double known = scene.at(whole).tolerance.known;
     for (int i = 0; i < 300; ++i) {
       const double tilt = std::pow(10.0, -13.0 + 11.0 * uniform(random));
@@ -304,7 +301,7 @@ TEST(JoinContacts, ACornerOverABorderOfTwoFacesIsOneLmd) {
 }
 
 TEST(JoinContacts, TheCutoffIsAskedAfterJoining) {
-  ShapeScene scene(box(), table(), 0.1);
+  ShapeScene scene(box(), square_table(), 0.1);
   EXPECT_EQ(scene.lmds(moved(0.0, 0.0, 0.1 - 1e-12)).size(), 1u);
   EXPECT_EQ(scene.lmds(moved(0.0, 0.0, 0.1 + 1e-12)).size(), 0u) << "looked for, and beyond";
   // Of a face that leans by less than the tolerance the middle counts.
@@ -313,7 +310,7 @@ TEST(JoinContacts, TheCutoffIsAskedAfterJoining) {
 }
 
 TEST(JoinContacts, WhereTrianglesIntersectNothingNearerThanRoundingIsLeft) {
-  ShapeScene scene(box(), table());
+  ShapeScene scene(box(), square_table());
   const ShapePair pair = scene.at(moved(0.1, 0.2, 0.0));
   ContactSet set = scene.contacts(pair);
   ASSERT_FALSE(set.contacts.empty());

@@ -25,7 +25,7 @@ namespace {
 using ::testing::HasSubstr;
 using testing::ScratchDirectory;
 
-std::string bytes_of(const std::filesystem::path& file) {
+std::string content_of(const std::filesystem::path& file) {
   std::ifstream stream(file, std::ios::binary);
   return {std::istreambuf_iterator<char>(stream), {}};
 }
@@ -65,15 +65,15 @@ TEST(ContentHash, IsTheShaOfTheBytesWithoutItself) {
   const ResultReader reader(file);
   const std::string hash = reader.text_attribute("/", CONTENT_HASH).value_or("");
   ASSERT_EQ(hash.size(), 64U);
-  std::string bytes = bytes_of(file);
+  std::string bytes = content_of(file);
   bytes.replace(bytes.find(hash), hash.size(), hash.size(), '0');
   EXPECT_EQ(sha256_of_text(bytes), hash);
-  EXPECT_EQ(bytes_of(file), bytes_of(write_result(scratch / "b.h5"))) << "the same bytes in every run";
+  EXPECT_EQ(content_of(file), content_of(write_result(scratch / "b.h5"))) << "the same bytes in every run";
 }
 
 TEST(ContentHash, EveryFlippedByteIsSeen) {
   const ScratchDirectory scratch;
-  const std::string whole = bytes_of(write_result(scratch / "whole.h5"));
+  const std::string whole = content_of(write_result(scratch / "whole.h5"));
   ASSERT_EQ(refusal(scratch / "whole.h5"), "");
   // Everywhere in the structure at the file's begin and end, now and then within the many numbers.
   std::vector<std::size_t> places{whole.find("some words")};
@@ -88,7 +88,7 @@ TEST(ContentHash, EveryFlippedByteIsSeen) {
 
 TEST(ContentHash, ATextThatWasChangedIsNamedByTheHashAlone) {
   const ScratchDirectory scratch;
-  std::string bytes = bytes_of(write_result(scratch / "a.h5"));
+  std::string bytes = content_of(write_result(scratch / "a.h5"));
   bytes[bytes.find("some words")] = 'S';
   write_bytes(scratch / "a.h5", bytes);
   EXPECT_THAT(refusal(scratch / "a.h5"), HasSubstr("its bytes are not those that were written"));
@@ -97,7 +97,7 @@ TEST(ContentHash, ATextThatWasChangedIsNamedByTheHashAlone) {
 
 TEST(ContentHash, ANumberThatWasChangedIsNamedWithItsDataset) {
   const ScratchDirectory scratch;
-  std::string bytes = bytes_of(write_result(scratch / "a.h5"));
+  std::string bytes = content_of(write_result(scratch / "a.h5"));
   bytes[bytes.size() / 2] = static_cast<char>(bytes[bytes.size() / 2] ^ 1);
   write_bytes(scratch / "a.h5", bytes);
   EXPECT_THAT(refusal(scratch / "a.h5"), HasSubstr("/large: is damaged")) << "by HDF5's own checksum";

@@ -13,6 +13,11 @@
 
 namespace lmdbench::testing {
 
+/// Turned about an axis of any length, then moved.
+inline Pose turned_by(double angle, const Vec3& axis, const Vec3& translation) {
+  return {translation, Eigen::Quaterniond(Eigen::AngleAxisd(angle, axis.normalized()))};
+}
+
 /// Leads of all features of a shape.
 inline std::vector<FeatureId> leads_of(const Surface& surface, const ShapeComplex& shape) {
   std::vector<FeatureId> leads;

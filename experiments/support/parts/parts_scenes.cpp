@@ -98,10 +98,6 @@ const std::array RANDOM_KINDS = {
     PartsKind{"star prism on polycube", STAR_PRISM, POLYCUBE},
 };
 
-std::size_t pick(std::size_t count, Random& random) {
-  return static_cast<std::size_t>(random.uniform() * static_cast<double>(count));
-}
-
 bool chance(double probability, Random& random) {
   return random.uniform() < probability;
 }
@@ -115,7 +111,7 @@ double decades(double low, double high, Random& random) {
 /// One of the 24 turns of a cube: exact.
 Mat3 quarter_turns(Random& random) {
   std::array<Eigen::Index, 3> axis = {0, 1, 2};
-  for (std::size_t i = 3; i > 1; --i) std::swap(axis[i - 1], axis[pick(i, random)]);
+  for (std::size_t i = 3; i > 1; --i) std::swap(axis[i - 1], axis[random.index(i)]);
   Mat3 turn = Mat3::Zero();
   for (Eigen::Index i = 0; i < 3; ++i)
     turn(i, axis[static_cast<std::size_t>(i)]) = chance(0.5, random) ? 1.0 : -1.0;
@@ -171,7 +167,7 @@ Eigen::Quaterniond about_z(double angle) {
 }
 
 Vec3 level_direction(Random& random) {
-  if (chance(0.3, random)) return pick(2, random) == 0 ? Vec3::UnitX() : Vec3::UnitY();
+  if (chance(0.3, random)) return random.index(2) == 0 ? Vec3::UnitX() : Vec3::UnitY();
   const double angle = TAU * random.uniform();
   return {std::cos(angle), std::sin(angle), 0.0};
 }
@@ -227,13 +223,13 @@ class PoseMaker {
     const double offset = tiny(0.6, -16.0, -5.0, random);
     if (alignment < 0.15) {
       // A corner over a corner.
-      const Vec3 &on = above.corners[pick(above.corners.size(), random)],
-                 &at = below.corners[pick(below.corners.size(), random)];
+      const Vec3 &on = above.corners[random.index(above.corners.size())],
+                 &at = below.corners[random.index(below.corners.size())];
       pose.translation = on - at + offset * level_direction(random);
     } else if (alignment < 0.35 && !above.borders.empty() && !below.borders.empty()) {
       // A border along a border.
-      const auto& on = above.borders[pick(above.borders.size(), random)];
-      const std::size_t which = pick(below.borders.size(), random);
+      const auto& on = above.borders[random.index(above.borders.size())];
+      const std::size_t which = random.index(below.borders.size());
       if (spin != 0.0 && !flush_) {
         spin += angle_of(on) - angle_of(below.borders[which]) + (chance(0.5, random) ? 0.0 : 0.5 * TAU) +
                 tiny(0.5, -14.0, -4.0, random);
@@ -292,7 +288,7 @@ class PoseMaker {
 
   /// A corner, or a point on a side or in the inside of a triangle.
   static Vec3 point_of(const Triangle& t, Random& random) {
-    const std::size_t i = pick(3, random);
+    const std::size_t i = random.index(3);
     const double kind = random.uniform(), u = kind < 0.3 ? 0.0 : random.uniform();
     const double v = kind < 0.6 ? 0.0 : (1.0 - u) * random.uniform();
     return t[i] + u * (t[(i + 1) % 3] - t[i]) + v * (t[(i + 2) % 3] - t[i]);
@@ -301,7 +297,7 @@ class PoseMaker {
   /// Some triangle of the one lies over some triangle of the other, however the rest is.
   Pose face_on_face(Random& random) const {
     const auto some = [&](const TriangleMesh& mesh) {
-      return mesh.triangle(static_cast<std::int32_t>(pick(mesh.triangles.size(), random)));
+      return mesh.triangle(static_cast<std::int32_t>(random.index(mesh.triangles.size())));
     };
     const Triangle on = some(design_.fixed), at = some(design_.moving);
     const auto normal = [](const Triangle& t) { return (t[1] - t[0]).cross(t[2] - t[0]).normalized(); };
@@ -407,7 +403,7 @@ PartsDesign make_parts_design(const PartsChoice& choice) {
     if (name == POLYCUBE) return random_polycube(random);
     if (name == STAR_PRISM) return random_star_prism(random);
     return *name != '\0' ? make_machine_part(name)
-                         : machine_parts()[pick(machine_parts().size(), random)].make();
+                         : machine_parts()[random.index(machine_parts().size())].make();
   };
   PartsDesign design{part(kind.moving), part(kind.fixed), {}};
   if (!kind.nested) {

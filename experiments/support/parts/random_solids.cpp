@@ -18,10 +18,6 @@ using experiments::Random;
 
 constexpr std::size_t CELLS = 5;
 
-std::size_t pick(std::size_t count, Random& random) {
-  return static_cast<std::size_t>(random.uniform() * static_cast<double>(count));
-}
-
 double dyadic(double x, int bits) {
   return std::ldexp(std::round(std::ldexp(x, bits)), -bits);
 }
@@ -30,8 +26,8 @@ double dyadic(double x, int bits) {
 std::vector<double> uneven_lines(std::size_t steps, Random& random) {
   std::vector<double> lines = {-0.5};
   for (std::size_t i = 0; i < steps; ++i)
-    lines.push_back(lines.back() + std::ldexp(1.0 + static_cast<double>(pick(3, random)),
-                                              -2 - static_cast<int>(pick(6, random))));
+    lines.push_back(lines.back() + std::ldexp(1.0 + static_cast<double>(random.index(3)),
+                                              -2 - static_cast<int>(random.index(6))));
   return lines;
 }
 
@@ -42,7 +38,7 @@ struct Range {
 };
 
 Range random_range(Random& random) {
-  const std::size_t a = pick(CELLS, random), b = pick(CELLS, random);
+  const std::size_t a = random.index(CELLS), b = random.index(CELLS);
   return {std::min(a, b), std::max(a, b) + 1};
 }
 
@@ -57,7 +53,7 @@ bool is_sound(const TriangleMesh& mesh) {
 TriangleMesh random_polycube(Random& random) {
   for (;;) {
     std::array<std::array<Layers, CELLS>, CELLS> filled{};
-    const std::size_t boxes = 3 + pick(6, random);
+    const std::size_t boxes = 3 + random.index(6);
     for (std::size_t n = 0; n < boxes; ++n) {
       const Range x = random_range(random), y = random_range(random), z = random_range(random);
       const Layers layers = (Layers{1} << z.end) - (Layers{1} << z.begin);
@@ -76,10 +72,10 @@ TriangleMesh random_polycube(Random& random) {
 
 TriangleMesh random_star_prism(Random& random) {
   for (;;) {
-    const std::size_t sides = 5 + pick(12, random), layers = 1 + pick(3, random);
+    const std::size_t sides = 5 + random.index(12), layers = 1 + random.index(3);
     Outline outer, inner;
     const double bore =
-        random.uniform() < 0.5 ? 0.0 : std::ldexp(1.0, -1 - static_cast<int>(pick(3, random)));
+        random.uniform() < 0.5 ? 0.0 : std::ldexp(1.0, -1 - static_cast<int>(random.index(3)));
     for (std::size_t i = 0; i < sides; ++i) {
       const auto [x, y] = circle_point(static_cast<int>(i), static_cast<int>(sides));
       const double radius = random.uniform() < 0.4 ? 0.5 : random.uniform(0.2, 0.6);
@@ -87,7 +83,7 @@ TriangleMesh random_star_prism(Random& random) {
       inner.emplace_back(bore * outer.back());
     }
     std::vector<Layers> of_sector(sides);
-    for (Layers& each : of_sector) each = random.uniform() < 0.6 ? ALL_LAYERS : Layers{pick(8, random)};
+    for (Layers& each : of_sector) each = random.uniform() < 0.6 ? ALL_LAYERS : Layers{random.index(8)};
     PrismComplex solid(uneven_lines(layers, random));
     if (bore > 0.0)
       solid.add_ring(inner, outer, [&](std::size_t i) { return of_sector[i]; });

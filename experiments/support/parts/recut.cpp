@@ -26,13 +26,9 @@ struct Diamond {
   std::int32_t from, to, left_tip, right_tip;
 };
 
-std::size_t pick(std::size_t count, experiments::Random& random) {
-  return std::min(count - 1, static_cast<std::size_t>(random.uniform() * static_cast<double>(count)));
-}
-
 template <typename Element>
 void shuffle(std::vector<Element>& elements, experiments::Random& random) {
-  for (std::size_t i = elements.size(); i > 1; --i) std::swap(elements[i - 1], elements[pick(i, random)]);
+  for (std::size_t i = elements.size(); i > 1; --i) std::swap(elements[i - 1], elements[random.index(i)]);
 }
 
 /// Of every edge, in a random order.
@@ -111,7 +107,7 @@ TriangleMesh recut(TriangleMesh mesh, experiments::Random& random) {
   result.triangles = mesh.triangles;
   for (Corners& corners : result.triangles) {
     for (std::int32_t& corner : corners) corner = number[static_cast<std::size_t>(corner)];
-    std::rotate(corners.begin(), corners.begin() + static_cast<std::ptrdiff_t>(pick(3, random)),
+    std::rotate(corners.begin(), corners.begin() + static_cast<std::ptrdiff_t>(random.index(3)),
                 corners.end());
   }
   shuffle(result.triangles, random);
