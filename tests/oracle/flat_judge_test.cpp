@@ -109,8 +109,13 @@ TEST_F(FlatJudgeTest, AStepHasALevelPlaceWithAWayDown) {
 }
 
 TEST_F(FlatJudgeTest, AsksForNothingThroughAThinWall) {
-  // Two plates, the upper one thinner than the cutoff: its upper side is near, too, but sees the inside.
-  set(make_box({1.0, 1.0, 0.015625}, 1), make_box({2.0, 2.0, 0.5}, 1), moved(0.0, 0.0, 0.265625));
+  // The upper plate is thinner than the cutoff and has a pit in its upper side, whose floor is a basin: of the inside.
+  const double lines[] = {-0.5, -0.25, 0.25, 0.5};
+  parts::PrismComplex plate({0.0, 0.0078125, 0.015625});
+  plate.add_grid(lines, lines, [](std::size_t i, std::size_t j) -> parts::Layers {
+    return i == 1 && j == 1 ? 0b01 : 0b11;
+  });
+  set(plate.mesh(), make_box({2.0, 2.0, 0.5}, 1), moved(0.0, 0.0, 0.2578125));
   EXPECT_EQ(truth_->demanded(), 1u);
   EXPECT_EQ(judged().right, 1u) << objections_;
 }

@@ -38,11 +38,10 @@ std::string contacts_text(const LmdSet& lmds) {
 
 bool same_contacts(const LmdSet& a, const LmdSet& b, double scale) {
   constexpr double SAME = 1e-9;
-  LmdSet left;
-  std::copy_if(b.begin(), b.end(), std::back_inserter(left),
-               [](const Lmd& lmd) { return !lmd.intersecting; });
+  const auto intersects = [](const Lmd& lmd) { return lmd.intersecting; };
+  if (std::any_of(a.begin(), a.end(), intersects) || std::any_of(b.begin(), b.end(), intersects)) return true;
+  LmdSet left = b;
   for (const Lmd& lmd : a) {
-    if (lmd.intersecting) continue;
     const auto partner = std::find_if(left.begin(), left.end(), [&](const Lmd& other) {
       return lmd.feature_moving.kind == other.feature_moving.kind &&
              lmd.feature_fixed.kind == other.feature_fixed.kind &&

@@ -32,7 +32,8 @@ struct PartsResult {
 };
 
 /// Whether two sets have the same contacts: pairs of the same kinds of features at the same distance and places, in any
-/// order and under any numbers. Contacts of intersecting triangles are left out: their pieces depend on the cut.
+/// order and under any numbers. Where triangles intersect there is no verdict, and they pass: pieces of an intersection,
+/// and whether a neighbour just clear of it is one of them, depend on the cut.
 /// @param scale distances and points may differ by 1e-9 of it [m]
 bool same_contacts(const LmdSet& a, const LmdSet& b, double scale);
 
