@@ -135,8 +135,8 @@ TEST_F(FlatJudgeTest, LeavesATiltWithinTheToleranceToIt) {
   EXPECT_EQ(judged().faults(), 0u) << objections_;
 }
 
-/// What the methods leave wrong where faces are decided triangle by triangle; more is news.
-constexpr double MOST_FAULTS = 0.02, MOST_TOLERATED = 0.01;
+/// Shares of poses: where the judge and the truth differ (borders over borders next to touch), and where a tilt is within the tolerance.
+constexpr double MOST_FAULTS = 0.01, MOST_TOLERATED = 0.01;
 
 TEST(FlatJudge, FindsLittleWrongInMachineParts) {
   constexpr std::size_t POSES = 2;
