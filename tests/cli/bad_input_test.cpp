@@ -156,8 +156,7 @@ TEST_F(BadInput, NonManifoldMeshGoesOnWithAWarning) {
   const Outcome outcome =
       lmdbench("run " + SHAPES + "--set /frames=30 --set '/moving/mesh=" + fins + "' --out '" + out + "'");
   EXPECT_EQ(outcome.code, 0) << outcome.err;
-  EXPECT_THAT(outcome.err, HasSubstr("warning: moving mesh"));
-  EXPECT_THAT(outcome.out, HasSubstr("note: moving mesh"));
+  EXPECT_THAT(outcome.out, HasSubstr("note: moving mesh")) << "once, in the table";
   EXPECT_TRUE(std::filesystem::exists(out));
 }
 

@@ -375,8 +375,9 @@ class Surroundings(unittest.TestCase):
             # A page takes two seconds: those whose damage the program does not see before it.
             for arguments, done in self.altered(alter, name in ("format_version", "text", "shape")):
                 with self.subTest(alteration=name, arguments=arguments):
-                    # A page is made of what there is; a comparison may tell what is missing as a difference.
-                    self.assertIn(done.returncode, (DONE, 1, INPUT_DATA), done.stderr)
+                    # A page is made of what there is; a comparison may tell what is missing as a difference, and of one process a side
+                    # it is unsure.
+                    self.assertIn(done.returncode, (DONE, 1, INPUT_DATA, 4), done.stderr)
                     if name in ("format_version", "links", "other files", "huge"):
                         if arguments[0] == "compare" or name == "format_version":
                             self.assert_refused(done, INPUT_DATA, "bad.h5")

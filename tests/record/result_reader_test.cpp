@@ -88,7 +88,7 @@ TEST(ResultReader, ListsGroupsDatasetsAndAttributesInOrder) {
   EXPECT_THAT(reader.datasets("/methods"), IsEmpty());
   EXPECT_THAT(reader.datasets("/methods/a"), ElementsAre("empty", "force_clipped", "lmd_count", "many"));
   EXPECT_THAT(reader.groups("/absent/group"), IsEmpty());
-  EXPECT_THAT(reader.attributes("/"), ElementsAre("format", "format_version"));
+  EXPECT_THAT(reader.attributes("/"), ElementsAre("content_sha256", "format", "format_version"));
   EXPECT_TRUE(reader.has("/methods/b/force"));
   EXPECT_FALSE(reader.has("/methods/c/force"));
   EXPECT_EQ(reader.real_attribute("/scene", "cutoff_m"), 0.25);
