@@ -45,7 +45,7 @@ STUDY_LABELS = {
 COUNTERS = {
     "node_pairs": ("node pairs tested", style.BLUE, "-"),
     "leaf_pairs": ("feature pairs tested", style.VERMILLION, (0, (2.6, 0.8))),
-    "first_order_tests": ("first-order tests", style.GREEN, (0, (5, 1, 1, 1))),
+    "decisions": ("definition asked", style.GREEN, (0, (5, 1, 1, 1))),
     "triangle_distances": ("exact triangle distances", style.PURPLE, ":"),
 }
 
