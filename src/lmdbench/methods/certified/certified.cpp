@@ -127,7 +127,7 @@ bool Certified::follow_motion(const RigidTransform& X_WM, double touch) {
   return goes_on;
 }
 
-void Certified::search_from_scratch(Frame& frame) {
+void Certified::enumerate_from_scratch(Frame& frame) {
   find_wide_pairs(frame.moving, frame.fixed, frame.query, kernel_, scratch_, frame.work);
   const auto fetch = [&](std::size_t k, const auto& fetch_part) {
     if (k >= scratch_.lmd_pairs.size()) return;
@@ -142,7 +142,7 @@ void Certified::search_from_scratch(Frame& frame) {
   touching_.decide(frame.touching, scratch_.touch_pairs);
 }
 
-void Certified::search_coherently(Frame& frame, FixedBody& body) {
+void Certified::enumerate_coherently(Frame& frame, FixedBody& body) {
   TraversalFront& front = body.front;
   if (front.empty()) {
     front.start(frame.moving, frame.fixed, frame.query, motion_, frame.filter.X_WM, frame.longest,
@@ -215,10 +215,10 @@ void Certified::search(const Pose& X_WM, LmdSet& lmds, WorkCounters& counters) {
                 contacts_,
                 counters};
     if (keep && query.possible && body.policy.keep()) {
-      search_coherently(frame, body);
+      enumerate_coherently(frame, body);
     } else {
       body.front.clear();
-      search_from_scratch(frame);
+      enumerate_from_scratch(frame);
     }
     add_traversal<Counter>(counters, frame.work);
     counters[Counter::LEAF_PAIRS] += frame.touching.triangle_pairs;

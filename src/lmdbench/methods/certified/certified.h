@@ -79,9 +79,10 @@ class Certified : public Method {
   };
   struct Frame;
 
+  // Steps 1 and 2. No other name begins with `search`: instructions are counted by that name (scripts/tuned_constants.py).
   bool follow_motion(const RigidTransform& X_WM, double touch);
-  void search_from_scratch(Frame& frame);
-  void search_coherently(Frame& frame, FixedBody& body);
+  void enumerate_from_scratch(Frame& frame);
+  void enumerate_coherently(Frame& frame, FixedBody& body);
 
   Scene scene_;
   const WideHierarchy& hierarchy_moving_;
