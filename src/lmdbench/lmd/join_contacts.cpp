@@ -252,9 +252,16 @@ class Joining {
     const bool both_extended = a.dimension > 0 && b.dimension > 0;
     // The parts of what one pair of features shares are known to be apart.
     if (both_extended && name_of(a) == name_of(b)) return false;
-    return meet(a, b) &&
+    return have_one_direction(a, b) && meet(a, b) &&
            (lie_on_one_pair(i, j) || (both_extended && are_neighbours(pair_.moving, a.moving, b.moving) &&
                                       are_neighbours(pair_.fixed, a.fixed, b.fixed)));
+  }
+
+  /// Whether two contacts have one direction. A nut at its seat is as far from the floor of its slot as from the wall, and on the
+  /// nut the two places meet.
+  bool have_one_direction(const Contact& a, const Contact& b) const {
+    const Vec3 difference = a.distance * a.direction - b.distance * b.direction;
+    return difference.norm() <= granted(a, b) + 2.0 * tolerance_.largest_tilt * a.distance;
   }
 
   /// Whether the places of two contacts come within the tolerance of each other.
@@ -364,6 +371,7 @@ class Joining {
 
   bool is_level_way(const OnCarriers& on, const Contact& a, const Contact& b) const {
     if (a.dimension > 0 && b.dimension > 0 && name_of(a) == name_of(b)) return false;
+    if (!have_one_direction(a, b)) return false;
     const auto nearest = [](const Contact& contact, const std::array<Vec3, 2>& ends, const Vec3& point,
                             const Vec3& to) {
       return contact.dimension == 0 ? point : point_segment_distance(to, {ends[0], ends[1]}).point;

@@ -173,6 +173,13 @@ TEST(FlatScenes, OverlapsOfManyPieces) {
   }
 }
 
+TEST(FlatScenes, FloorAndWallAtOneDistanceAreTwoContacts) {
+  // They meet on the box's edge, and nowhere on the block round it.
+  FlatComparison corner(make_scene(make_l_block(1.0), make_box({0.2, 0.2, 0.2}, 2), 0.02));
+  corner.check(testing::moved(-0.11, 0.0, -0.11));
+  EXPECT_EQ(corner.found(), 2u);
+}
+
 TEST(FlatScenes, RoundedBoxesAtGapsDownToTouch) {
   std::mt19937_64 random(12);
   const auto file = [](TriangleMesh mesh, std::uint64_t seed) {
