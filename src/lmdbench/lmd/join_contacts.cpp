@@ -23,6 +23,8 @@ namespace {
 
 /// Pairs of features that a contact lies on, beyond which it is not looked for in buckets: hubs of fans.
 constexpr std::size_t MOST_CARRIER_PAIRS = 256;
+/// Angle [rad] up to which two contacts have one direction: far above what rounding does to it, far below an angle between faces.
+constexpr double SAME_DIRECTION = 0.1;
 /// Polygons of more pieces get a grid of them.
 constexpr std::size_t PIECES_WITHOUT_GRID = 8;
 /// Relative difference within which two pieces are equally near to a centroid: rounding must not choose the name of a
@@ -261,7 +263,7 @@ class Joining {
   /// nut the two places meet.
   bool have_one_direction(const Contact& a, const Contact& b) const {
     const Vec3 difference = a.distance * a.direction - b.distance * b.direction;
-    return difference.norm() <= granted(a, b) + 2.0 * tolerance_.largest_tilt * a.distance;
+    return difference.norm() <= granted(a, b) + SAME_DIRECTION * a.distance;
   }
 
   /// Whether the places of two contacts come within the tolerance of each other.
