@@ -113,6 +113,7 @@ TEST(RegionShape, OutlinesAreTheTrianglesTogether) {
         box.add(middle);
         shape->triangle_grid.for_each_near(box, 0.0, [&](std::int32_t k) {
           found += regions.region_triangles[region][static_cast<std::size_t>(k)] == t ? 1 : 0;
+          return true;
         });
         EXPECT_EQ(found, 1);
       }

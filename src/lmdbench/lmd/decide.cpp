@@ -113,9 +113,9 @@ class Decision {
     const double h0 = height_to(plane, n, line.begin), h1 = height_to(plane, n, line.at(1.0));
     if (std::max(h0, h1) < -tolerance_.rounding || std::min(h0, h1) > tolerance_.reach) return;
     if (!chain_admits(of_chain, chain, n, along_normal())) return;
-    const PlanarFrame frame(plane.point, n);
-    for (const SegmentPart& part :
-         parts_over_region(line.begin, line.at(1.0), of_region, region, frame, tolerance_.rounding)) {
+    const Vec3 foot0 = of_region.point_to_surface(line.begin + h0 * n),
+               foot1 = of_region.point_to_surface(line.at(1.0) + h1 * n);
+    for (const SegmentPart& part : parts_over_region(foot0, foot1, of_region, region, tolerance_.rounding)) {
       const double begin = h0 + part.begin * (h1 - h0), end = h0 + part.end * (h1 - h0);
       if (std::abs(end - begin) > tolerance_.known || std::max(begin, end) < -tolerance_.rounding ||
           std::min(begin, end) > tolerance_.reach)

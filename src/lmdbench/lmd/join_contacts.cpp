@@ -6,6 +6,7 @@
 #include <lmdbench/lmd/overlap.h>
 
 #include <Eigen/Geometry>
+#include <boost/pending/disjoint_sets.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -52,7 +53,7 @@ struct OnCarriers {
   auto operator<=>(const OnCarriers&) const = default;
 };
 
-bool intersect(const std::vector<std::int32_t>& a, const std::vector<std::int32_t>& b) {
+bool intersect(std::span<const std::int32_t> a, std::span<const std::int32_t> b) {
   auto x = a.begin(), y = b.begin();
   while (x != a.end() && y != b.end()) {
     if (*x == *y) return true;
@@ -63,6 +64,13 @@ bool intersect(const std::vector<std::int32_t>& a, const std::vector<std::int32_
   }
   return false;
 }
+
+/// Carriers of contacts, row after row in the order in which they were asked for.
+struct Carriers {
+  std::vector<std::int32_t> items;
+  std::vector<std::pair<std::size_t, std::size_t>> rows;  ///< First and count, a contact.
+};
+constexpr std::size_t NOT_KNOWN = std::numeric_limits<std::size_t>::max();
 
 class Joining {
  public:
@@ -85,10 +93,9 @@ class Joining {
         if (contact.dimension == 0) report(contact, lmds);
       return;
     }
-    parents_.resize(contacts_.size());
-    std::iota(parents_.begin(), parents_.end(), std::size_t{0});
-    carriers_moving_.resize(contacts_.size());
-    carriers_fixed_.resize(contacts_.size());
+    sets_ = boost::disjoint_sets_with_storage<>(contacts_.size());
+    for (Carriers* carriers : {&carriers_moving_, &carriers_fixed_})
+      carriers->rows.assign(contacts_.size(), {NOT_KNOWN, 0});
     grids_.resize(set_.frames.size());
     join_what_meets();
     join_over_level_ways();
@@ -159,19 +166,27 @@ class Joining {
     return tolerance_.same_distance(std::min(a.distance, b.distance)) + extended * tolerance_.known;
   }
 
-  const std::vector<std::int32_t>& carriers(std::size_t i, bool of_moving) {
-    std::optional<std::vector<std::int32_t>>& own = (of_moving ? carriers_moving_ : carriers_fixed_)[i];
-    if (!own) {
-      own.emplace();
+  /// What a contact lies on, looked up when it is first asked for. Valid until the next contact is.
+  std::span<const std::int32_t> carriers(std::size_t i, bool of_moving) {
+    Carriers& own = of_moving ? carriers_moving_ : carriers_fixed_;
+    auto& [first, count] = own.rows[i];
+    if (first == NOT_KNOWN) {
+      first = own.items.size();
       const ShapeSide& side = of_moving ? pair_.moving : pair_.fixed;
-      side.shape.append_carriers(side.surface, of_moving ? contacts_[i].moving : contacts_[i].fixed, *own);
+      side.shape.append_carriers(side.surface, of_moving ? contacts_[i].moving : contacts_[i].fixed,
+                                 own.items);
+      count = own.items.size() - first;
     }
-    return *own;
+    return std::span(own.items).subspan(first, count);
   }
 
   bool lie_on_one_pair(std::size_t i, std::size_t j) {
-    return intersect(carriers(i, true), carriers(j, true)) &&
-           intersect(carriers(i, false), carriers(j, false));
+    const auto share_one = [&](bool of_moving) {
+      carriers(i, of_moving);
+      const auto of_j = carriers(j, of_moving);
+      return intersect(carriers(i, of_moving), of_j);
+    };
+    return share_one(true) && share_one(false);
   }
 
   /// Whether two features are the same or their closures share a chain or corner.
@@ -197,15 +212,6 @@ class Joining {
   }
 
   // --- joining
-
-  std::size_t root_of(std::size_t i) {
-    while (parents_[i] != i) i = parents_[i] = parents_[parents_[i]];
-    return i;
-  }
-  void join(std::size_t i, std::size_t j) {
-    const std::size_t a = root_of(i), b = root_of(j);
-    parents_[std::max(a, b)] = std::min(a, b);
-  }
 
   Eigen::AlignedBox3d box_of(const Contact& contact, double reach) const {
     Eigen::AlignedBox3d box;
@@ -242,8 +248,9 @@ class Joining {
         if (!entries[o].box.intersects(entries[k].box)) continue;
         const std::size_t i = entries[o].contact, j = entries[k].contact;
         const Contact &a = contacts_[i], &b = contacts_[j];
-        if (root_of(i) == root_of(j) || std::abs(a.distance - b.distance) > granted(a, b)) continue;
-        if (are_one_place(i, j)) join(i, j);
+        if (sets_.find_set(i) == sets_.find_set(j) || std::abs(a.distance - b.distance) > granted(a, b))
+          continue;
+        if (are_one_place(i, j)) sets_.union_set(i, j);
       }
       open.push_back(k);
     }
@@ -316,10 +323,8 @@ class Joining {
       for (const ConvexPolygon& piece : pieces) boxes.push_back(piece.box());
       grid.emplace(boxes);
     }
-    bool found = false;
-    grid->for_each_near(box, reach,
-                        [&](std::int32_t i) { found = found || fits(pieces[static_cast<std::size_t>(i)]); });
-    return found;
+    return !grid->for_each_near(box, reach,
+                                [&](std::int32_t i) { return !fits(pieces[static_cast<std::size_t>(i)]); });
   }
 
   /// Joins points and segments apart from each other between which the distance stays the same: next to touch, where the ends of
@@ -328,7 +333,7 @@ class Joining {
     std::vector<OnCarriers> entries;
     for (const std::size_t i : company_) {
       if (contacts_[i].dimension == 2) continue;
-      const auto &of_moving = carriers(i, true), &of_fixed = carriers(i, false);
+      const auto of_moving = carriers(i, true), of_fixed = carriers(i, false);
       if (of_moving.size() * of_fixed.size() > MOST_CARRIER_PAIRS) continue;
       for (const std::int32_t f : of_moving)
         for (const std::int32_t g : of_fixed) entries.push_back({f, g, i});
@@ -348,7 +353,7 @@ class Joining {
   /// only the others look for a way.
   void join_in_bucket(std::span<const OnCarriers> bucket) {
     std::vector<std::size_t> roots;
-    for (const OnCarriers& entry : bucket) roots.push_back(root_of(entry.contact));
+    for (const OnCarriers& entry : bucket) roots.push_back(sets_.find_set(entry.contact));
     std::vector<std::size_t> sorted = roots;
     std::ranges::sort(sorted);
     std::size_t most = sorted.front(), count = 0;
@@ -364,9 +369,10 @@ class Joining {
       const std::size_t i = bucket[k].contact;
       for (const OnCarriers& other : bucket) {
         const Contact &a = contacts_[i], &b = contacts_[other.contact];
-        if (root_of(i) == root_of(other.contact) || std::abs(a.distance - b.distance) > granted(a, b))
+        if (sets_.find_set(i) == sets_.find_set(other.contact) ||
+            std::abs(a.distance - b.distance) > granted(a, b))
           continue;
-        if (is_level_way(bucket.front(), a, b)) join(i, other.contact);
+        if (is_level_way(bucket.front(), a, b)) sets_.union_set(i, other.contact);
       }
     }
   }
@@ -390,9 +396,8 @@ class Joining {
     // Triangles, chains and convex faces are convex.
     const RegionShape* shape = carrier < 0 ? nullptr : side.shape.shapes.of_region(carrier);
     if (shape == nullptr || shape->pieces.size() == 1) return true;
-    const Plane plane = side.plane(carrier);
-    const auto parts = parts_over_region(begin, end, side, carrier, PlanarFrame(plane.point, plane.normal),
-                                         tolerance_.known);
+    const auto parts = parts_over_region(side.point_to_surface(begin), side.point_to_surface(end), side,
+                                         carrier, tolerance_.known);
     double covered = 0.0;
     for (const SegmentPart& part : parts) covered += part.end - part.begin;
     return (1.0 - covered) * (end - begin).norm() <= 2.0 * tolerance_.known;
@@ -403,12 +408,11 @@ class Joining {
   void report_all(LmdSet& lmds) {
     std::vector<std::size_t> order(contacts_.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
-    for (std::size_t i = 0; i < order.size(); ++i) parents_[i] = root_of(i);
-    std::stable_sort(order.begin(), order.end(),
-                     [&](std::size_t a, std::size_t b) { return parents_[a] < parents_[b]; });
+    const auto set_of = [&](std::size_t i) { return sets_.find_set(i); };
+    std::ranges::stable_sort(order, {}, set_of);
     for (std::size_t begin = 0; begin < order.size();) {
       std::size_t end = begin;
-      while (end < order.size() && parents_[order[end]] == parents_[order[begin]]) ++end;
+      while (end < order.size() && set_of(order[end]) == set_of(order[begin])) ++end;
       report_set(std::span(order).subspan(begin, end - begin), lmds);
       begin = end;
     }
@@ -602,9 +606,10 @@ class Joining {
   ContactSet& set_;
   std::vector<Contact>& contacts_;
   double last_granted_ = 0.0;
-  std::vector<std::size_t> company_, parents_;
+  std::vector<std::size_t> company_;
+  boost::disjoint_sets_with_storage<> sets_;
   std::vector<std::optional<BoxGrid>> grids_;  ///< Of the polygons of many pieces, one a frame.
-  std::vector<std::optional<std::vector<std::int32_t>>> carriers_moving_, carriers_fixed_;
+  Carriers carriers_moving_, carriers_fixed_;
 };
 
 }  // namespace

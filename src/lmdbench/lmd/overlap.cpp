@@ -50,31 +50,16 @@ class PlacedRegion {
     return placed;
   }
 
-  /// Calls visit(piece) for the pieces near some points.
-  template <class Points>
-  void find_near(const Points& points, double reach, std::vector<std::int32_t>& near) const {
-    near.clear();
-    if (shape_ == nullptr) {
-      near.push_back(0);
-      return;
-    }
+  /// Indices of the pieces near some points.
+  std::vector<std::int32_t> pieces_near(std::span<const PolygonSide> outline, double reach) const {
     Box2 box;
-    for (const Vec2& x : points) box.add(turn_back_ * (x - origin_));
-    shape_->piece_grid.for_each_near(box, reach, [&](std::int32_t index) { near.push_back(index); });
-    std::ranges::sort(near);
-    near.erase(std::unique(near.begin(), near.end()), near.end());
-  }
-
-  void find_near_segment(const Vec2& a, const Vec2& b, double reach, std::vector<std::int32_t>& near) const {
-    near.clear();
-    if (shape_ == nullptr) {
-      near.push_back(0);
-      return;
-    }
-    shape_->piece_grid.for_each_near(turn_back_ * (a - origin_), turn_back_ * (b - origin_), reach,
-                                     [&](std::int32_t index) { near.push_back(index); });
-    std::ranges::sort(near);
-    near.erase(std::unique(near.begin(), near.end()), near.end());
+    for (const PolygonSide& side : outline) box.add(turn_back_ * (side.from - origin_));
+    std::vector<std::int32_t> near;
+    shape_->piece_grid.for_each_near(box, reach, [&](std::int32_t index) {
+      near.push_back(index);
+      return true;
+    });
+    return near;
   }
 
   /// Appends the sides of the border.
@@ -112,10 +97,7 @@ std::vector<OverlapPart> overlap_of_regions(const ShapeSide& moving, std::int32_
   if (many.size() <= FEW_PIECES) {
     many.append_sides(of_many);
   } else {
-    std::vector<Vec2> corners;
-    for (const PolygonSide& side : of_few) corners.push_back(side.from);
-    std::vector<std::int32_t> near;
-    many.find_near(corners, rounding, near);
+    const std::vector<std::int32_t> near = many.pieces_near(of_few, rounding);
     // All that is near is more than the border.
     if (2 * near.size() > many.size())
       many.append_sides(of_many);
@@ -155,44 +137,57 @@ PlanarFrame frame_of_overlap(const ShapeSide& moving, std::int32_t region_moving
   return frame;
 }
 
-std::vector<SegmentPart> parts_over_region(const Vec3& begin, const Vec3& end, const ShapeSide& side,
-                                           std::int32_t region, const PlanarFrame& frame_W, double rounding) {
-  const PlacedRegion placed(side, region, frame_W);
-  const Vec2 a = frame_W.flat(begin), b = frame_W.flat(end);
-  const double length = (end - begin).norm();
-  std::vector<std::int32_t> near;
-  placed.find_near_segment(a, b, rounding, near);
+std::vector<SegmentPart> parts_over_region(const Vec3& begin_S, const Vec3& end_S, const ShapeSide& side,
+                                           std::int32_t region, double rounding) {
+  const RegionShape* shape = side.shape.shapes.of_region(region);
+  const double length = (end_S - begin_S).norm(), spare = SIDE_ROUNDING * rounding;
   std::vector<SegmentPart> parts;
-  for (const std::int32_t index : near) {
-    const SegmentPart part =
-        placed.piece(static_cast<std::size_t>(index)).part_of(a, b, SIDE_ROUNDING * rounding);
+  const auto add = [&](const SegmentPart& part) {
     if (part.end > part.begin) parts.push_back(part);
+  };
+  if (shape == nullptr) {
+    const Plane& plane = side.shape.regions.planes[static_cast<std::size_t>(region)];
+    const PlanarFrame frame(plane.point, plane.normal);
+    add(ConvexPolygon(frame, side.surface.mesh.triangle(side.shape.lead_of_region(region)))
+            .part_of(frame.flat(begin_S), frame.flat(end_S), spare));
+  } else {
+    const Vec2 a = shape->frame.flat(begin_S), b = shape->frame.flat(end_S);
+    shape->piece_grid.for_each_near(a, b, rounding, [&](std::int32_t index) {
+      add(shape->pieces[static_cast<std::size_t>(index)].part_of(a, b, spare));
+    });
   }
-  std::ranges::sort(parts, [](const SegmentPart& x, const SegmentPart& y) { return x.begin < y.begin; });
-  std::vector<SegmentPart> joined;
-  for (const SegmentPart& part : parts) {
-    if (!joined.empty() && (part.begin - joined.back().end) * length <= rounding)
-      joined.back().end = std::max(joined.back().end, part.end);
+  std::ranges::sort(parts, {}, &SegmentPart::begin);
+  // A piece may have been met twice.
+  std::size_t count = 0;
+  for (const SegmentPart part : parts) {
+    if (count > 0 && (part.begin - parts[count - 1].end) * length <= rounding)
+      parts[count - 1].end = std::max(parts[count - 1].end, part.end);
     else
-      joined.push_back(part);
+      parts[count++] = part;
   }
-  std::erase_if(joined,
-                [&](const SegmentPart& part) { return (part.end - part.begin) * length <= rounding; });
-  return joined;
+  parts.resize(count);
+  std::erase_if(parts, [&](const SegmentPart& part) { return (part.end - part.begin) * length <= rounding; });
+  return parts;
 }
 
 bool region_holds(const ShapeSide& side, std::int32_t region, const Vec3& p_S, double reach) {
-  const auto is_near = [&](std::int32_t t) {
-    return (point_triangle_distance(p_S, side.surface.mesh.triangle(t)).point - p_S).squaredNorm() <=
-           reach * reach;
+  const Vec3& n = side.shape.regions.planes[static_cast<std::size_t>(region)].normal;
+  const auto is_near = [&](std::int32_t face) {
+    const Triangle t = side.surface.mesh.triangle(face);
+    // Beyond a side: nearly all that are asked are.
+    if ((t[1] - t[0]).cross(t[2] - t[0]).dot(n) > 0.0)
+      for (std::size_t k = 0; k < 3; ++k) {
+        const Vec3 along = t[(k + 1) % 3] - t[k];
+        const double beyond = along.cross(t[k] - p_S).dot(n);
+        if (beyond > 0.0 && beyond * beyond > reach * reach * along.squaredNorm()) return false;
+      }
+    return (point_triangle_distance(p_S, t).point - p_S).squaredNorm() <= reach * reach;
   };
   const RegionShape* shape = side.shape.shapes.of_region(region);
   if (shape == nullptr) return is_near(side.shape.lead_of_region(region));
   Box2 box;
   box.add(shape->frame.flat(p_S));
-  bool holds = false;
-  side.shape.for_each_face_near(region, box, reach, [&](std::int32_t t) { holds = holds || is_near(t); });
-  return holds;
+  return !side.shape.for_each_face_near(region, box, reach, [&](std::int32_t t) { return !is_near(t); });
 }
 
 }  // namespace lmdbench

@@ -31,11 +31,11 @@ std::vector<OverlapPart> overlap_of_regions(const ShapeSide& moving, std::int32_
                                             const ShapeSide& fixed, std::int32_t region_fixed,
                                             const PlanarFrame& frame_W, double rounding);
 
-/// Parts of a segment of the world that lie in a region, seen along the normal of `frame_W`, by parameters from 0 at
-/// its first end to 1.
+/// Parts of a segment in a region's plane that lie in the region, by parameters from 0 at its first end to 1.
+/// @param begin_S, end_S  frame of the region's mesh
 /// @param rounding  parts that are no longer are none; parts that come this near are one [m]
-std::vector<SegmentPart> parts_over_region(const Vec3& begin, const Vec3& end, const ShapeSide& side,
-                                           std::int32_t region, const PlanarFrame& frame_W, double rounding);
+std::vector<SegmentPart> parts_over_region(const Vec3& begin_S, const Vec3& end_S, const ShapeSide& side,
+                                           std::int32_t region, double rounding);
 
 /// Whether a point of a region's plane lies in the region, or beside it by no more than `reach` [m].
 /// @param p_S  in the mesh's frame

@@ -3,23 +3,24 @@
 #include <lmdbench/mesh/box_grid.h>
 
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 namespace lmdbench {
 
-BoxGrid::BoxGrid(std::span<const Box2> boxes) {
-  if (boxes.empty()) {
+BoxGrid::BoxGrid(std::vector<Box2> boxes) : boxes_(std::move(boxes)) {
+  if (boxes_.empty()) {
     // One empty cell, for a region too narrow to have pieces.
     bounds_.add(Vec2::Zero());
     cells_ = CsrRows({0, 0}, {});
     return;
   }
-  for (const Box2& box : boxes) {
+  for (const Box2& box : boxes_) {
     bounds_.add(box.low);
     bounds_.add(box.high);
   }
   const Vec2 size = bounds_.high - bounds_.low;
-  const auto count = static_cast<double>(boxes.size());
+  const auto count = static_cast<double>(boxes_.size());
   const double spacing = std::sqrt(std::max(1e-300, size[0] * size[1]) / count);
   const auto cells_of = [&](double length) {
     return static_cast<int>(std::clamp(std::ceil(length / spacing), 1.0, count));
@@ -28,9 +29,9 @@ BoxGrid::BoxGrid(std::span<const Box2> boxes) {
   rows_ = cells_of(size[1]);
   cells_per_metre_ = Vec2(size[0] > 0.0 ? columns_ / size[0] : 0.0, size[1] > 0.0 ? rows_ / size[1] : 0.0);
   std::vector<std::pair<std::int32_t, std::int32_t>> pairs;
-  for (std::size_t i = 0; i < boxes.size(); ++i) {
-    const auto [x0, y0] = cell_of(boxes[i].low);
-    const auto [x1, y1] = cell_of(boxes[i].high);
+  for (std::size_t i = 0; i < boxes_.size(); ++i) {
+    const auto [x0, y0] = cell_of(boxes_[i].low);
+    const auto [x1, y1] = cell_of(boxes_[i].high);
     for (int y = y0; y <= y1; ++y)
       for (int x = x0; x <= x1; ++x) pairs.emplace_back(y * columns_ + x, static_cast<std::int32_t>(i));
   }

@@ -7,31 +7,41 @@
 
 #include <algorithm>
 #include <cmath>
-#include <span>
 #include <utility>
+#include <vector>
 
 namespace lmdbench {
 
 /// Uniform grid over boxes of a plane, about one a cell: lists those near a box or near a segment.
 class BoxGrid {
  public:
-  BoxGrid() : BoxGrid(std::span<const Box2>()) {}
-  explicit BoxGrid(std::span<const Box2> boxes);
+  BoxGrid() : BoxGrid(std::vector<Box2>()) {}
+  explicit BoxGrid(std::vector<Box2> boxes);
 
   const Vec2& low() const { return bounds_.low; }
   const Vec2& high() const { return bounds_.high; }
 
-  /// Calls visit(index) for every box that comes within `reach` of a box; for some more, and for some more than once.
+  /// Calls visit(index) once for every box that comes within `reach` of a box, until it returns false.
+  /// @return whether visit never returned false
   template <class Visit>
-  void for_each_near(const Box2& box, double reach, Visit&& visit) const {
+  bool for_each_near(const Box2& box, double reach, Visit&& visit) const {
     const auto [x0, y0] = cell_of(box.low - Vec2::Constant(reach));
     const auto [x1, y1] = cell_of(box.high + Vec2::Constant(reach));
     for (int y = y0; y <= y1; ++y)
       for (int x = x0; x <= x1; ++x)
-        for (const std::int32_t index : cells_[y * columns_ + x]) visit(index);
+        for (const std::int32_t index : cells_[y * columns_ + x]) {
+          const Box2& own = boxes_[static_cast<std::size_t>(index)];
+          if (!own.comes_within(box, reach)) continue;
+          // Of the cells that it shares with the query, the first.
+          const auto [first_x, first_y] = cell_of(own.low);
+          if (x != std::max(x0, first_x) || y != std::max(y0, first_y)) continue;
+          if (!visit(index)) return false;
+        }
+    return true;
   }
 
-  /// The same for the boxes within `reach` of a segment: row by row, only the cells that it passes.
+  /// Calls visit(index) for every box within `reach` of a segment, row by row, only in the cells that it passes; for some more,
+  /// and for some more than once.
   template <class Visit>
   void for_each_near(const Vec2& a, const Vec2& b, double reach, Visit&& visit) const {
     Box2 all;
@@ -56,7 +66,8 @@ class BoxGrid {
       const int left = cell_of(part.low - Vec2::Constant(reach)).first;
       const int right = cell_of(part.high + Vec2::Constant(reach)).first;
       for (int x = left; x <= right; ++x)
-        for (const std::int32_t index : cells_[y * columns_ + x]) visit(index);
+        for (const std::int32_t index : cells_[y * columns_ + x])
+          if (boxes_[static_cast<std::size_t>(index)].comes_within(part, reach)) visit(index);
     }
   }
 
@@ -68,6 +79,7 @@ class BoxGrid {
             static_cast<int>(std::clamp(at[1], 0.0, rows_ - 1.0))};
   }
 
+  std::vector<Box2> boxes_;
   Box2 bounds_;
   Vec2 cells_per_metre_ = Vec2::Zero();
   int columns_ = 1, rows_ = 1;

@@ -2,12 +2,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/mesh/polygon_sweep.h>
 
+#include <boost/pending/disjoint_sets.hpp>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
 #include <iterator>
 #include <utility>
+#include <vector>
 
 namespace lmdbench {
 
@@ -146,10 +149,10 @@ class Sweep {
                     right.slope,
                     left_top[0],
                     right_top[0],
-                    new_part()};
+                    part_count_++};
     if (!open_.empty() &&
         (left_bottom[0] - last_right_bottom_ <= gap || left_top[0] - open_.back().right_x <= gap))
-      join(piece.part, open_.back().part);
+      meetings_.emplace_back(piece.part, open_.back().part);
     last_right_bottom_ = right_bottom[0];
     while (first_before_ < before_.size() && before_[first_before_].right_x < left_bottom[0] - gap)
       ++first_before_;
@@ -157,7 +160,7 @@ class Sweep {
     for (std::size_t k = first_before_; k < before_.size() && before_[k].left_x <= right_bottom[0] + gap;
          ++k) {
       OpenPiece& below = before_[k];
-      join(piece.part, below.part);
+      meetings_.emplace_back(piece.part, below.part);
       const bool goes_on = !has_grown && !below.left.empty() &&
                            std::abs(below.left_x - left_bottom[0]) <= gap &&
                            std::abs(below.right_x - right_bottom[0]) <= gap &&
@@ -200,25 +203,14 @@ class Sweep {
     part_of_piece_.push_back(piece.part);
   }
 
-  std::size_t new_part() {
-    parts_.push_back(parts_.size());
-    return parts_.back();
-  }
-  std::size_t root_of(std::size_t part) {
-    while (parts_[part] != part) part = parts_[part] = parts_[parts_[part]];
-    return part;
-  }
-  void join(std::size_t one, std::size_t other) {
-    const std::size_t a = root_of(one), b = root_of(other);
-    parts_[std::max(a, b)] = std::min(a, b);
-  }
-
   std::vector<SharedPart> grouped() {
     std::vector<SharedPart> result;
-    std::vector<std::size_t> place(parts_.size(), parts_.size());
+    boost::disjoint_sets_with_storage<> parts(part_count_);
+    for (const auto& [one, other] : meetings_) parts.union_set(one, other);
+    std::vector<std::size_t> place(part_count_, part_count_);
     for (std::size_t i = 0; i < pieces_.size(); ++i) {
-      std::size_t& at = place[root_of(part_of_piece_[i])];
-      if (at == parts_.size()) {
+      std::size_t& at = place[parts.find_set(part_of_piece_[i])];
+      if (at == part_count_) {
         at = result.size();
         result.emplace_back();
       }
@@ -236,7 +228,8 @@ class Sweep {
   double last_right_bottom_ = 0.0;        ///< Of the last trapezoid of the row.
   std::vector<ConvexPolygon> pieces_;
   std::vector<std::size_t> part_of_piece_;
-  std::vector<std::size_t> parts_;  ///< Union-find.
+  std::size_t part_count_ = 0;                                 ///< One a trapezoid, until they are joined.
+  std::vector<std::pair<std::size_t, std::size_t>> meetings_;  ///< Of parts.
 };
 
 }  // namespace

@@ -68,9 +68,9 @@ RegionShape shape_of(const Surface& surface, const FlatRegions& regions, std::in
   shape.pieces = convex_pieces(shape.sides, tolerance);
   std::vector<Box2> piece_boxes;
   for (const ConvexPolygon& piece : shape.pieces) piece_boxes.push_back(piece.box());
-  shape.piece_grid = BoxGrid(piece_boxes);
+  shape.piece_grid = BoxGrid(std::move(piece_boxes));
 
-  shape.triangle_grid = BoxGrid(boxes);
+  shape.triangle_grid = BoxGrid(std::move(boxes));
   std::vector<Vec2> outline;
   for (const std::int32_t v : shape.corners) outline.push_back(shape.frame.flat(vertex(v)));
   shape.hull = convex_hull(std::move(outline));

@@ -234,8 +234,10 @@ std::int32_t ShapeComplex::face_at(const Surface& surface, std::int32_t region, 
   box.add(shape->frame.flat(p));
   std::int32_t first = -1;
   for_each_face_near(region, box, reach, [&](std::int32_t t) {
-    if (first >= 0 && t >= first) return;
-    if ((point_triangle_distance(p, surface.mesh.triangle(t)).point - p).norm() <= reach) first = t;
+    if ((first < 0 || t < first) &&
+        (point_triangle_distance(p, surface.mesh.triangle(t)).point - p).norm() <= reach)
+      first = t;
+    return true;
   });
   return first >= 0 ? first : lead_of_region(region);
 }

@@ -90,13 +90,14 @@ class ShapeComplex {
     return true;
   }
 
-  /// Calls visit(face) for the faces of a region near a box of its plane (RegionShape::frame), and some more; some more
-  /// than once. @pre the region has a shape
+  /// Calls visit(face) once for every face of a region whose box in the region's plane (RegionShape::frame) comes within
+  /// `reach` of a box, until it returns false. @pre the region has a shape
+  /// @return whether visit never returned false
   template <class Visit>
-  void for_each_face_near(std::int32_t region, const Box2& box, double reach, Visit&& visit) const {
+  bool for_each_face_near(std::int32_t region, const Box2& box, double reach, Visit&& visit) const {
     const auto faces = regions.region_triangles[region];
-    shapes.of_region(region)->triangle_grid.for_each_near(
-        box, reach, [&](std::int32_t k) { visit(faces[static_cast<std::size_t>(k)]); });
+    return shapes.of_region(region)->triangle_grid.for_each_near(
+        box, reach, [&](std::int32_t k) { return visit(faces[static_cast<std::size_t>(k)]); });
   }
   /// The face of a region that names what lies at a point of its plane: the first in the mesh's order that holds the point
   /// (NAMING_TOLERANCE), or the first of the region where none does.

@@ -50,20 +50,18 @@ ClearGap gap_to(const Plane& plane, const ShapeSide& side, const RegionShape& sh
   return least >= -greatest ? ClearGap{least, -plane.normal} : ClearGap{-greatest, plane.normal};
 }
 
-/// Gap of the bars that hold two regions, square to the longer one: walls of a peg and of its bore stand side by side, and a disc
-/// round a wall meets half of the others.
-ClearGap gap_of_bars(const ShapeSide& moving, const RegionShape& a, const ShapeSide& fixed,
-                     const RegionShape& b) {
-  const Vec3 centre = moving.is_moving ? moving.X_WS.point(a.bar_centre) : a.bar_centre;
-  const Vec3 half_a = moving.direction(a.bar_half), half_b = fixed.direction(b.bar_half);
-  const bool a_is_longer = half_a.squaredNorm() > half_b.squaredNorm();
-  const Vec3 &longer = a_is_longer ? half_a : half_b, &shorter = a_is_longer ? half_b : half_a;
-  const Vec3 between = b.bar_centre - centre;
+/// Gap of two bars, square to the longer one: walls of a peg and of its bore stand side by side, and a disc round a wall meets half
+/// of the others.
+template <class Bar>
+ClearGap gap_of_bars(const Bar& a, const Bar& b) {
+  const bool a_is_longer = a.half.squaredNorm() > b.half.squaredNorm();
+  const Vec3 &longer = a_is_longer ? a.half : b.half, &shorter = a_is_longer ? b.half : a.half;
+  const Vec3 between = b.centre - a.centre;
   const Vec3 across = between - between.dot(longer) / longer.squaredNorm() * longer;
   const double distance = across.norm();
   if (!(distance > 0.0)) return {};
   const Vec3 axis = across / distance;
-  return {distance - std::abs(axis.dot(shorter)) - a.bar_radius - b.bar_radius, axis};
+  return {distance - std::abs(axis.dot(shorter)) - a.radius - b.radius, axis};
 }
 
 /// Largest gap between two regions along the products of a side of one and a side of the other: with their own planes the
@@ -143,13 +141,26 @@ struct TouchingPairs::Batch {
 std::span<const Certificate> TouchingPairs::decide(Frame& frame, std::span<const WidePair> pairs) {
   const ShapeSide &moving = frame.pair.moving, &fixed = frame.pair.fixed;
   const bool is_joined = moving.shape.is_joined || fixed.shape.is_joined;
+  const double margin = MARGIN_IN_TOUCHES * frame.touch;
+  if (is_joined && !pairs.empty()) {
+    place_bars(moving, bars_moving_);
+    place_bars(fixed, bars_fixed_);
+  }
   certificates_.assign(pairs.size(), Certificate{});
   Batch batch, not_crossing;
   for (std::size_t k = 0; k < pairs.size(); ++k) {
     const FeatureId on_moving = pairs[k].a.feature_id(), on_fixed = pairs[k].b.feature_id();
     ++frame.triangle_pairs;
-    if (is_joined &&
-        (moving.shape.is_lead_of_several(on_moving) || fixed.shape.is_lead_of_several(on_fixed))) {
+    const Bar* const bar_moving = bar_of(moving, bars_moving_, on_moving);
+    const Bar* const bar_fixed = bar_of(fixed, bars_fixed_, on_fixed);
+    if (bar_moving != nullptr && bar_fixed != nullptr) {
+      const ClearGap gap = gap_of_bars(*bar_moving, *bar_fixed);
+      if (gap.gap > margin) {
+        certificates_[k] = {gap.gap - margin, gap.axis};
+        continue;
+      }
+    }
+    if (bar_moving != nullptr || bar_fixed != nullptr) {
       certificates_[k] = decide_regions(frame, pairs[k]);
       continue;
     }
@@ -160,6 +171,23 @@ std::span<const Certificate> TouchingPairs::decide(Frame& frame, std::span<const
   decide_batch(frame, batch, not_crossing);
   decide_not_crossing(frame, not_crossing);
   return certificates_;
+}
+
+void TouchingPairs::place_bars(const ShapeSide& side, std::vector<Bar>& bars) const {
+  bars.clear();
+  for (const RegionShape& shape : side.shape.shapes.shapes)
+    bars.push_back({side.is_moving ? side.X_WS.point(shape.bar_centre) : shape.bar_centre,
+                    side.direction(shape.bar_half), shape.bar_radius});
+}
+
+/// Nothing for a region of one face.
+const TouchingPairs::Bar* TouchingPairs::bar_of(const ShapeSide& side, const std::vector<Bar>& bars,
+                                                const FeatureId& face) const {
+  if (bars.empty()) return nullptr;
+  const std::int32_t region = side.shape.region_of(face.index);
+  const std::int32_t shape =
+      region < 0 ? -1 : side.shape.shapes.shape_of_region[static_cast<std::size_t>(region)];
+  return shape < 0 ? nullptr : &bars[static_cast<std::size_t>(shape)];
 }
 
 void TouchingPairs::decide_batch(Frame& frame, Batch& batch, Batch& not_crossing) {
@@ -229,9 +257,10 @@ void TouchingPairs::find_faces_near(const ShapeSide& side, std::int32_t region,
   Box2 box;
   for (const Vec3& p : points_W) box.add(shape.frame.flat(side.point_to_surface(p)));
   faces.clear();
-  side.shape.for_each_face_near(region, box, reach, [&](std::int32_t t) { faces.push_back(t); });
-  std::sort(faces.begin(), faces.end());
-  faces.erase(std::unique(faces.begin(), faces.end()), faces.end());
+  side.shape.for_each_face_near(region, box, reach, [&](std::int32_t t) {
+    faces.push_back(t);
+    return true;
+  });
 }
 
 /// Of a pair of which at least one is a region of several faces: gaps between their outlines, then the triangles of the
@@ -247,9 +276,6 @@ Certificate TouchingPairs::decide_regions(Frame& frame, const WidePair& pair) {
   };
   const RegionShape* const shape_m = region_m >= 0 ? moving.shape.shapes.of_region(region_m) : nullptr;
   const RegionShape* const shape_f = region_f >= 0 ? fixed.shape.shapes.of_region(region_f) : nullptr;
-  if (shape_m != nullptr && shape_f != nullptr)
-    if (const ClearGap gap = gap_of_bars(moving, *shape_m, fixed, *shape_f); gap.gap > margin)
-      return clear(gap, 1.0);
   const auto collect = [](const ShapeSide& side, const FeatureId& lead, std::vector<std::int32_t>& corners,
                           std::vector<Vec3>& points) {
     corners.clear();

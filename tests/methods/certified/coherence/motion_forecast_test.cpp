@@ -29,6 +29,36 @@ RigidTransform frame_of_motion(int frame, double tremor, std::mt19937_64& random
   return RigidTransform(pose);
 }
 
+/// A walk of steps in random directions on top of a steady motion.
+double mean_drift_of_walk(double steady, double tremor, bool& goes_on) {
+  std::mt19937_64 random(5);
+  MotionForecast forecast;
+  RigidTransform X;
+  forecast.reset(X, 0.5, 0.1);
+  double drift = 0.0;
+  constexpr int FRAMES = 400;
+  for (int frame = 1; frame <= FRAMES; ++frame) {
+    X.translation += steady * Vec3::UnitX() + tremor * random_direction(random);
+    forecast.advance(X, 1e-12);
+    drift += forecast.drift() / FRAMES;
+  }
+  goes_on = !forecast.origin_velocity().isZero(0.0);
+  return drift;
+}
+
+TEST(MotionForecast, GoesOnWithAMotionAndStaysWhereOneTrembles) {
+  bool goes_on = false;
+  mean_drift_of_walk(1e-3, 0.0, goes_on);
+  EXPECT_TRUE(goes_on);
+  mean_drift_of_walk(1e-3, 1e-4, goes_on);
+  EXPECT_TRUE(goes_on);
+  // A walk of k steps comes sqrt(k) steps far, and one of them says nothing of the next.
+  const double drift = mean_drift_of_walk(0.0, 1e-3, goes_on);
+  EXPECT_FALSE(goes_on);
+  EXPECT_LT(drift, 1e-3);
+  EXPECT_GT(drift, 1e-4);
+}
+
 TEST(MotionForecast, NothingIsFartherFromItsForecastThanTheDeviation) {
   constexpr double RADIUS = 0.5, LEVER = 0.2, TINY = 1e-9;
   struct Plan {

@@ -18,6 +18,8 @@ constexpr double ROOM = 1.25;
 /// Share of what was learnt that is left after a frame: one bad forecast is not
 /// held against the next for long.
 constexpr double MEMORY = 0.9;
+/// The same of what epochs show of the motion's kind, an epoch.
+constexpr double EPOCH_MEMORY = 0.75;
 /// Largest norm of the rotation's change since an epoch's start. Between two frames of an epoch it is then at
 /// most twice that, for which the angle is the norm over sqrt(2) to within ANGLE_ROUNDING: the angle is 2
 /// asin(norm / sqrt(8)), and asin(x) <= 1.01 x for x <= 0.23.
@@ -49,6 +51,7 @@ void MotionForecast::reset(const RigidTransform& X_WH, double radius, double cut
   deviations_.fill(UNKNOWN);
   last_ = X_WH;
   motion_ = early_ = base_ = drift_ = 0.0;
+  deviation_going_on_ = deviation_staying_ = 0.0;
 }
 
 double MotionForecast::deviation_of(const Epoch& epoch, const RigidTransform& X_WH) const {
@@ -57,6 +60,17 @@ double MotionForecast::deviation_of(const Epoch& epoch, const RigidTransform& X_
   const double rest = (turned - tau * (epoch.turn + 0.5 * tau * epoch.curve)).norm();
   if (!(turned.norm() <= LARGEST_EPOCH_TURN)) return UNKNOWN;
   return (X_WH.translation - epoch.X_WH.translation - tau * epoch.velocity).norm() + rest * reach_;
+}
+
+void MotionForecast::judge_last_epoch(const RigidTransform& X_WH) {
+  Epoch staying;
+  staying.start = going_on_.start;
+  staying.X_WH = going_on_.X_WH;
+  const auto note = [&](double& faded, const Epoch& epoch) {
+    faded = EPOCH_MEMORY * faded + std::min(deviation_of(epoch, X_WH), reach_);
+  };
+  note(deviation_going_on_, going_on_);
+  note(deviation_staying_, staying);
 }
 
 void MotionForecast::start_epoch(const RigidTransform& X_WH) {
@@ -71,11 +85,18 @@ void MotionForecast::start_epoch(const RigidTransform& X_WH) {
   epoch.curve = last_turn * X_WH.rotation.transpose() * last_turn;
   // A difference that looks back lags half a frame.
   epoch.turn = last_turn + 0.5 * epoch.curve;
+  // Plans are no longer over a motion that trembles than over one that goes on.
+  const double speed = epoch.velocity.norm() + epoch.turn.norm() * radius_;
+  going_on_ = epoch;
+  if (deviation_staying_ < deviation_going_on_) {
+    epoch.velocity.setZero();
+    epoch.turn.setZero();
+    epoch.curve.setZero();
+  }
   // What was planned in the epoch that had this index cannot be judged any more.
   deviations_[epoch_] = UNKNOWN;
 
   const double turn = epoch.turn.norm(), curve = epoch.curve.norm();
-  const double speed = epoch.velocity.norm() + turn * radius_;
   // With half of LARGEST_EPOCH_TURN for what deviates.
   longest_plan_ =
       std::min({static_cast<double>(LONGEST_PLAN), PLAN_CUTOFFS * cutoff_ / std::max(speed, LEAST),
@@ -108,7 +129,10 @@ void MotionForecast::advance(const RigidTransform& X_WH, double rounding) {
   // Plans start with what their epoch has deviated by, and count it twice.
   base_ = 2.0 * early_;
   motion_ = (X_WH.translation - last_.translation).norm() + (X_WH.rotation - last_.rotation).norm() * radius_;
-  if (epoch_count_ == 0 || frame_ - epochs_[epoch_].start >= EPOCH_FRAMES) start_epoch(X_WH);
+  if (epoch_count_ == 0 || frame_ - epochs_[epoch_].start >= EPOCH_FRAMES) {
+    if (epoch_count_ > 0) judge_last_epoch(X_WH);
+    start_epoch(X_WH);
+  }
   last_ = X_WH;
 }
 

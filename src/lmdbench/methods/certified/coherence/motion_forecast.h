@@ -18,7 +18,8 @@ namespace lmdbench {
 ///
 ///   tau (W c + v) + tau^2 / 2 Q c
 ///
-/// with v the last frame's motion of the origin, and W and Q those of a steady turn. The deviation
+/// with v the last frame's motion of the origin, and W and Q those of a steady turn; or, where the last epochs show a motion that
+/// trembles about a place rather than goes on, v = W = Q = 0. The deviation
 ///
 ///   |o_t - o_e - tau v| + |R_t - R_e - tau W - tau^2 / 2 Q| * reach        (Frobenius norm)
 ///
@@ -80,6 +81,8 @@ class MotionForecast {
   };
 
   double deviation_of(const Epoch& epoch, const RigidTransform& X_WH) const;
+  /// Compares, at the end of an epoch, the motion that went on with the mesh that stayed where it was.
+  void judge_last_epoch(const RigidTransform& X_WH);
   void start_epoch(const RigidTransform& X_WH);
 
   double radius_ = 0.0, cutoff_ = 0.0, reach_ = 0.0;
@@ -87,6 +90,8 @@ class MotionForecast {
   std::size_t epoch_ = 0, epoch_count_ = 0;
   bool started_ = false;  ///< The epoch starts in this frame: its index stood for an older one before.
   std::array<Epoch, EPOCHS> epochs_;
+  Epoch going_on_;  ///< The last epoch with the motion that goes on, whatever was forecast.
+  double deviation_going_on_ = 0.0, deviation_staying_ = 0.0;  ///< Of the last epochs, fading [m].
   std::array<double, EPOCHS> deviations_{};
   RigidTransform last_;
   double motion_ = 0.0, creep_ = 0.0, spin_ = 0.0, longest_plan_ = 0.0, horizon_ = 0.0;
