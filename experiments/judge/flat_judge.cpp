@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace lmdbench::exact {
 namespace {
@@ -15,6 +16,8 @@ namespace {
 constexpr double TOLERANCE = 1e-9, CENTROID = 1e-9;
 /// A basin is left to tolerance when the climb out of it, or its distance from the cutoff, is within this factor of it.
 constexpr double MARGIN = 16.0;
+/// Distances of one plateau are equal to this part of them: they are exact, but for one root.
+constexpr double ROUNDING = 8.0 * std::numeric_limits<double>::epsilon();
 /// Sine below which an outer side is left to tolerance.
 constexpr double UNCERTAIN_SIDE = 1e-6;
 
@@ -85,8 +88,24 @@ FlatTruth::Claim FlatTruth::claim_of(const Basin& basin) const {
   }
   const bool near_the_cutoff = std::abs(basin.least - cutoff_) <= MARGIN * tolerance_;
   if (basin.least > cutoff_ && !near_the_cutoff) return Claim::NONE;
-  if (near_the_cutoff || basin.climb <= MARGIN * tolerance_) return std::min(claim, Claim::OPEN);
+  if (near_the_cutoff || basin.climb <= MARGIN * tolerance_ || !is_one_plateau(basin))
+    return std::min(claim, Claim::OPEN);
   return claim;
+}
+
+/// Whether a basin's lowest points are connected without any climb. Where borders pass each other by 1e-7 the climb from one part
+/// of an overlap to the next is 1e-12: whether the parts are one LMD or two is left to tolerance.
+bool FlatTruth::is_one_plateau(const Basin& basin) const {
+  const double highest = basin.least * (1.0 + ROUNDING);
+  const auto is_lowest = [&](std::size_t i) {
+    return (*pairs_)[i].distance <= highest && ((*pairs_)[i].critical || exactly_facing(*pairs_, i));
+  };
+  const auto first = std::find_if(basin.pairs.begin(), basin.pairs.end(), is_lowest);
+  if (first == basin.pairs.end()) return true;
+  const auto plateau = connected_to(*pairs_, *first, 0.0, highest);
+  return std::all_of(first, basin.pairs.end(), [&](std::size_t i) {
+    return !is_lowest(i) || std::binary_search(plateau.begin(), plateau.end(), i);
+  });
 }
 
 bool FlatTruth::holds(const std::vector<std::size_t>& pairs, const Lmd& lmd) const {
@@ -123,13 +142,16 @@ bool FlatTruth::is_local_minimum(const Lmd& lmd) const {
 }
 
 bool FlatTruth::is_level_place(const Lmd& lmd) const {
-  std::vector<bool> seen(pairs_->size(), false);
-  for (std::size_t i = 0; i < pairs_->size(); ++i) {
-    const double distance = (*pairs_)[i].distance;
-    if (seen[i] || std::abs(distance - lmd.distance) > tolerance_ || !exactly_facing(*pairs_, i)) continue;
-    const auto level = connected_to(*pairs_, i, distance, distance + tolerance_);
-    for (const std::size_t k : level) seen[k] = true;
-    if (at_centroid(contact_area(*pairs_, level), lmd)) return true;
+  // With what the tolerance calls level, and the parts of that between which it climbs.
+  for (const double climb : {tolerance_, ROUNDING * lmd.distance}) {
+    std::vector<bool> seen(pairs_->size(), false);
+    for (std::size_t i = 0; i < pairs_->size(); ++i) {
+      const double distance = (*pairs_)[i].distance;
+      if (seen[i] || std::abs(distance - lmd.distance) > tolerance_ || !exactly_facing(*pairs_, i)) continue;
+      const auto level = connected_to(*pairs_, i, distance * (1.0 - ROUNDING), distance + climb);
+      for (const std::size_t k : level) seen[k] = true;
+      if (at_centroid(contact_area(*pairs_, level), lmd)) return true;
+    }
   }
   return false;
 }

@@ -59,6 +59,7 @@ class FlatTruth {
     Claim claim = Claim::NONE;
   };
   Claim claim_of(const Basin& basin) const;
+  bool is_one_plateau(const Basin& basin) const;
   bool holds(const std::vector<std::size_t>& pairs, const Lmd& lmd) const;
   bool at_centroid(const ContactArea& area, const Lmd& lmd) const;
   bool is_local_minimum(const Lmd& lmd) const;

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/catalogue/shapes.h>
+#include <lmdbench/catalogue/sleeve.h>
 #include <lmdbench/lmd/decide.h>
 
 #include <gtest/gtest.h>
@@ -116,6 +117,43 @@ TEST(Decide, ACornerOverAFaceItsEdgeAndItsCorner) {
             expect(lower >= 0.0, lower < -unsure, "VV0");
             EXPECT_GE(kinds.size(), 1u) << "nothing is lost";
           }
+  }
+}
+
+/// Tetrahedron 1 high on its tip, which is at the origin and has nearly all directions that lead down in its cone.
+TriangleMesh needle() {
+  TriangleMesh mesh;
+  mesh.vertices = {{0, 0, 0}, {0.02, 0, 1}, {-0.01, 0.017, 1}, {-0.01, -0.017, 1}};
+  mesh.triangles = {{0, 2, 1}, {0, 3, 2}, {0, 1, 3}, {1, 2, 3}};
+  return mesh;
+}
+
+TEST(Decide, TheEndOfAHolesSideIsNoPlaceToStopAt) {
+  // A point beside a side of the hole whose foot on another side is that side's end: there the border turns inwards, and a way
+  // along it leads down to where the point is over it.
+  const TriangleMesh plate =
+      make_sleeve(polygon_outline(4, 1.0), polygon_outline(4, 0.25), {.height = 0.5, .around = 4});
+  for (const Pose& whole : {Pose{}, testing::pose_of_seed(5)}) {
+    ShapeScene scene(needle(), testing::placed(plate, whole));
+    std::vector<Vec3> hole;
+    for (const Vec3& v : plate.vertices)
+      if (v.z() > 0.0 && v.head<2>().norm() < 0.5) hole.push_back(v);
+    ASSERT_EQ(hole.size(), 4u);
+    std::ranges::sort(hole, {}, [](const Vec3& v) { return std::atan2(v.y(), v.x()); });
+    for (std::size_t k = 0; k < 4; ++k)
+      for (const double sign : {-1.0, 1.0}) {
+        const Vec3 end = hole[k], next = hole[sign > 0.0 ? (k + 1) % 4 : (k + 3) % 4];
+        const Vec3 p = end + 0.2 * (next - end) + 0.01 * Vec3::UnitZ();
+        const ContactSet set = scene.contacts(whole * moved(p.x(), p.y(), p.z()));
+        // Over the side that it stands above, and nowhere else near.
+        std::size_t near = 0;
+        for (const Contact& c : set.contacts) {
+          if (c.moving.kind != FeatureKind::VERTEX || c.distance > 0.2) continue;
+          ++near;
+          EXPECT_NEAR(c.distance, 0.01, 1e-12) << kind_of(c);
+        }
+        EXPECT_GE(near, 1u);
+      }
   }
 }
 

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/geometry/extent.h>
+#include <lmdbench/geometry/segment_distance.h>
 #include <lmdbench/lmd/decide.h>
 #include <lmdbench/lmd/overlap.h>
 #include <lmdbench/lmd/polar_condition.h>
@@ -74,7 +75,8 @@ class Decision {
     if (!(distance <= tolerance_.reach) || !(distance > 0.0)) return;
     const Vec3 u = d / distance;
     if (!corner_admits(of_corner, vertex, u, between_points(distance)) ||
-        !chain_admits(of_chain, chain, -u, between_points(distance)))
+        !chain_admits(of_chain, chain, -u, between_points(distance)) ||
+        end_leads_down(of_chain, chain, line, parameter, tolerance_.rounding, -u, distance))
       return;
     add_from(of_corner, {FeatureKind::VERTEX, vertex}, {FeatureKind::EDGE, chain}, p, q, u, distance);
   }
@@ -87,7 +89,10 @@ class Decision {
     if (!(height > -tolerance_.rounding) || height > tolerance_.reach) return;
     if (!corner_admits(of_corner, vertex, -plane.normal, along_normal())) return;
     const Vec3 q = p - height * plane.normal;
-    if (!region_holds(of_region, region, of_region.point_to_surface(q), tolerance_.rounding)) return;
+    const Vec3 q_S = of_region.point_to_surface(q);
+    if (!region_holds(of_region, region, q_S, tolerance_.rounding) ||
+        border_leads_down(of_region, region, q_S, plane.normal))
+      return;
     add_from(of_corner, {FeatureKind::VERTEX, vertex}, {FeatureKind::FACE, region}, p, q, -plane.normal,
              height);
   }
@@ -182,6 +187,46 @@ class Decision {
   }
   PolarSlack along_normal() const { return {HEIGHT_ROUNDINGS * tolerance_.rounding, 0.0}; }
 
+  /// What is clearly a way down, and no rounding or tilt that the tolerance explains.
+  PolarSlack way_down(double distance) const {
+    return {tolerance_.known,
+            tolerance_.largest_tilt + tolerance_.rounding / std::max(distance, tolerance_.rounding)};
+  }
+
+  /// Whether a point of a chain lies at an end of it, round which a way leads down: what closes the condition must not make a
+  /// minimum of the end of a slit.
+  /// @param spare  how far from the end is at the end [m]
+  /// @param u_W  from the chain to the other mesh
+  bool end_leads_down(const ShapeSide& side, std::int32_t chain, const Line& line, double parameter,
+                      double spare, const Vec3& u_W, double distance) const {
+    const auto& ends = side.shape.ends_of_chain(chain);
+    return (parameter * line.length <= spare && corner_leads_down(side, ends[0], u_W, way_down(distance))) ||
+           ((1.0 - parameter) * line.length <= spare &&
+            corner_leads_down(side, ends[1], u_W, way_down(distance)));
+  }
+
+  /// The same for a point on the border of a region, with the chains and corners there; along the region's normal.
+  bool border_leads_down(const ShapeSide& side, std::int32_t region, const Vec3& p_S, const Vec3& n_W) const {
+    const double reach = tolerance_.rounding;
+    const PolarSlack slack{tolerance_.known, tolerance_.largest_tilt};
+    return !for_each_face_at(side, region, p_S, reach, [&](std::int32_t face) {
+      const auto& edges = side.surface.adjacency.triangle_edges[static_cast<std::size_t>(face)];
+      const bool chain_does = std::ranges::any_of(edges, [&](std::int32_t e) {
+        const std::int32_t chain = side.shape.chain_of(e);
+        if (chain < 0) return false;
+        const auto& ends = side.surface.adjacency.edges[static_cast<std::size_t>(e)];
+        const Vec3 nearest =
+            point_segment_distance(p_S, {side.vertex_S(ends[0]), side.vertex_S(ends[1])}).point;
+        return (nearest - p_S).norm() <= reach && chain_leads_down(side, chain, n_W, slack);
+      });
+      const auto& corners = side.surface.mesh.triangles[static_cast<std::size_t>(face)];
+      return !chain_does && std::ranges::none_of(corners, [&](std::int32_t v) {
+        return side.shape.is_corner(v) && (side.vertex_S(v) - p_S).norm() <= reach &&
+               corner_leads_down(side, v, n_W, slack);
+      });
+    });
+  }
+
   /// Direction of contact of two regions: the middle of their normals where both meshes were rounded or neither was,
   /// else the normal of the one that was not.
   Vec3 direction_of(const Vec3& normal_moving, const Vec3& normal_fixed) const {
@@ -266,7 +311,10 @@ class Decision {
     const double distance = d.dot(u);
     const double unknown = tolerance_.rounding / (is_far ? length : sine * shortest / CROSSING_ROUNDING);
     const PolarSlack slack{HEIGHT_ROUNDINGS * tolerance_.rounding, std::min(LARGEST_CROSSING_SLACK, unknown)};
-    if (!chain_admits(moving_, c_moving, u, slack) || !chain_admits(fixed_, c_fixed, -u, slack)) return;
+    if (!chain_admits(moving_, c_moving, u, slack) || !chain_admits(fixed_, c_fixed, -u, slack) ||
+        end_leads_down(moving_, c_moving, a, s, spare, u, length) ||
+        end_leads_down(fixed_, c_fixed, b, t, spare, -u, length))
+      return;
     add_points({FeatureKind::EDGE, c_moving}, {FeatureKind::EDGE, c_fixed}, p, q, u, distance);
   }
 

@@ -170,24 +170,20 @@ std::vector<SegmentPart> parts_over_region(const Vec3& begin_S, const Vec3& end_
   return parts;
 }
 
+bool is_on_face(const ShapeSide& side, const Vec3& n_S, std::int32_t face, const Vec3& p_S, double reach) {
+  const Triangle t = side.surface.mesh.triangle(face);
+  // Beyond a side: nearly all that are asked are.
+  if ((t[1] - t[0]).cross(t[2] - t[0]).dot(n_S) > 0.0)
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Vec3 along = t[(k + 1) % 3] - t[k];
+      const double beyond = along.cross(t[k] - p_S).dot(n_S);
+      if (beyond > 0.0 && beyond * beyond > reach * reach * along.squaredNorm()) return false;
+    }
+  return (point_triangle_distance(p_S, t).point - p_S).squaredNorm() <= reach * reach;
+}
+
 bool region_holds(const ShapeSide& side, std::int32_t region, const Vec3& p_S, double reach) {
-  const Vec3& n = side.shape.regions.planes[static_cast<std::size_t>(region)].normal;
-  const auto is_near = [&](std::int32_t face) {
-    const Triangle t = side.surface.mesh.triangle(face);
-    // Beyond a side: nearly all that are asked are.
-    if ((t[1] - t[0]).cross(t[2] - t[0]).dot(n) > 0.0)
-      for (std::size_t k = 0; k < 3; ++k) {
-        const Vec3 along = t[(k + 1) % 3] - t[k];
-        const double beyond = along.cross(t[k] - p_S).dot(n);
-        if (beyond > 0.0 && beyond * beyond > reach * reach * along.squaredNorm()) return false;
-      }
-    return (point_triangle_distance(p_S, t).point - p_S).squaredNorm() <= reach * reach;
-  };
-  const RegionShape* shape = side.shape.shapes.of_region(region);
-  if (shape == nullptr) return is_near(side.shape.lead_of_region(region));
-  Box2 box;
-  box.add(shape->frame.flat(p_S));
-  return !side.shape.for_each_face_near(region, box, reach, [&](std::int32_t t) { return !is_near(t); });
+  return !for_each_face_at(side, region, p_S, reach, [](std::int32_t) { return false; });
 }
 
 }  // namespace lmdbench

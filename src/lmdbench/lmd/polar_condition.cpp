@@ -20,17 +20,26 @@ bool is_outer(const Surface& surface, const FeatureId& feature, const Vec3& u_S)
 }  // namespace
 
 bool corner_admits(const ShapeSide& side, std::int32_t vertex, const Vec3& u_W, const PolarSlack& slack) {
-  const Vec3 u_S = side.direction_to_surface(u_W);
-  return side.shape.for_each_corner_wing(side.surface, vertex, [&](const Vec3& wing) {
-    return admits_wing(u_S, wing, slack);
-  }) && is_outer(side.surface, {FeatureKind::VERTEX, vertex}, u_S);
+  return !corner_leads_down(side, vertex, u_W, slack) &&
+         is_outer(side.surface, {FeatureKind::VERTEX, vertex}, side.direction_to_surface(u_W));
 }
 
 bool chain_admits(const ShapeSide& side, std::int32_t chain, const Vec3& u_W, const PolarSlack& slack) {
+  return !chain_leads_down(side, chain, u_W, slack) &&
+         is_outer(side.surface, {FeatureKind::EDGE, side.shape.lead_of_chain(chain)},
+                  side.direction_to_surface(u_W));
+}
+
+bool corner_leads_down(const ShapeSide& side, std::int32_t vertex, const Vec3& u_W, const PolarSlack& slack) {
   const Vec3 u_S = side.direction_to_surface(u_W);
-  return side.shape.for_each_chain_wing(side.surface, chain, [&](const Vec3& wing) {
-    return admits_wing(u_S, wing, slack);
-  }) && is_outer(side.surface, {FeatureKind::EDGE, side.shape.lead_of_chain(chain)}, u_S);
+  return !side.shape.for_each_corner_wing(side.surface, vertex,
+                                          [&](const Vec3& wing) { return admits_wing(u_S, wing, slack); });
+}
+
+bool chain_leads_down(const ShapeSide& side, std::int32_t chain, const Vec3& u_W, const PolarSlack& slack) {
+  const Vec3 u_S = side.direction_to_surface(u_W);
+  return !side.shape.for_each_chain_wing(side.surface, chain,
+                                         [&](const Vec3& wing) { return admits_wing(u_S, wing, slack); });
 }
 
 }  // namespace lmdbench

@@ -20,4 +20,9 @@ bool corner_admits(const ShapeSide& side, std::int32_t vertex, const Vec3& u_W, 
 /// The same for a chain; u_W is square to it up to rounding.
 bool chain_admits(const ShapeSide& side, std::int32_t chain, const Vec3& u_W, const PolarSlack& slack);
 
+/// Whether a wing of a corner leads towards the other mesh: has more of the direction than the slack.
+bool corner_leads_down(const ShapeSide& side, std::int32_t vertex, const Vec3& u_W, const PolarSlack& slack);
+/// The same for a chain.
+bool chain_leads_down(const ShapeSide& side, std::int32_t chain, const Vec3& u_W, const PolarSlack& slack);
+
 }  // namespace lmdbench
