@@ -62,7 +62,12 @@ FlatTruth::FlatTruth(const Surface& moving, const Surface& fixed, const Pose& X_
       pairs_(std::make_unique<CellPairs>(moving_, fixed_, cutoff + 2.0 * MARGIN * tolerance_)) {
   for (std::size_t i = 0; i < pairs_->size(); ++i) touching_ = touching_ || (*pairs_)[i].distance == 0.0;
   if (touching_) return;
-  for (Basin& basin : find_basins(*pairs_, tolerance_, tolerance_ / MARGIN)) {
+  const double least_climb = tolerance_ / MARGIN;
+  small_climbs_ = find_basins(*pairs_, 0.0, std::numeric_limits<double>::min());
+  std::erase_if(small_climbs_, [&](const Basin& basin) {
+    return basin.climb <= ROUNDING * basin.least || basin.climb >= least_climb;
+  });
+  for (Basin& basin : find_basins(*pairs_, tolerance_, least_climb)) {
     Place place{std::move(basin), {}, Claim::NONE};
     place.claim = claim_of(place.basin);
     if (place.claim == Claim::NONE) continue;
@@ -88,23 +93,18 @@ FlatTruth::Claim FlatTruth::claim_of(const Basin& basin) const {
   }
   const bool near_the_cutoff = std::abs(basin.least - cutoff_) <= MARGIN * tolerance_;
   if (basin.least > cutoff_ && !near_the_cutoff) return Claim::NONE;
-  if (near_the_cutoff || basin.climb <= MARGIN * tolerance_ || !is_one_plateau(basin))
+  if (near_the_cutoff || basin.climb <= MARGIN * tolerance_ || !is_one_minimum(basin))
     return std::min(claim, Claim::OPEN);
   return claim;
 }
 
-/// Whether a basin's lowest points are connected without any climb. Where borders pass each other by 1e-7 the climb from one part
-/// of an overlap to the next is 1e-12: whether the parts are one LMD or two is left to tolerance.
-bool FlatTruth::is_one_plateau(const Basin& basin) const {
-  const double highest = basin.least * (1.0 + ROUNDING);
-  const auto is_lowest = [&](std::size_t i) {
-    return (*pairs_)[i].distance <= highest && ((*pairs_)[i].critical || exactly_facing(*pairs_, i));
-  };
-  const auto first = std::find_if(basin.pairs.begin(), basin.pairs.end(), is_lowest);
-  if (first == basin.pairs.end()) return true;
-  const auto plateau = connected_to(*pairs_, *first, 0.0, highest);
-  return std::all_of(first, basin.pairs.end(), [&](std::size_t i) {
-    return !is_lowest(i) || std::binary_search(plateau.begin(), plateau.end(), i);
+/// Whether a basin has one local minimum, be it a plateau. Where borders pass each other by 1e-7 the climb from one part of an
+/// overlap to the next is 1e-12: whether the parts are one LMD or two is left to tolerance.
+bool FlatTruth::is_one_minimum(const Basin& basin) const {
+  return std::ranges::none_of(small_climbs_, [&](const Basin& small) {
+    return std::ranges::any_of(small.pairs, [&](std::size_t i) {
+      return (*pairs_)[i].distance <= small.least && std::ranges::binary_search(basin.pairs, i);
+    });
   });
 }
 
@@ -173,8 +173,12 @@ FlatCounts FlatTruth::judge(const LmdSet& lmds, std::string& objections) const {
     std::size_t place = 0;
     while (place < places_.size() && !at_centroid(places_[place].area, lmd)) ++place;
     const bool centred = place < places_.size();
-    if (!centred) place = 0;
-    while (!centred && place < places_.size() && !holds(places_[place].basin.pairs, lmd)) ++place;
+    // A basin left by a small climb holds what is lower beyond it too.
+    for (std::size_t other = 0; !centred && other < places_.size(); ++other) {
+      const auto off = [&](std::size_t i) { return std::abs(places_[i].basin.least - lmd.distance); };
+      if ((place == places_.size() || off(other) < off(place)) && holds(places_[other].basin.pairs, lmd))
+        place = other;
+    }
     if (place < places_.size()) {
       ++held[place];
       const ContactArea& area = places_[place].area;

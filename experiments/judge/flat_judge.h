@@ -59,7 +59,7 @@ class FlatTruth {
     Claim claim = Claim::NONE;
   };
   Claim claim_of(const Basin& basin) const;
-  bool is_one_plateau(const Basin& basin) const;
+  bool is_one_minimum(const Basin& basin) const;
   bool holds(const std::vector<std::size_t>& pairs, const Lmd& lmd) const;
   bool at_centroid(const ContactArea& area, const Lmd& lmd) const;
   bool is_local_minimum(const Lmd& lmd) const;
@@ -69,6 +69,7 @@ class FlatTruth {
   double size_, tolerance_, cutoff_;
   std::unique_ptr<CellPairs> pairs_;
   bool touching_ = false;
+  std::vector<Basin> small_climbs_;  ///< Of less than the tolerance, and more than rounding.
   std::vector<Place> places_;
 };
 
