@@ -8,6 +8,7 @@ Beyond the paper: the true force beside both forces, and the share of true LMDs 
 medians over the repetitions without the warm-up."""
 
 import argparse
+import math
 from types import SimpleNamespace
 
 import numpy as np
@@ -31,9 +32,8 @@ NOTABLE_EXCESS = 1.5  # what exceeds the axis by less widens it instead
 SHORTEST_UPDATE_US = 0.1  # lower end of its axis: below lies the update of an empty set
 HAPTIC_BUDGET_US = 1000.0  # one frame at 1 kHz
 NOTE = {"fontsize": 6.2, "color": "#444444"}
-
-
 MOST_COLUMNS = 4
+LEGEND_LAYOUTS = ((7.0, 1), (5.5, 1), (5.5, 2), (4.5, 2))
 
 
 class Column:
@@ -56,7 +56,7 @@ class Column:
 
     def title(self):
         method = self.methods[0]
-        name = self.result.name + (f", {self.profile()}" if self.profile() else "")
+        name = style.shortened(self.result.name) + (f", {self.profile()}" if self.profile() else "")
         return f"{name}: cutoff {method.constant('cutoff_m') * 1e3:.3g} mm, $F_{{max}}$ {method.constant('maximum_force_n'):g} N"
 
 
@@ -94,6 +94,12 @@ def plot_force(axes, column):
     axes.yaxis.set_major_locator(MaxNLocator(4, steps=[1, 2, 2.5, 5, 10]))
 
 
+def count_ticks(highest):
+    """0, 1 and powers of ten; where no power of ten lies between 1 and the highest count, that count."""
+    decades = [10.0**power for power in range(math.floor(math.log10(highest)) + 1)]
+    return [0.0, *decades] + ([highest] if len(decades) == 1 and highest > 1.5 else [])
+
+
 def plot_counts(axes, column):
     for method in column.methods:
         axes.plot(column.time, method.read("lmd_count"), **column.look[method.label])
@@ -102,15 +108,18 @@ def plot_counts(axes, column):
             axes.plot(column.time, method.read("lmd_count_before_reduction"), color=style.SKY, lw=0.8, zorder=1)
     # Linear up to 1, so that no LMD at all has its place; logarithmic above.
     axes.set_yscale("symlog", linthresh=1, linscale=0.5)
+    highest = max(1.0, *(float(np.nanmax(line.get_ydata(), initial=0.0)) for line in axes.lines))
+    axes.yaxis.set_major_locator(FixedLocator(count_ticks(highest)))
+    axes.yaxis.set_minor_locator(NullLocator())
     axes.yaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
-    axes.set_ylim(bottom=0)
+    axes.set_ylim(0, 1.15 * highest)
 
 
 def plot_searches(axes, column):
     searching = [method for method in column.methods if method.tracks_locally]
     if not searching:
-        axes.text(0.5, 0.5, "no method with searches of their own rate: the local update is the whole search", transform=axes.transAxes, ha="center",
-                  va="center", wrap=True, **NOTE)
+        axes.text(0.5, 0.5, "no method searches at a rate of its own:\nthe local update is the whole search", transform=axes.transAxes, ha="center",
+                  va="center", **NOTE)
         axes.set_yticks([])
         return
     for method in searching:
@@ -136,14 +145,16 @@ def plot_updates(axes, column):
     for method in column.methods:
         axes.plot(column.time, method.median_times("local_update_time") * 1e6, **{**column.look[method.label], "lw": 0.6})
     axes.set_yscale("log")
-    axes.set_ylim(bottom=SHORTEST_UPDATE_US)
-    axes.yaxis.set_major_locator(LogLocator(numticks=12))
+    # As far down as the fastest method's median frame: what lies below are updates of an empty set.
+    medians = [float(np.nanmedian(line.get_ydata())) for line in axes.lines]
+    axes.set_ylim(bottom=min(SHORTEST_UPDATE_US, 0.5 * min([value for value in medians if value > 0], default=1.0)))
+    axes.yaxis.set_major_locator(LogLocator(numticks=6))
     axes.yaxis.set_minor_locator(NullLocator())
     axes.yaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
     if axes.get_ylim()[1] > HAPTIC_BUDGET_US:
         axes.axhline(HAPTIC_BUDGET_US, color=style.GREY, lw=0.6, ls=(0, (1, 1.5)), zorder=1)
         axes.annotate("1 kHz", (0.0, HAPTIC_BUDGET_US), xycoords=("axes fraction", "data"), xytext=(2, 1.5),
-                      textcoords="offset points", **NOTE)
+                      textcoords="offset points", zorder=9, bbox={"facecolor": "white", "edgecolor": "none", "alpha": 0.7, "pad": 0.3}, **NOTE)
 
 
 def plot_recall(axes, column):
@@ -211,17 +222,20 @@ def draw(*results):
     for panels, column in zip(axes.T, columns):
         for panel, (plot, _, _) in zip(panels, ROWS):
             plot(panel, column)
-        panels[0].set_title(column.title(), pad=19, fontweight="bold", fontsize=8.5 if len(columns) < 3 else 5.5)
+        box = panels[0].get_position()
+        beyond = 0.4 * (axes[0, 1].get_position().x0 - axes[0, 0].get_position().x1) if len(columns) > 1 else 0.05
+        title = panels[0].set_title(column.title(), pad=19, fontweight="bold", linespacing=1.1)
+        style.fit_title(figure, title, box.x0 - beyond, min(box.x1 + beyond, 0.998))
         panels[-1].set_xlabel("time [s]")
         panels[-1].set_xlim(column.time[0], column.time[-1])
     for row, ((_, label, _), keys) in enumerate(zip(ROWS, keys_of_rows(columns))):
         axes[row, 0].set_ylabel(label)
-        axes[row, 0].yaxis.set_label_coords(-0.125 if len(columns) > 1 else -0.07, 0.5)
+        axes[row, 0].yaxis.set_label_coords(0.026, axes[row, 0].get_position().y0 + 0.5 * axes[row, 0].get_position().height,
+                                            transform=figure.transFigure)
         box = axes[row, 0].get_position()
         figure.text(0.012, box.y1 + 0.0045, "abcdefgh"[row], fontweight="bold", fontsize=8.5)
         if keys:
-            figure.legend(handles=keys, loc="lower left", bbox_to_anchor=(box.x0 - 0.008, box.y1 - 0.003), ncol=len(keys), borderpad=0.1,
-                          handletextpad=0.6, **({"handlelength": 2.6, "columnspacing": 1.6} if len(keys) < 6 else {"handlelength": 1.5, "columnspacing": 0.9, "fontsize": 5.5}))
+            style.legend_within(figure, keys, box.x0 - 0.008, box.y1 - 0.003, "lower left", LEGEND_LAYOUTS)
     return figure
 
 

@@ -79,6 +79,49 @@ def line_of(method):
     return METHOD_LINES[method.order % len(METHOD_LINES)]
 
 
+LONGEST_NAME = 44  # letters of a name in a key or title; files may be called anything
+
+
+def shortened(name, longest=LONGEST_NAME):
+    """A name without its middle where it is too long: beginnings and ends tell names apart."""
+    if len(name) <= longest:
+        return name
+    kept = longest - 3
+    return name[: kept - kept // 2] + "..." + name[len(name) - kept // 2 :]
+
+
+def width_of(figure, artist):
+    """As drawn, in shares of the figure's width: left, right."""
+    box = artist.get_window_extent(figure.canvas.get_renderer())
+    return box.x0 / figure.bbox.width, box.x1 / figure.bbox.width
+
+
+def fit_title(figure, text, left, right):
+    """Breaks a title that is wider than its place after its colon, and shrinks it as far as it must be."""
+    line, two_lines = text.get_text(), text.get_text().replace(": ", ":\n", 1)
+    for words, size in ((line, 8.5), (line, 7.5), (two_lines, 8.5), (two_lines, 7.0), (two_lines, 6.0), (two_lines, 5.0), (two_lines, 4.0)):
+        text.set_text(words)
+        text.set_fontsize(size)
+        low, high = width_of(figure, text)
+        if low >= left and high <= right:
+            break
+
+
+def legend_within(figure, keys, left, y, loc, layouts, right=0.995):
+    """A legend of the whole figure from `left` on that ends before `right`.
+    @param layouts  (font size, lines) in the order in which they are tried; the last one is taken in any case
+    @return the legend, and its number of lines"""
+    for size, lines in layouts:
+        columns = -(-len(keys) // lines)
+        wide = size >= 7.0
+        legend = figure.legend(handles=keys, loc=loc, bbox_to_anchor=(left, y), ncol=columns, borderpad=0.1, fontsize=size, handletextpad=0.6,
+                               handlelength=2.6 if wide else 1.8, columnspacing=1.6 if wide else 0.9)
+        if width_of(figure, legend)[1] <= right or (size, lines) == layouts[-1]:
+            return legend, -(-len(keys) // columns)
+        legend.remove()
+    raise ValueError("no layout")
+
+
 MOST_LABELLED = 7  # decades of an axis; more stand over each other
 
 

@@ -24,7 +24,7 @@ HAPTIC_BUDGET_MS = 1.0  # one frame at 1 kHz
 # Width of the lanes beside the logarithmic range, as a share of it: errors of exactly 0, and failures.
 LANE_SHARE = 0.2
 ROUNDING = 1e-8  # errors below this share of F_max are rounding, and drawn as 0
-LEGEND_COLUMNS = 6
+LEGEND_LAYOUTS = tuple((7.0, lines) for lines in range(1, 6)) + ((5.5, 5),)
 
 
 class Point:
@@ -125,9 +125,8 @@ def draw(results):
     names = list(dict.fromkeys(point.experiment for point in points))
     colours = style.colours_of([point.method for point in points])
     markers = dict(zip(names, MARKERS * (len(names) // len(MARKERS) + 1)))
-    key_rows = -(-(len(colours) + len(names) + 1) // LEGEND_COLUMNS)
     figure, axes = plt.subplots(1, len(PANELS), figsize=(style.TWO_COLUMNS_IN, 3.5), sharey=True, gridspec_kw={
-        "left": 0.092, "right": 0.99, "bottom": 0.145, "top": 0.92 - 0.055 * key_rows, "wspace": 0.08})
+        "left": 0.092, "right": 0.99, "bottom": 0.145, "top": 0.92, "wspace": 0.08})
     for panel, (*quantities, label) in zip(axes, PANELS):
         draw_panel(panel, points, quantities, label, markers, colours)
     axes[0].set_yscale("log")
@@ -135,13 +134,13 @@ def draw(results):
     axes[0].yaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
     axes[0].set_ylabel("run time per frame in contact [ms]\nmedian, whisker to 99th percentile")
     keys = [Line2D([], [], color=colour, lw=2.5, label=label) for label, colour in colours.items()]
-    keys += [Line2D([], [], color="#444444", ls="none", marker=markers[name], ms=5.5, mew=0, label=name)
+    keys += [Line2D([], [], color="#444444", ls="none", marker=markers[name], ms=5.5, mew=0, label=style.shortened(name))
              for name in names]
     keys.append(Line2D([], [], color="white", ls="none", marker="o", ms=5, mec="#444444", mew=0.9,
                        label="open: neighbouring features count"))
     style.note_failures(figure, {f"{point.method.label} in {point.experiment}": point.failure for point in points if point.failure})
-    figure.legend(handles=keys, loc="upper left", bbox_to_anchor=(0.085, 0.95), ncol=LEGEND_COLUMNS, handlelength=1.6,
-                  columnspacing=1.6, borderpad=0.1)
+    _, lines = style.legend_within(figure, keys, 0.085, 0.95, "upper left", LEGEND_LAYOUTS)
+    axes[0].get_gridspec().update(top=0.92 - 0.055 * lines)
     figure.text(0.092, 0.955, "Error against run time, lower left is better", fontsize=8.5, fontweight="bold")
     return figure
 

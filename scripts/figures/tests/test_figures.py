@@ -261,7 +261,7 @@ class FigureTest(ScriptsTest):
         exact = Result(self.edited("exact.h5", lambda h5: None, methods=("certified",)))
         figure = figure7.draw(exact)
         self.assertEqual(len(figure.axes), len(figure7.ROWS))
-        self.assertIn("no method with searches of their own rate", figure.axes[2].texts[0].get_text())
+        self.assertIn("no method searches at a rate of its own", figure.axes[2].texts[0].get_text())
         figure_style.plt.close(figure)
         with self.assertRaisesRegex(ResultError, "5 columns are more than a page holds"):
             figure7.draw(*[exact] * 5)

@@ -1,0 +1,127 @@
+# SPDX-FileCopyrightText: The lmdbench authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Figures of results as users have them: any number of methods, long names, one result to four. No text may be cut off by the page or lie on
+another one. Run: python3 -m unittest discover scripts/figures/tests"""
+
+import os
+import sys
+import tempfile
+import unittest
+
+import h5py
+
+HERE = os.path.dirname(os.path.abspath(__file__))
+SCRIPTS = os.path.dirname(HERE)
+sys.path[:0] = [HERE, SCRIPTS]
+
+import figure7  # noqa: E402
+import figure_style  # noqa: E402
+import work_precision  # noqa: E402
+from lmdbench_results import Result  # noqa: E402
+from synthetic import write_result  # noqa: E402
+
+METHODS = ("original", "improved", "certified", "exhaustive")
+FURTHER = {5: ("my-own-variant-with-a-long-label",), 6: ("my-own-variant-with-a-long-label", "second")}
+NAMES = ("a", "bolt-mm-nut-mm", "housing-cover-left-v12-final-gearbox-mm-contact",
+         "peg-and-hole-of-the-assembly-with-every-tolerance-at-its-lower-limit-and-a-name-as-long-as-files-have")
+SLACK = 1.0  # pixels that antialiasing may stand beyond
+
+
+def texts_of(figure):
+    """{what: box} of everything that is read: texts, labels of axes and ticks, keys, titles."""
+    renderer = figure.canvas.get_renderer()
+    found = []
+    for axes in figure.axes:
+        found += axes.texts
+        if not axes.axison:
+            continue
+        found += [axes.title, axes.xaxis.label, axes.yaxis.label]
+        for axis in (axes.xaxis, axes.yaxis):
+            low, high = sorted(axis.get_view_interval())
+            found += [tick.label1 for tick in axis.get_major_ticks() if low <= tick.get_loc() <= high and tick.label1.get_visible()]
+    found += figure.texts
+    for legend in figure.legends:
+        found += legend.get_texts()
+    return [(text.get_text(), text.get_window_extent(renderer)) for text in found if text.get_text() and text.get_visible()]
+
+
+def faults_of(figure):
+    """Texts beyond the page, and pairs of them that lie on each other."""
+    figure.canvas.draw()
+    page, texts = figure.bbox, texts_of(figure)
+    wrong = [f"cut: {words!r}" for words, box in texts
+             if box.x0 < page.x0 - SLACK or box.y0 < page.y0 - SLACK or box.x1 > page.x1 + SLACK or box.y1 > page.y1 + SLACK]
+    for i, (words, box) in enumerate(texts):
+        for other, beside in texts[i + 1:]:
+            if (min(box.x1, beside.x1) - max(box.x0, beside.x0) > SLACK and min(box.y1, beside.y1) - max(box.y0, beside.y0) > SLACK):
+                wrong.append(f"over each other: {words!r}, {other!r}")
+    return wrong
+
+
+class LayoutTest(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        scratch = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(scratch.cleanup)
+        cls.folder = scratch.name
+
+    def result(self, name, methods=4, seed=1):
+        file = write_result(os.path.join(self.folder, f"{name[:20]}-{methods}-{seed}.h5"), name, frames=600, repetitions=3,
+                            methods=METHODS[:methods], seed=seed)
+        with h5py.File(file, "r+") as h5:
+            for label in FURTHER.get(methods, ()):
+                h5.copy("methods/improved", f"methods/{label}")
+        return Result(file)
+
+    def check(self, figure, what):
+        try:
+            self.assertEqual(faults_of(figure), [], what)
+        finally:
+            figure_style.plt.close(figure)
+
+    def test_two_to_six_methods_under_any_name(self):
+        for methods, name in zip((2, 3, 4, 5, 6), (*NAMES, NAMES[-1])):
+            with self.subTest(methods=methods, name=name):
+                result = self.result(name, methods)
+                self.assertEqual(len(result.methods), methods)
+                self.check(figure7.draw(result), "figure 7")
+                self.check(work_precision.draw([result]), "error against run time")
+
+    def test_two_to_four_results_beside_each_other(self):
+        results = [self.result(name, 6, seed) for seed, name in enumerate(NAMES)]
+        for chosen in (results[:2], results[-2:], results[-3:], results):
+            with self.subTest(names=[result.name for result in chosen]):
+                self.check(figure7.draw(*chosen), "figure 7")
+                self.check(work_precision.draw(chosen), "error against run time")
+
+    def test_counts_between_1_and_10_have_a_scale(self):
+        self.assertEqual(figure7.count_ticks(1.0), [0.0, 1.0])
+        self.assertEqual(figure7.count_ticks(8.0), [0.0, 1.0, 8.0])
+        self.assertEqual(figure7.count_ticks(300.0), [0.0, 1.0, 10.0, 100.0])
+
+    def test_updates_of_the_fastest_method_are_within_the_axis(self):
+        file = write_result(os.path.join(self.folder, "fast.h5"), frames=600)
+        with h5py.File(file, "r+") as h5:
+            h5["methods/original/local_update_time"][...] = 3e-8
+        figure = figure7.draw(Result(file))
+        self.assertLess(figure.axes[3].get_ylim()[0], 0.03)
+        figure_style.plt.close(figure)
+
+    def test_a_short_name_is_kept_and_a_long_one_keeps_its_ends(self):
+        self.assertEqual(figure_style.shortened("peg-hole"), "peg-hole")
+        long = figure_style.shortened("left" + "-" * 80 + "right")
+        self.assertEqual((len(long), long[:4], long[-5:]), (figure_style.LONGEST_NAME, "left", "right"))
+
+    def test_the_check_sees_faults(self):
+        figure, axes = figure_style.plt.subplots(figsize=(3, 2))
+        axes.set_axis_off()
+        axes.text(0.5, 0.5, "one place", transform=axes.transAxes)
+        self.assertEqual(faults_of(figure), [])
+        axes.text(0.5, 0.5, "the same", transform=axes.transAxes)
+        axes.text(0.9, 0.2, "beyond the edge of the page", transform=axes.transAxes)
+        self.assertEqual(len(faults_of(figure)), 2)
+        figure_style.plt.close(figure)
+
+
+if __name__ == "__main__":
+    unittest.main()
