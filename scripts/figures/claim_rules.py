@@ -29,6 +29,11 @@ class Claim:
     verdict: str = NOT_MEASURED  # over all settings
     reason: str = ""
 
+    def in_this_setting(self):
+        """For people; `because` begins with a word of its own, which the setting has said already where it is the same."""
+        said = {FAILS: "not: ", OPEN: "undecided: "}.get(self.setting, "\0")
+        return self.setting + (f": {self.because.removeprefix(said)}" if self.because else "")
+
 
 def judge(parts):
     """Whether all named parts of a claim hold in these runs (None: undecided), and which do not."""

@@ -18,10 +18,6 @@ from claim_verdicts import read_verdicts
 from lmdbench_results import Result, run_script
 
 
-def setting_text(claim):
-    return claim.setting + (f": {claim.because}" if claim.because else "")
-
-
 def verdict_text(claim):
     return f"{claim.verdict}: {claim.reason}"
 
@@ -36,7 +32,7 @@ def markdown(claims, results):
               + ", ".join(f"`{os.path.basename(result.file)}`" for result in results) + ".", "",
               "| | the paper's words | our measure | our numbers | in this setting | verdict over all settings |", "|---|---|---|---|---|---|"]
     lines += ["| " + " | ".join(text.replace("|", "\\|") for text in
-                                (claim.id, claim.paper, claim.measure, claim.result, setting_text(claim),
+                                (claim.id, claim.paper, claim.measure, claim.result, claim.in_this_setting(),
                                  f"**{claim.verdict}**: {claim.reason}")) + " |"
               for claim in claims]
     return "\n".join(lines) + "\n"
@@ -46,7 +42,7 @@ def plain(claims):
     blocks = []
     for claim in claims:
         lines = [f"{claim.id}: {verdict_text(claim)}"]
-        for title, text in (("paper", claim.paper), ("rule", claim.measure), ("here", f"{setting_text(claim)}. {claim.result}")):
+        for title, text in (("paper", claim.paper), ("rule", claim.measure), ("here", f"{claim.in_this_setting()}. {claim.result}")):
             lines += textwrap.wrap(text, width=110, initial_indent=f"  {title + ':':<7}", subsequent_indent=" " * 9)
         blocks.append("\n".join(lines))
     return "\n".join(blocks)

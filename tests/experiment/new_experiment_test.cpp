@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/base/error.h>
+#include <lmdbench/base/statistics.h>
 #include <lmdbench/catalogue/off_file.h>
 #include <lmdbench/catalogue/shapes.h>
 #include <lmdbench/experiment/new_experiment.h>
@@ -153,6 +154,43 @@ TEST_F(InitTest, ContactsAreFoundAndHaveAStiffness) {
     EXPECT_TRUE(row.has_answer()) << row.method << ": " << advice(row);
 }
 
+TEST_F(InitTest, TheHandPressesItWhereItRests) {
+  const std::string box = write("box.off", make_box({50, 40, 30}));
+  const std::string block = write("block.off", make_l_block(60));
+  const NewExperiment contact = make(box, block, {.contact = true});
+  EXPECT_EQ(Json::parse(contact.experiment_text)["title"], "box at rest on block");
+  write_new_experiment(contact);
+  const Experiment experiment = load_experiment(
+      contact.experiment_file, {contact.press, "/driver/repetitions=1", "/probes/fcl/stride_frames=0"});
+  const RunResult run = run_experiment(experiment);
+  const std::vector<FrameRecord>& frames = run.records.front().frames;
+  ASSERT_EQ(frames.size(), 1001u);
+  const double gap = frames.front().minimum_distance;
+  for (const FrameRecord& frame : frames) {
+    ASSERT_GT(frame.lmd_count, 0);
+    ASSERT_NEAR(frame.minimum_distance, gap, 0.05 * gap);
+  }
+  EXPECT_TRUE(make(box, block).press.empty());
+}
+
+/// The seed that comes first shows one contact of these two, a later one several.
+TEST_F(InitTest, ThePathShowsSeveralContactsWhereASeedDoes) {
+  const std::string moving = write("moving.off", make_two_boxes({0.4, 0.4, 0.4}, 0.1));
+  const std::string fixed = write("fixed.off", make_two_boxes({0.4, 0.4, 0.4}, 0.1));
+  const NewExperiment made_file = make(moving, fixed);
+  write_new_experiment(made_file);
+  const std::vector<Override> quick{"/driver/repetitions=1", R"(/methods=[{"name": "certified"}])",
+                                    "/probes/fcl/stride_frames=0", "/probes/truth/stride_frames=0"};
+  const auto median_of = [](const RunResult& run) {
+    std::vector<double> counts;
+    for (const FrameRecord& frame : run.records.front().frames)
+      if (frame.lmd_count > 0) counts.push_back(static_cast<double>(frame.lmd_count));
+    return median(counts);
+  };
+  EXPECT_GT(Json::parse(made_file.specification_text)["seed"], 1);
+  EXPECT_GE(median_of(run_experiment(load_experiment(made_file.experiment_file, quick))), 2.0);
+}
+
 Scene scene_of(TriangleMesh moving, TriangleMesh fixed, double cutoff) {
   Scene scene;
   scene.moving = std::make_shared<const Body>("moving", build_surface(std::move(moving)));
@@ -170,6 +208,7 @@ TEST(RestingPose, RestsHalfWayAndDoesNotSlide) {
   EXPECT_GT(rest.stiffness_n_per_m, 0.0);
   EXPECT_FALSE(rest.slides());
   EXPECT_EQ(rest.tried, REST_DIRECTIONS) << "the first orientation has one";
+  EXPECT_NEAR(rest.force_W.norm(), 1.0 * std::expm1(4.0 * 0.5) / std::expm1(4.0), 0.05);
 }
 
 TEST(RestingPose, ContactsFromAllSidesGoFirst) {

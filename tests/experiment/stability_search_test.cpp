@@ -328,6 +328,22 @@ TEST(StabilitySearch, TapsWithinFrictionAreStuck) {
   EXPECT_GT(row.critical_stiffness_n_per_m, row.exact_n_per_m);
 }
 
+/// Without friction, too, a tap within the counts shows nothing: four counts, as far as the contact leaves the way.
+TEST(StabilitySearch, TapsAreSeenByTheEncoders) {
+  const double exact = search(pressed({})).tap_m;
+  const double fine = search(pressed({"/loop/resolution_m=1e-6"})).tap_m;
+  EXPECT_DOUBLE_EQ(fine, exact) << "a hundredth of the way is more";
+  const double coarse = search(pressed({"/loop/resolution_m=2e-5"})).tap_m;
+  EXPECT_DOUBLE_EQ(coarse, 8e-5);
+  const double coarser = search(pressed({"/loop/resolution_m=2e-4"})).tap_m;
+  EXPECT_NEAR(coarser, 25.0 * exact, 0.01 * coarser) << "a quarter of the way at most";
+
+  const StabilityRow row = search({"/loop/resolution_m=3e-5"});  // 1 um within the cutoff
+  EXPECT_EQ(row.clean_until, "within_counts");
+  EXPECT_FALSE(row.has_answer());
+  EXPECT_NE(advice(row).find("encoders"), std::string::npos) << advice(row);
+}
+
 /// Friction and counts of real devices: an answer with a reason, in few trials.
 TEST(StabilitySearch, PhantomsHaveAnAnswer) {
   for (const char* device : {"phantom-desktop", "phantom-premium-1.5", "phantom-premium-1.5-6dof",

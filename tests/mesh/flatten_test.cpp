@@ -11,6 +11,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <regex>
+#include <string>
 
 namespace lmdbench {
 namespace {
@@ -78,6 +80,31 @@ TEST(Flatten, PutsARoundedBoxBackIntoSixPlanes) {
       EXPECT_LT(unevenness(mesh, face), 1e-15) << "seed " << seed;
     }
   }
+}
+
+/// A corner of three planes goes farther than it is from each of them: what is said is what moved, and what may.
+TEST(Flatten, SaysHowFarTheFarthestMovedAndMight) {
+  const std::regex sentence(
+      R"((\d+) vertices put back into (\d+) planes that they were within (\S+) of; the farthest moved by (\S+) \(allowed: (\S+)\))");
+  for (std::uint64_t seed = 0; seed < 20; ++seed) {
+    TriangleMesh mesh = rounded_to_floats(turned(make_l_block(0.8), seed));
+    const FlatteningReport report = flatten(mesh);
+    const std::string text = to_text(report);
+    std::smatch said;
+    ASSERT_TRUE(std::regex_match(text, said, sentence)) << text;
+    EXPECT_EQ(std::stoll(said[1]), report.moved_vertices);
+    EXPECT_EQ(std::stoll(said[2]), report.planes);
+    EXPECT_NEAR(std::stod(said[3]), report.tolerance, 0.01 * report.tolerance);
+    EXPECT_NEAR(std::stod(said[4]), report.largest_move, 0.01 * report.largest_move);
+    EXPECT_LE(std::stod(said[4]), std::stod(said[5])) << text;
+  }
+}
+
+TEST(Flatten, SaysWhereNothingMoved) {
+  TriangleMesh floats = make_box(Vec3(1.0, 0.5, 0.25), 4);
+  EXPECT_EQ(to_text(flatten(floats)).find("no vertex had to be put back into a plane (tolerance "), 0u);
+  TriangleMesh doubles = turned(make_box(Vec3(1.0, 0.5, 0.25), 4), 1);
+  EXPECT_EQ(to_text(flatten(doubles)), "taken as they are (planar tolerance 0)");
 }
 
 TEST(Flatten, PutsTwelveTrianglesBackToo) {

@@ -4,10 +4,15 @@
 #include <lmdbench/catalogue/shapes.h>
 #include <lmdbench/mesh/placement.h>
 #include <lmdbench/motion/grazing.h>
+#include <lmdbench/motion/grazing_choice.h>
 #include <lmdbench/motion/interpolate.h>
 #include <lmdbench/motion/mesh_scene.h>
 
 #include <gtest/gtest.h>
+
+#include <algorithm>
+#include <set>
+#include <vector>
 
 namespace lmdbench {
 namespace {
@@ -32,6 +37,23 @@ TEST(Grazing, EveryHapticFrameStaysOutsideAndSomeAreNear) {
     EXPECT_GT(gaps.gaps.back(), cutoff);
     EXPECT_GT(gaps.frames_within(cutoff), gaps.gaps.size() / 4) << moving;
   }
+}
+
+TEST(Grazing, ItsProgressNeverGoesBack) {
+  std::vector<std::size_t> shown;
+  std::set<std::size_t> totals;
+  int paths = 0;
+  rich_grazing_path(
+      scene(0.1, 0.15), 0.002, 1000.0, [&paths](const Path&) { return ++paths < 2 ? 1.0 : RICH_CONTACTS; },
+      [&](std::size_t done, std::size_t all) {
+        shown.push_back(done);
+        totals.insert(all);
+      });
+  EXPECT_EQ(paths, 2);
+  EXPECT_EQ(totals.size(), 1u);
+  EXPECT_TRUE(std::is_sorted(shown.begin(), shown.end()));
+  EXPECT_LE(shown.back(), *totals.begin());
+  EXPECT_GE(shown.back(), *totals.begin() / 2);
 }
 
 TEST(Grazing, ItsSpecificationReadsBackAndMakesTheSamePath) {

@@ -373,6 +373,14 @@ class ClaimsTest(ScriptsTest):
         self.assertEqual(rows["K7"].because, "not: less so when soft")
         self.assertIn("undecided: the improved force switches", rows["K1"].because)  # a second is too short to tell
 
+    def test_what_holds_here_is_said_once(self):
+        rows = self.verdicts(self.hard, self.soft)
+        self.assertEqual(rows["K7"].in_this_setting(), "does not hold: less so when soft")
+        self.assertRegex(rows["K1"].in_this_setting(), "^undecided: the improved force switches")
+        self.assertEqual(rows["K2"].in_this_setting(), "holds")
+        mixed = claim_rules.Claim("K6", "", "", "", "does not hold", "not: twice; undecided: as long")
+        self.assertEqual(mixed.in_this_setting(), "does not hold: twice; undecided: as long")
+
     def test_the_verdict_is_the_ledgers_whatever_two_runs_show(self):
         rows = self.verdicts(self.hard, self.soft)
         self.assertEqual((rows["K2"].verdict, rows["K2"].reason), ("holds where", "cutoff small"))

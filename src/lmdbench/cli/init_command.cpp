@@ -52,8 +52,9 @@ void add_init_command(CLI::App& app) {
     ProgressBar bar(progress_welcome());
     const NewExperiment made = new_experiment(
         options->moving, options->fixed, options->out, options->mesh_folder,
-        [&bar](std::int64_t done, std::int64_t total) {
-          bar.update("path", done, total);
+        [&bar, phase = std::string(chosen.contact ? "resting pose" : "path")](std::int64_t done,
+                                                                              std::int64_t total) {
+          bar.update(phase, done, total);
           return true;
         },
         chosen);
@@ -65,8 +66,10 @@ void add_init_command(CLI::App& app) {
     for (const DefaultNote& choice : made.choices)
       fmt::print("  {:<24} {} ({})\n", choice.key, choice.value, choice.from);
     if (chosen.contact)
-      fmt::print("edit them, then: lmdbench stability {0}\nor let the hand hold it there: lmdbench run {0}\n",
-                 made.experiment_file.string());
+      fmt::print(
+          "edit them, then: lmdbench stability {0}\nor let the hand press it there: lmdbench run {0} --set "
+          "'{1}'\n",
+          made.experiment_file.string(), made.press);
     else
       fmt::print("edit them, then: lmdbench run {}\nanother path: lmdbench path generate {} --out {}\n",
                  made.experiment_file.string(), made.specification_file.string(), made.path_file.string());

@@ -134,13 +134,19 @@ void write_contact(NewExperiment& result, OrderedJson& json, const Scene& scene,
   profile.law = open.methods.front().force_law;
   const RestingPose rest = find_resting_pose(scene, profile, progress);
   result.choices.push_back(
-      {"/path/file", fmt::format("at rest with {} LMDs, {:.3g} m apart", rest.contacts, rest.gap),
+      {"/path/file",
+       fmt::format("at rest with {} LMD{}, {:.3g} m apart", rest.contacts, rest.contacts == 1 ? "" : "s",
+                   rest.gap),
        rest.slides()
            ? fmt::format("the best of {} poses; it slides off unless the hand holds it (lateral stiffness "
                          "{:.2g} of K_eff)",
                          rest.tried, rest.least_stiffness_share)
            : fmt::format("of {} poses that the contact holds from all sides, the one with the most contacts",
                          rest.tried)});
+  json["title"] =
+      fmt::format("{} at rest on {}", stem_of(json["moving"]["mesh"]), stem_of(json["fixed"][0]["mesh"]));
+  const Vec3 push_W = -rest.force_W;
+  result.press = fmt::format("/loop/push_n=[{:.6g},{:.6g},{:.6g}]", push_W.x(), push_W.y(), push_W.z());
   json["methods"] = OrderedJson::array();
   json["methods"].push_back({{"name", "certified"}, {"force_law", "exponential"}});
   result.choices.push_back(
@@ -149,9 +155,8 @@ void write_contact(NewExperiment& result, OrderedJson& json, const Scene& scene,
   result.choices.push_back({"/loop/hand", CONTACT_HAND, "a published hand; null for the device alone"});
   result.choices.push_back({"/device", open.device, "its own mass, damping, friction and encoders"});
   const Path path{{0.0, rest.pose}, {CONTACT_SECONDS, rest.pose}};
-  result.path_text = tum_text(
-      path, fmt::format("{} at rest on {}, {:.3g} m apart, found by lmdbench init --contact",
-                        stem_of(json["moving"]["mesh"]), stem_of(json["fixed"][0]["mesh"]), rest.gap));
+  result.path_text = tum_text(path, fmt::format("{}, {:.3g} m apart, found by lmdbench init --contact",
+                                                json["title"].get<std::string>(), rest.gap));
 }
 
 }  // namespace

@@ -34,6 +34,9 @@ struct NewExperiment {
   std::string experiment_text;
   std::string specification_text;
   std::string path_text;
+  /// At rest in contact: the override under which a hand's device is pressed on by just the force that balances the contact,
+  /// for `lmdbench run`. Without it the contact pushes it out, by up to force over the hand's stiffness. Empty otherwise.
+  std::string press;
   std::vector<DefaultNote> choices;  ///< Every value that was chosen, and why.
 };
 

@@ -85,15 +85,18 @@ std::optional<Pose> approach(const Scene& scene, const Eigen::Quaterniond& R_WM,
   return pose;
 }
 
-/// The pose as a place to rest; nothing where it has no force to rest on.
-std::optional<RestingPose> look_at_pose(Probe& probe, const Pose& X_WM, double gap) {
+/// The pose as a place to rest; nothing where it has no force to rest on, or too few contacts to be better than `best`, whatever
+/// its six neighbours show: on flat parts each of them costs as much as the pose itself.
+std::optional<RestingPose> look_at_pose(Probe& probe, const Pose& X_WM, double gap,
+                                        const std::optional<RestingPose>& best) {
   const Wrench wrench = probe.at(X_WM);
   RestingPose rest;
   rest.pose = X_WM;
   rest.contacts = probe.lmds().size();
   if (rest.contacts == 0 || !(wrench.stiffness > 0.0) || !(wrench.force.norm() > 0.0)) return std::nullopt;
+  if (best && !best->slides() && rest.contacts < best->contacts) return std::nullopt;
   rest.gap = minimum_distance(probe.lmds());
-  rest.force_n = wrench.force.norm();
+  rest.force_W = wrench.force;
   rest.stiffness_n_per_m = wrench.stiffness;
   const double step = DIFFERENCE_SHARE * gap;
   Mat3 stiffness_W;
@@ -132,7 +135,7 @@ RestingPose find_resting_pose(const Scene& scene, const ForceProfile& profile, c
       const std::optional<Pose> pose =
           approach(scene, orientation(turn), lattice_direction(i, REST_DIRECTIONS), gap);
       if (!pose) continue;
-      const std::optional<RestingPose> rest = look_at_pose(probe, *pose, gap);
+      const std::optional<RestingPose> rest = look_at_pose(probe, *pose, gap, best);
       if (rest && (!best || better(*rest, *best))) best = rest;
     }
   }

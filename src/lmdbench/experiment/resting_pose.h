@@ -28,7 +28,7 @@ struct RestingPose {
   Pose pose;                       ///< X_WM
   double gap = 0.0;                ///< Smallest distance there [m].
   std::size_t contacts = 0;        ///< LMDs within the cutoff.
-  double force_n = 0.0;            ///< Under the profile.
+  Vec3 force_W = Vec3::Zero();     ///< On the moving mesh, under the profile [N].
   double stiffness_n_per_m = 0.0;  ///< K_eff
   double least_stiffness_share =
       0;          ///< Least eigenvalue of -dF/dx over K_eff: below 0 it slides off without a hand.

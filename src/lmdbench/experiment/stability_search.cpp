@@ -36,7 +36,7 @@ class BudgetSpent {};
 enum class Verdict : std::uint8_t {
   CLEAN,
   UNCLEAN,
-  STUCK,   ///< Friction holds it: nothing shakes, and nothing is shown.
+  STUCK,   ///< Friction holds it, or no encoder sees it: nothing shakes, and nothing is shown.
   SINKING  ///< Too soft to carry the push.
 };
 
@@ -74,6 +74,8 @@ class Search {
     row.bound_n_per_m = sufficient_stiffness(loop);
     if (!given.in_contact) {
       row.clean_until = given.saturated ? "saturated" : "no_contact";
+    } else if (given.within_counts) {
+      row.clean_until = "within_counts";
     } else if (has_friction(experiment_.loop)) {
       search_with_friction(scale, given, row);
     } else if (row.exact_n_per_m == 0.0 && !counts()) {
@@ -161,7 +163,7 @@ class Search {
   /// What a trial says, and what is remembered of it.
   Verdict judge_trial(double scale, const StabilityTrial& trial) {
     if (!trial.carried) return Verdict::SINKING;
-    if (trial.stuck) return Verdict::STUCK;
+    if (trial.stuck || trial.within_counts) return Verdict::STUCK;
     if (!trial.clipped && trial.outcome.clean()) {
       if (trial.stiffness_n_per_m > best_) {
         best_ = trial.stiffness_n_per_m;
@@ -185,6 +187,7 @@ class Search {
     const StabilityTrial trial = try_scale(scale);
     const Verdict said = judge_trial(scale, trial);
     if (said == Verdict::SINKING) return SINKING_GROWTH;
+    if (said == Verdict::STUCK) return CALM_GROWTH;
     if (trial.clipped) return CLIPPED_GROWTH;
     return trial.outcome.growth == 0.0 ? CALM_GROWTH : trial.outcome.growth;
   }
@@ -238,6 +241,11 @@ std::string advice(const StabilityRow& row) {
                      "(remedy: press harder, /loop/push_n of more than {:.3g} N, or begin the path deeper "
                      "within a larger cutoff)",
                      row.friction_n, PUSH_PER_FRICTION * row.friction_n);
+  if (row.clean_until == "within_counts")
+    return who +
+           "the contact leaves less way than the encoders count, so that no tap would be seen (remedy: begin "
+           "the path deeper "
+           "within a larger cutoff, press harder with /loop/push_n, or a finer /loop/resolution_m)";
   if (row.clean_until == "undecided")
     return who +
            fmt::format("the search was ended after {} trials; {} (remedy: raise --seconds or --trials)",
@@ -310,6 +318,15 @@ std::string stability_text(const std::vector<StabilityRow>& rows) {
         row.method, row.profile, row.delay_frames, row.servo_rate_hz, row.mass_kg, row.damping_n_s_per_m,
         row.critical_stiffness_n_per_m, row.exact_n_per_m, row.bound_n_per_m, row.tap_m, row.trials,
         row.clean_until);
+  if (std::any_of(rows.begin(), rows.end(), [](const StabilityRow& row) { return row.friction_n > 0.0; }))
+    text +=
+        "critical: largest clean stiffness, with the device's friction, for this tap; exact: boundary of the "
+        "linear loop without "
+        "friction; bound: sufficient, b / (T/2 + delay)\n";
+  else
+    text +=
+        "critical: largest clean stiffness; exact: boundary of the linear loop; bound: sufficient, b / (T/2 "
+        "+ delay)\n";
   return text;
 }
 

@@ -51,7 +51,8 @@ struct StabilityRow {
   /// torque first; "nothing" where the search found no end. Without a stiffness (has_answer):
   /// "never" where no stiffness was clean (or none that carries the push); "no_contact" where the first pose, or all
   /// that the push can reach, has no force and stiffness; "saturated" where it is nearer than the saturation distance; "stuck" where
-  /// friction holds the device against every tap that the contact bears; "undecided" where the budget was spent first, with the
+  /// friction holds the device against every tap that the contact bears; "within_counts" where it leaves less way than the encoders
+  /// count; "undecided" where the budget was spent first, with the
   /// largest clean stiffness so far.
   std::string clean_until;
   double tap_m = UNSET;     ///< How far the tap swings the device at the stiffness found [m].

@@ -195,6 +195,12 @@ double stiction_band(const LoopChoice& loop, const Rest& rest, double stiffness)
   return friction / (stiffness + (rigid_hand ? loop.dynamics.hand->stiffness_n_per_m : 0.0));
 }
 
+/// One count of the encoders at the watched point; 0: they are exact.
+double one_count(const LoopChoice& loop, const Rest& rest) {
+  return std::max(loop.resolution_m,
+                  loop.rotation ? loop.rotation->resolution_rad * rest.lever_W.norm() : 0.0);
+}
+
 }  // namespace
 
 bool has_friction(const LoopChoice& loop) {
@@ -253,11 +259,17 @@ StabilityTrial try_stiffness(const Experiment& experiment, const LockstepInput& 
   rest.natural_frequency = std::sqrt(trial.stiffness_n_per_m / felt_mass);
   rest.friction = has_friction(loop);
   rest.counts = loop.resolution_m > 0.0 || (loop.rotation && loop.rotation->resolution_rad > 0.0);
-  rest.tap_m = trial.tap_m = (rest.friction ? FRICTION_TAP_SHARE : TAP_SHARE) * rest.range_m;
+  const double count = one_count(loop, rest);
+  const double largest_tap = FRICTION_TAP_SHARE * rest.range_m;
+  rest.tap_m = trial.tap_m =
+      rest.friction ? largest_tap
+                    : std::min(std::max(TAP_SHARE * rest.range_m, TAP_COUNTS * count), largest_tap);
   if (rest.friction) {
     trial.stuck = rest.tap_m < STICTION_BANDS * stiction_band(loop, rest, trial.stiffness_n_per_m);
     if (trial.stuck) return trial;
   }
+  trial.within_counts = rest.tap_m < LEAST_COUNTS * count;
+  if (trial.within_counts) return trial;
 
   auto state = std::make_shared<TrialState>();
   LockstepInput tapped = held;

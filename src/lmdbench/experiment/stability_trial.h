@@ -26,8 +26,14 @@
 ///    nothing (\ref StabilityTrial::stuck), and nothing is simulated.
 ///  - A swing that neither dies down nor grows by more than SUSTAINED_GROWTH a window is a limit cycle, and not clean (unless it
 ///    stays within the encoders' counts). One that still decays is given up to MOST_ROUNDS times as many oscillations.
+///
+/// Encoders that count do not see a swing within one count: no force changes, and nothing is shown. Without friction the tap is
+/// TAP_COUNTS counts where TAP_SHARE of the way is less, up to FRICTION_TAP_SHARE of it; where that is less than LEAST_COUNTS, with
+/// friction or without, nothing is simulated (\ref StabilityTrial::within_counts).
 namespace lmdbench {
 
+inline constexpr double TAP_COUNTS = 4.0;
+inline constexpr double LEAST_COUNTS = 2.0;
 inline constexpr double TAP_SHARE = 0.01;
 inline constexpr double FRICTION_TAP_SHARE = 0.25;
 /// A tap of sqrt(3) bands is the smallest that comes back. More would leave no room on weak devices: at rest the force is
@@ -50,6 +56,7 @@ struct StabilityTrial {
       false;  ///< Not in contact because it rests nearer than the saturation distance, or touches.
   bool stuck =
       false;  ///< Friction holds the device against any tap that the contact bears; nothing was simulated.
+  bool within_counts = false;  ///< The contact bears no tap that the encoders see; nothing was simulated.
   bool limit_cycle =
       false;  ///< It went on swinging; `outcome.growth` is positive then, whatever the measures say.
   double tap_m = UNSET;  ///< How far the tap swings the device on the contact's stiffness alone.

@@ -22,18 +22,48 @@ constexpr double NEAR_ENOUGH = 0.5;
 /// Of lengths and speeds, so that a specification can be read.
 constexpr int DIGITS = 4;
 
+/// Of one seed: poses and gaps at the first rate; at the haptic rate again only where they come too near.
+constexpr std::size_t USUAL_STAGES = 2;
+constexpr std::size_t STAGE_SHARES = 1000;
+
+/// One progress over all seeds that may be tried, which never goes back: each stage is an equal part, and all seeds are expected.
+class SeedProgress {
+ public:
+  SeedProgress(const ProgressFunction& progress, std::uint64_t seeds) : progress_(progress), seeds_(seeds) {}
+
+  void begin_seed(std::uint64_t seed) { first_ = (seed - 1) * USUAL_STAGES * STAGE_SHARES; }
+
+  /// What `generate_path` and `measure_gaps` tell; stages beyond USUAL_STAGES stay at the seed's end.
+  ProgressFunction of_stage(std::size_t stage) {
+    if (!progress_) return {};
+    return [this, stage](std::size_t done, std::size_t all) {
+      const std::size_t within = std::min(stage * STAGE_SHARES + (all > 0 ? done * STAGE_SHARES / all : 0),
+                                          USUAL_STAGES * STAGE_SHARES);
+      shown_ = std::max(shown_, first_ + within);
+      progress_(shown_, static_cast<std::size_t>(seeds_) * USUAL_STAGES * STAGE_SHARES);
+    };
+  }
+
+ private:
+  ProgressFunction progress_;
+  std::uint64_t seeds_;
+  std::size_t first_ = 0;
+  std::size_t shown_ = 0;
+};
+
 /// @param smallest receives the smallest gap over the haptic frames [m]
 /// @return nothing where the seed's path misses, or comes too near at any rate
 std::optional<GrazingPath> path_of_seed(const PathScene& scene, double cutoff, double haptic_rate,
-                                        std::uint64_t seed, const ProgressFunction& progress,
-                                        double& smallest) {
+                                        std::uint64_t seed, SeedProgress& progress, double& smallest) {
   GrazingPath result{.spec = grazing_spec(scene, cutoff), .path = {}};
+  std::size_t stage = 0;
+  progress.begin_seed(seed);
   for (const double rate : {std::min(GRAZING_RATE, haptic_rate), haptic_rate}) {
     result.spec.seed = seed;
     result.spec.frame_rate = result.spec.stored_rate = rate;
-    result.path = generate_path(result.spec, scene, progress);
-    const GapMeasure gaps =
-        measure_gaps(resample(PathInterpolator(result.path), haptic_rate), scene.distance, progress);
+    result.path = generate_path(result.spec, scene, progress.of_stage(stage++));
+    const GapMeasure gaps = measure_gaps(resample(PathInterpolator(result.path), haptic_rate), scene.distance,
+                                         progress.of_stage(stage++));
     result.smallest_gap = smallest = gaps.smallest();
     if (smallest < GRAZING_FLOOR_IN_CUTOFFS * cutoff) continue;  // between the poses: at every frame, then
     if (smallest <= NEAR_ENOUGH * cutoff) return result;
@@ -72,8 +102,9 @@ GrazingPath rich_grazing_path(const PathScene& scene, double cutoff, double hapt
   double smallest = 0.0;
   std::optional<GrazingPath> best;
   double most = 0.0;
+  SeedProgress seeds(progress, RICH_SEEDS);
   for (std::uint64_t seed = 1; seed <= (best ? RICH_SEEDS : GRAZING_SEEDS); ++seed) {
-    std::optional<GrazingPath> made = path_of_seed(scene, cutoff, haptic_rate, seed, progress, smallest);
+    std::optional<GrazingPath> made = path_of_seed(scene, cutoff, haptic_rate, seed, seeds, smallest);
     if (!made) continue;
     const double count = contacts(made->path);
     if (count >= RICH_CONTACTS) return std::move(*made);
