@@ -67,5 +67,60 @@ TEST(Journal, SaysThatItCannotBeWritten) {
   EXPECT_THROW(journal.append(entry("x", 0, 1)), EnvironmentError);
 }
 
+TEST(Journal, TakesWhatAnotherOneHoldsAndWritesOnlyItsOwn) {
+  const ScratchDirectory scratch;
+  {
+    Journal other(scratch / "other.jsonl");
+    other.begin("x", 0, {{"node", "a"}});
+    other.append(entry("x", 0, 1));
+    other.append(entry("y", 0, 2));
+  }
+  const std::uintmax_t size = std::filesystem::file_size(scratch / "other.jsonl");
+  Journal journal(scratch / "own.jsonl");
+  journal.begin("x", 0, {{"node", "b"}});
+  journal.append(entry("x", 0, 3));
+  journal.read_also(scratch / "other.jsonl");
+  EXPECT_EQ(journal.find("x", 0)->at("value"), 3) << "what was read first stands";
+  EXPECT_EQ(journal.find("y", 0)->at("value"), 2);
+  ASSERT_EQ(journal.begun("x", 0).size(), 2u) << "but it was begun twice";
+  EXPECT_EQ(journal.begun("x", 0)[1]["node"], "a");
+  EXPECT_TRUE(journal.begun("x", 1).empty());
+  journal.append(entry("z", 0, 4));
+  EXPECT_EQ(std::filesystem::file_size(scratch / "other.jsonl"), size);
+  EXPECT_EQ(Journal(scratch / "own.jsonl").find("y", 0), nullptr);
+
+  scratch.write("foreign.jsonl", "notes\n{\"key\":\"f\",\"repetition\":0}\n");
+  journal.read_also(scratch / "foreign.jsonl");
+  EXPECT_EQ(journal.find("f", 0), nullptr) << "no journal of ours";
+}
+
+TEST(Journal, ReadingChangesNoFile) {
+  const ScratchDirectory scratch;
+  { Journal(scratch / "a.jsonl").append(entry("x", 0, 1)); }
+  std::ofstream(scratch / "a.jsonl", std::ios::app) << R"({"key":"y","repet)";  // somebody else is at it
+  const std::uintmax_t size = std::filesystem::file_size(scratch / "a.jsonl");
+  EXPECT_EQ(Journal(scratch / "a.jsonl").find("y", 0), nullptr);
+  EXPECT_EQ(std::filesystem::file_size(scratch / "a.jsonl"), size);
+}
+
+TEST(Journal, AFailureIsNoEntryAndGoesWhenAnotherTrySucceeds) {
+  const ScratchDirectory scratch;
+  Journal journal(scratch / "a.jsonl");
+  journal.fail("x", "no such mesh");
+  EXPECT_EQ(journal.find("x", 0), nullptr);
+  ASSERT_NE(Journal(scratch / "a.jsonl").failure("x"), nullptr);
+  EXPECT_EQ(*Journal(scratch / "a.jsonl").failure("x"), "no such mesh");
+  journal.append(entry("x", 0, 1));
+  EXPECT_EQ(journal.failure("x"), nullptr);
+  EXPECT_EQ(Journal(scratch / "a.jsonl").failure("x"), nullptr);
+}
+
+TEST(Journal, KeepsNamesThatAreNoText) {
+  const ScratchDirectory scratch;
+  Journal journal(scratch / "a.jsonl");
+  journal.begin("x", 0, {{"command", "\xff\xfe"}});
+  EXPECT_EQ(Journal(scratch / "a.jsonl").begun("x", 0).size(), 1u);
+}
+
 }  // namespace
 }  // namespace lmdbench

@@ -3,6 +3,7 @@
 #include <lmdbench/base/atomic_file.h>
 #include <lmdbench/base/error.h>
 #include <lmdbench/base/file_descriptor.h>
+#include <lmdbench/base/file_lock.h>
 #include <lmdbench/base/output_guard.h>
 #include <lmdbench/base/part_file.h>
 
@@ -61,15 +62,6 @@ bool looks_like_a_part(const std::filesystem::path& part) {
   constexpr std::string_view HDF5_SIGNATURE = "\x89HDF\r\n\x1a\n";
   const std::string head = first_bytes(part);
   return head.empty() || head.starts_with(HDF5_SIGNATURE);
-}
-
-/// False when another process holds the lock. A file system without locks counts as locked: the run goes on
-/// without. An open-file-description lock, because HDF5 takes a `flock` of its own on the same file.
-bool lock_whole_file(int descriptor) {
-  struct flock lock {};
-  lock.l_type = F_WRLCK;
-  lock.l_whence = SEEK_SET;
-  return ::fcntl(descriptor, F_OFD_SETLK, &lock) == 0 || (errno != EAGAIN && errno != EACCES);
 }
 
 /// A process that read the part for a run that was killed holds the lock with it, and ends a moment after it.

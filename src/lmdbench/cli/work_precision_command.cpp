@@ -5,6 +5,7 @@
 #include <lmdbench/cli/stop_signals.h>
 #include <lmdbench/cli/talk.h>
 #include <lmdbench/sweep/run_sweep.h>
+#include <lmdbench/sweep/sweep_parts.h>
 #include <lmdbench/sweep/write_sweep.h>
 
 #include <CLI/CLI.hpp>
@@ -22,32 +23,60 @@ namespace {
 struct SweepOptions {
   std::string sweep;
   std::string out;
+  std::string points;
   std::vector<std::string> overrides;
   bool json = false;
+  bool list = false;
+  bool collect = false;
 };
+
+void print_points(const Sweep& sweep, const std::filesystem::path& out, bool json) {
+  fmt::print("{}{}", json ? point_list_json(sweep, out) : point_list_text(sweep, out), json ? "\n" : "");
+}
+
+void measure_points(const SweepOptions& options, const Sweep& sweep, const std::filesystem::path& out,
+                    const RunProgress& progress) {
+  const std::vector<std::size_t> points =
+      parse_point_numbers(options.points, sweep.points.size(), "--points");
+  const SweepWork work = measure_part(sweep, points, out, progress);
+  for (const auto& [point, why] : work.failures) spdlog::warn("point {} has no numbers: {}", point, why);
+  spdlog::info("{} of {} traversals were done before; the entries are in {}", work.resumed_runs,
+               sweep.repetitions * std::ssize(points), parts_folder(out).string());
+}
+
+void measure_or_collect(const SweepOptions& options, const Sweep& sweep, const std::filesystem::path& out,
+                        const std::vector<std::string>& argv, ProgressBar& bar, const RunProgress& progress) {
+  const SweepResult result = options.collect ? collect_sweep_to_file(sweep, out, argv)
+                                             : run_sweep_to_file(sweep, out, argv, progress);
+  bar.wipe();
+  fmt::print("{}{}", options.json ? sweep_json(sweep, result) : sweep_text(sweep, result),
+             options.json ? "\n" : "");
+  for (const std::string& line : done_again(sweep, out)) spdlog::info("done again: {}", line);
+  if (result.resumed_runs > 0)
+    spdlog::info("{} of {} traversals were done before: {}", result.resumed_runs,
+                 sweep.repetitions * std::ssize(sweep.points), journal_of(out).string());
+  spdlog::info("wrote {}", out.string());
+}
 
 void sweep_to_file(const SweepOptions& options, const std::vector<std::string>& argv) {
   const Sweep sweep = load_sweep(options.sweep, options.overrides);
   const std::filesystem::path out = options.out.empty() ? "results/" + sweep.name + ".h5" : options.out;
+  if (options.list) return print_points(sweep, out, options.json);
   ProgressBar bar(progress_welcome());
   heed_stop_signals();
+  const RunProgress progress = [&bar](const std::string& phase, std::int64_t done, std::int64_t total) {
+    bar.update(phase, done, total);
+    return !stop_requested();
+  };
   try {
-    const SweepResult result = run_sweep_to_file(
-        sweep, out, argv, [&bar](const std::string& phase, std::int64_t done, std::int64_t total) {
-          bar.update(phase, done, total);
-          return !stop_requested();
-        });
-    bar.wipe();
-    fmt::print("{}{}", options.json ? sweep_json(sweep, result) : sweep_text(sweep, result),
-               options.json ? "\n" : "");
-    if (result.resumed_runs > 0)
-      spdlog::info("{} of {} traversals were done before: {}", result.resumed_runs,
-                   sweep.repetitions * std::ssize(sweep.points), journal_of(out).string());
-    spdlog::info("wrote {}", out.string());
+    if (options.points.empty())
+      measure_or_collect(options, sweep, out, argv, bar, progress);
+    else
+      measure_points(options, sweep, out, progress);
   } catch (const Interrupted&) {
     bar.wipe();
     spdlog::error("interrupted: the points that are done stay in {}; the same command goes on from there",
-                  journal_of(out).string());
+                  (options.points.empty() ? journal_of(out) : parts_folder(out)).string());
     end_by_the_signal();
   }
 }
@@ -66,6 +95,16 @@ void add_work_precision_command(CLI::App& app, const std::vector<std::string>& a
                    "override a value of the sweep: /json/pointer=value; repeatable")
       ->allow_extra_args(false);
   command->add_flag("--json", options->json, "a JSON array, one object a point");
+  CLI::Option* list =
+      command->add_flag("--list", options->list, "only number the points, and say which are done");
+  CLI::Option* points = command->add_option(
+      "--points", options->points,
+      "measure only these, as 0-3,7, into a journal of their own beside the result (scripts/cluster/)");
+  CLI::Option* collect =
+      command->add_flag("--collect", options->collect,
+                        "measure nothing: the result of what is in journals, an error where points lack");
+  list->excludes(points)->excludes(collect);
+  points->excludes(collect);
   command->callback([options, argv] { sweep_to_file(*options, argv); });
 }
 

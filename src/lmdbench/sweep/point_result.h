@@ -59,6 +59,9 @@ struct PointResult {
   PointErrors errors;
   std::map<std::string, double> numbers;  ///< Errors and times.
   std::vector<RepetitionTimes> repetitions;
+  std::string where_json;  ///< JSON array: where and beside what each repetition was timed (node_watch.h).
+  /// Traversals that began; more than the repetitions where some were cut off or done twice, and 0 for a failure.
+  std::int64_t begun = 0;
 
   double number(std::string_view name) const;  ///< NaN where it was not measured.
 };

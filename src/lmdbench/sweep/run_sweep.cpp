@@ -1,17 +1,18 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/base/error.h>
-#include <lmdbench/base/file_hash.h>
-#include <lmdbench/base/input_file.h>
 #include <lmdbench/base/output_guard.h>
 #include <lmdbench/experiment/contact.h>
 #include <lmdbench/experiment/errors.h>
 #include <lmdbench/methods/registry.h>
+#include <lmdbench/record/node_watch.h>
 #include <lmdbench/record/own_result.h>
 #include <lmdbench/record/provenance.h>
 #include <lmdbench/record/result_writer.h>
+#include <lmdbench/sweep/point_key.h>
 #include <lmdbench/sweep/run_sweep.h>
 #include <lmdbench/sweep/step_numbers.h>
+#include <lmdbench/sweep/sweep_parts.h>
 #include <lmdbench/sweep/sweep_truth.h>
 #include <lmdbench/sweep/time_numbers.h>
 #include <lmdbench/sweep/write_sweep.h>
@@ -19,8 +20,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <functional>
 #include <map>
 #include <memory>
+#include <numeric>
 #include <random>
 #include <stdexcept>
 
@@ -28,75 +31,6 @@ namespace lmdbench {
 namespace {
 
 using Json = nlohmann::json;
-
-/// What points must share to have one truth and to take turns: all but the method, the driver and the probes.
-std::string scene_key(const Experiment& experiment) {
-  Json json = Json::parse(experiment.resolved_json);
-  for (const char* other :
-       {"$schema", "name", "title", "methods", "driver", "probes", "record", "acceptance"})
-    json.erase(other);
-  json["folder"] = experiment.file.parent_path().string();
-  return json.dump();
-}
-
-/// An input is not what it was when the sweep began: its points cannot be told apart any more.
-class InputChanged : public InputError {
- public:
-  explicit InputChanged(const std::filesystem::path& file)
-      : InputError(file.string(), "", "has changed since the sweep began",
-                   "run the sweep again: points of what it held before are kept and not mixed in") {}
-};
-
-/// Content of inputs when the sweep began, each read once.
-class InputHashes {
- public:
-  std::string of(const std::filesystem::path& file) {
-    const auto [entry, is_new] = files_.try_emplace(file.lexically_normal().string());
-    std::error_code ignored;
-    if (is_new && std::filesystem::exists(file, ignored)) {
-      const FileContent content = read_input_file(file, {.what = "file"});
-      entry->second = {"sweep", file, content.sha256, static_cast<std::int64_t>(content.bytes.size())};
-    }
-    return entry->second.sha256;
-  }
-  /// @throws InputChanged where a run was prepared from other bytes
-  void check(const PreparedRun& run) {
-    for (const MeshNote& mesh : run.meshes)
-      if (mesh.file && of(*mesh.file) != mesh.sha256) throw InputChanged(*mesh.file);
-    for (const InputFile& file : run.files)
-      if (!file.file.empty() && of(file.file) != file.sha256) throw InputChanged(file.file);
-  }
-  /// Those that exist, but for the program.
-  std::vector<InputFile> files() const {
-    std::vector<InputFile> result;
-    for (const auto& [name, file] : files_)
-      if (!file.sha256.empty() && name != program().string()) result.push_back(file);
-    return result;
-  }
-  static std::filesystem::path program() { return std::filesystem::canonical("/proc/self/exe"); }
-
- private:
-  std::map<std::string, InputFile> files_;
-};
-
-/// Names a point by all that its numbers depend on.
-std::string point_key(const Sweep& sweep, const SweepPoint& point, InputHashes& hashes) {
-  Json json{{"program", hashes.of(InputHashes::program())},
-            {"experiment", scene_key(point.experiment)},
-            {"method", Json::parse(point.experiment.methods.front().options_json)},
-            {"driver", Json::parse(point.experiment.resolved_json)["driver"]},
-            {"truth", scene_key(point.truth)},
-            {"truth_check_frames", sweep.truth_check_frames},
-            {"from_frame", sweep.from_frame},
-            {"inputs", Json::array()}};
-  for (const Experiment* experiment : {&point.experiment, &point.truth}) {
-    for (const std::filesystem::path& file : input_files(*experiment)) {
-      const std::string hash = hashes.of(file);
-      if (file != experiment->file) json["inputs"].push_back(hash);
-    }
-  }
-  return sha256_of_text(json.dump());
-}
 
 /// The points of one scene, path and force, with what they share. Made when the first of them has to run.
 class SharedScene {
@@ -215,7 +149,8 @@ struct Unit {
 };
 
 /// One traversal, as a line of the journal.
-Json run_unit(const Sweep& sweep, const Unit& unit, SharedScene& scene, const Progress& truth_progress) {
+Json run_unit(const Sweep& sweep, const Unit& unit, SharedScene& scene, bool by_name,
+              const Progress& truth_progress) {
   const SweepPoint& point = sweep.points[unit.point];
   LockstepInput input = scene.run().input;
   const bool judged = unit.repetition == 0;
@@ -223,6 +158,7 @@ Json run_unit(const Sweep& sweep, const Unit& unit, SharedScene& scene, const Pr
   const SharedScene::Truth* truth = judged ? &scene.truth_of(sweep, point, truth_progress) : nullptr;
   DriverChoice driver = point.experiment.driver;
   driver.repetitions = 1;
+  const NodeWatch watch(by_name);
   std::vector<MethodRecord> records =
       run_lockstep(lockstep_methods(point.experiment, scene.run()), input, driver, {});
   const MethodRecord& record = records.front();
@@ -231,6 +167,7 @@ Json run_unit(const Sweep& sweep, const Unit& unit, SharedScene& scene, const Pr
   run.work_hash = fmt::format("{:016x}", record.work_hash);
   run.times = record.repetitions.front();
   Json line = run.to_json();
+  line["where"] = watch.finish();
   if (judged) line["errors"] = judge(record, point, scene, *truth).to_json();
   return line;
 }
@@ -241,11 +178,19 @@ PointResult finished_point(const SweepPoint& point, const std::string& key, std:
   try {
     const PointErrors errors = PointErrors::from_json(journal.find(key, 0)->at("errors"));
     std::vector<PointRun> runs;
+    std::vector<Json> where;
+    std::int64_t begun = 0;
     for (std::int64_t repetition = 0; repetition < repetitions; ++repetition) {
-      runs.push_back(PointRun::from_json(*journal.find(key, repetition)));
+      const Json& entry = *journal.find(key, repetition);
+      runs.push_back(PointRun::from_json(entry));
       if (!errors.fits(runs.back())) throw std::out_of_range("unlike numbers of frames or searches");
+      where.push_back(entry.value("where", Json::object()));
+      begun += std::max<std::int64_t>(1, std::ssize(journal.begun(key, repetition)));
     }
-    return finish_point(errors, runs, point.experiment.frame_rate_hz);
+    PointResult result = finish_point(errors, runs, point.experiment.frame_rate_hz);
+    result.where_json = Json(where).dump();
+    result.begun = begun;
+    return result;
   } catch (const std::exception& error) {  // of the JSON library, or numbers that do not fit
     throw InputError(journal.file().string(), "key " + key, std::string("a line is damaged: ") + error.what(),
                      "remove the file and run again");
@@ -258,22 +203,33 @@ std::filesystem::path journal_of(const std::filesystem::path& file) {
   return file.string() + ".points.jsonl";
 }
 
-SweepResult run_sweep(const Sweep& sweep, Journal& journal, const RunProgress& progress) {
-  SweepResult result;
-  result.points.resize(sweep.points.size());
-  result.clock_overhead_s = clock_overhead();
-  InputHashes hashes;
-  hashes.of(sweep.file);
-  std::vector<std::string> keys;
+bool is_finished(const Journal& journal, const std::string& key, std::int64_t repetitions) {
+  for (std::int64_t repetition = 0; repetition < repetitions; ++repetition)
+    if (journal.find(key, repetition) == nullptr) return false;
+  return true;
+}
+
+std::vector<std::filesystem::path> inputs_of(const Sweep& sweep) {
+  std::vector<std::filesystem::path> inputs{sweep.file};
+  for (const SweepPoint& point : sweep.points)
+    for (const Experiment* experiment : {&point.experiment, &point.truth})
+      for (const std::filesystem::path& input : input_files(*experiment))
+        if (std::find(inputs.begin(), inputs.end(), input) == inputs.end()) inputs.push_back(input);
+  return inputs;
+}
+
+SweepWork run_points(const Sweep& sweep, const std::vector<std::size_t>& points, Journal& journal,
+                     InputHashes& hashes, bool by_name, const RunProgress& progress) {
+  SweepWork work;
+  const std::vector<std::string> keys = point_keys(sweep, hashes);
   std::vector<std::string> scenes;                          // in order of appearance
   std::map<std::string, std::vector<std::size_t>> members;  // points of a scene
-  for (std::size_t i = 0; i < sweep.points.size(); ++i) {
-    keys.push_back(point_key(sweep, sweep.points[i], hashes));
-    std::vector<std::size_t>& points = members[scene_key(sweep.points[i].experiment)];
-    if (points.empty()) scenes.push_back(scene_key(sweep.points[i].experiment));
-    points.push_back(i);
+  for (const std::size_t i : points) {
+    std::vector<std::size_t>& of_scene = members[scene_key(sweep.points[i].experiment)];
+    if (of_scene.empty()) scenes.push_back(scene_key(sweep.points[i].experiment));
+    of_scene.push_back(i);
   }
-  const auto total = std::ssize(sweep.points) * sweep.repetitions;
+  const auto total = std::ssize(points) * sweep.repetitions;
   std::int64_t done = 0;
   std::mt19937 shuffled(0);
   for (const std::string& key : scenes) {
@@ -284,15 +240,17 @@ SweepResult run_sweep(const Sweep& sweep, Journal& journal, const RunProgress& p
       for (const std::size_t point : order) {
         if (progress && !progress("points", done++, total)) throw Interrupted();
         if (journal.find(keys[point], repetition) != nullptr) {
-          ++result.resumed_runs;
+          ++work.resumed_runs;
           continue;
         }
-        if (!result.points[point].failure.empty()) continue;
+        if (work.failures.contains(point)) continue;
         try {
+          journal.begin(keys[point], repetition, describe_node(by_name));
           if (!scene) scene = std::make_unique<SharedScene>(sweep, sweep.points[point], hashes);
-          Json line = run_unit(sweep, {point, repetition}, *scene, [&](std::int64_t at, std::int64_t frames) {
-            return !progress || progress("truth", at, frames);
-          });
+          Json line = run_unit(sweep, {point, repetition}, *scene, by_name,
+                               [&](std::int64_t at, std::int64_t frames) {
+                                 return !progress || progress("truth", at, frames);
+                               });
           line["key"] = keys[point];
           line["repetition"] = repetition;
           journal.append(std::move(line));
@@ -301,25 +259,46 @@ SweepResult run_sweep(const Sweep& sweep, Journal& journal, const RunProgress& p
         } catch (const InputChanged&) {
           throw;
         } catch (const Error& error) {
-          result.points[point].failure = error.what();
+          work.failures[point] = error.what();
+          journal.fail(keys[point], error.what());
         }
       }
     }
   }
-  for (std::size_t i = 0; i < sweep.points.size(); ++i)
-    if (result.points[i].failure.empty())
+  return work;
+}
+
+SweepResult collect_points(const Sweep& sweep, const Journal& journal, InputHashes& hashes) {
+  SweepResult result;
+  result.clock_overhead_s = clock_overhead();
+  result.points.resize(sweep.points.size());
+  const std::vector<std::string> keys = point_keys(sweep, hashes);
+  std::vector<std::size_t> missing;
+  for (std::size_t i = 0; i < sweep.points.size(); ++i) {
+    const std::string* failure = journal.failure(keys[i]);
+    if (is_finished(journal, keys[i], sweep.repetitions))
       result.points[i] = finished_point(sweep.points[i], keys[i], sweep.repetitions, journal);
+    else if (failure != nullptr)
+      result.points[i].failure = *failure;
+    else
+      missing.push_back(i);
+  }
+  if (!missing.empty())
+    throw InputError(journal.file().string(), "",
+                     fmt::format("{} of {} points are not measured: {}", missing.size(), sweep.points.size(),
+                                 point_numbers_text(missing)),
+                     "measure them with --points, or leave --collect out and they are measured here");
   result.inputs = hashes.files();
   return result;
 }
 
-SweepResult run_sweep_to_file(const Sweep& sweep, const std::filesystem::path& file,
-                              const std::vector<std::string>& argv, const RunProgress& progress) {
-  std::vector<std::filesystem::path> inputs{sweep.file};
-  for (const SweepPoint& point : sweep.points)
-    for (const Experiment* experiment : {&point.experiment, &point.truth})
-      for (const std::filesystem::path& input : input_files(*experiment))
-        if (std::find(inputs.begin(), inputs.end(), input) == inputs.end()) inputs.push_back(input);
+namespace {
+
+/// @param measure what is done before the journal is collected
+SweepResult sweep_to_file(const Sweep& sweep, const std::filesystem::path& file,
+                          const std::vector<std::string>& argv,
+                          const std::function<SweepWork(Journal&, InputHashes&)>& measure) {
+  const std::vector<std::filesystem::path> inputs = inputs_of(sweep);
   refuse_unsafe_output(file, {.what = "result file", .is_ours = &is_own_result}, inputs, "--out");
   refuse_unsafe_output(journal_of(file), {.what = "journal", .is_ours = &is_own_journal}, inputs, "--out");
   ResultWriter writer(file);
@@ -330,12 +309,32 @@ SweepResult run_sweep_to_file(const Sweep& sweep, const std::filesystem::path& f
       std::filesystem::remove(part, ignored);
     }
   } remove_part{file.string() + ".part"};
-  Journal journal(journal_of(file));
-  SweepResult result = run_sweep(sweep, journal, progress);
+  Journal journal = journal_with_parts(journal_of(file), file);
+  InputHashes hashes;
+  hashes.of(sweep.file);
+  const SweepWork work = measure(journal, hashes);
+  SweepResult result = collect_points(sweep, journal, hashes);
+  result.resumed_runs = work.resumed_runs;
   write_provenance(writer, argv, sweep.resolved_json, "{}", result.inputs);
   write_sweep(writer, sweep, result);
   writer.commit();
   return result;
+}
+
+}  // namespace
+
+SweepResult run_sweep_to_file(const Sweep& sweep, const std::filesystem::path& file,
+                              const std::vector<std::string>& argv, const RunProgress& progress) {
+  return sweep_to_file(sweep, file, argv, [&](Journal& journal, InputHashes& hashes) {
+    std::vector<std::size_t> all(sweep.points.size());
+    std::iota(all.begin(), all.end(), std::size_t{0});
+    return run_points(sweep, all, journal, hashes, false, progress);
+  });
+}
+
+SweepResult collect_sweep_to_file(const Sweep& sweep, const std::filesystem::path& file,
+                                  const std::vector<std::string>& argv) {
+  return sweep_to_file(sweep, file, argv, [](Journal&, InputHashes&) { return SweepWork(); });
 }
 
 }  // namespace lmdbench

@@ -20,13 +20,6 @@ using OrderedJson = nlohmann::ordered_json;
 constexpr std::string_view ERROR = "force_error_rms_n";
 constexpr std::string_view COST = "processor_share";
 
-/// Axes as a JSON object.
-OrderedJson axes_json(const SweepPoint& point) {
-  OrderedJson axes = OrderedJson::object();
-  for (const auto& [place, value] : point.axes) axes[place] = OrderedJson::parse(value);
-  return axes;
-}
-
 void write_samples(ResultWriter& writer, const std::string& group, const PointResult& point) {
   if (!point.failure.empty()) return;
   const auto times = [&](const std::string& name, const std::string& long_name,
@@ -68,6 +61,12 @@ std::string number_text(double value, double scale = 1.0) {
 
 }  // namespace
 
+nlohmann::ordered_json axes_json(const SweepPoint& point) {
+  OrderedJson axes = OrderedJson::object();
+  for (const auto& [place, value] : point.axes) axes[place] = OrderedJson::parse(value);
+  return axes;
+}
+
 bool on_front(const Sweep& sweep, const SweepResult& result, std::size_t point) {
   const double error = result.points[point].number(ERROR), cost = result.points[point].number(COST);
   if (std::isnan(error) || std::isnan(cost)) return false;
@@ -100,13 +99,15 @@ void write_sweep(ResultWriter& writer, const Sweep& sweep, const SweepResult& re
               [](Point p) { return axes_json(p).dump(); });
   write_texts(writer, "experiment", "the point's experiment, resolved: JSON", sweep,
               [](Point p) { return p.experiment.resolved_json; });
-  std::vector<std::string> failures, hashes;
+  std::vector<std::string> failures, hashes, places;
   for (const PointResult& point : result.points) {
     failures.push_back(point.failure);
     hashes.push_back(point.result_hash);
+    places.push_back(point.where_json);
   }
   writer.write({"/points/failure", "1", "why the point has no numbers; empty where it has"}, failures);
   writer.write({"/points/result_hash", "1", "hash of forces and LMDs"}, hashes);
+  writer.write({"/points/where", "1", "where and beside what each repetition was timed: JSON array"}, places);
   const auto column = [&](const std::string& path, std::string_view units, std::string_view long_name,
                           const std::function<double(const PointResult&)>& value) {
     std::vector<double> values;
@@ -137,6 +138,8 @@ void write_sweep(ResultWriter& writer, const Sweep& sweep, const SweepResult& re
          [](const PointResult& point) { return static_cast<double>(point.errors.truth_checked_frames); });
   column("/points/truth_wrong_frames", "1", "of these, with another set",
          [](const PointResult& point) { return static_cast<double>(point.errors.truth_wrong_frames); });
+  column("/points/begun", "1", "traversals that began: more than the repetitions where some were done again",
+         [](const PointResult& point) { return static_cast<double>(point.begun); });
   std::set<std::string> counters;
   for (const PointResult& point : result.points)
     for (const auto& [name, value] : point.errors.counters) counters.insert(name);

@@ -5,6 +5,8 @@
 #include <lmdbench/record/result_writer.h>
 #include <lmdbench/sweep/run_sweep.h>
 
+#include <nlohmann/json.hpp>
+
 #include <string>
 
 namespace lmdbench {
@@ -18,6 +20,9 @@ std::string sweep_text(const Sweep& sweep, const SweepResult& result);
 
 /// JSON array of {"scene", "series", "method", "axes": {place: value}, "failure": text or null, NUMBER: value or null}.
 std::string sweep_json(const Sweep& sweep, const SweepResult& result);
+
+/// The values of a point's axes: JSON object {place in the experiment: value}.
+nlohmann::ordered_json axes_json(const SweepPoint& point);
 
 /// Whether a point is on the Pareto front of its scene: no other one has both less force error and less processor time.
 bool on_front(const Sweep& sweep, const SweepResult& result, std::size_t point);

@@ -1,0 +1,79 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/base/file_hash.h>
+#include <lmdbench/base/input_file.h>
+#include <lmdbench/sweep/point_key.h>
+
+#include <nlohmann/json.hpp>
+
+namespace lmdbench {
+namespace {
+
+std::filesystem::path this_program() {
+  return std::filesystem::canonical("/proc/self/exe");
+}
+
+}  // namespace
+
+std::string scene_key(const Experiment& experiment) {
+  nlohmann::json json = nlohmann::json::parse(experiment.resolved_json);
+  for (const char* other :
+       {"$schema", "name", "title", "methods", "driver", "probes", "record", "acceptance"})
+    json.erase(other);
+  json["folder"] = experiment.file.parent_path().string();
+  return json.dump();
+}
+
+InputChanged::InputChanged(const std::filesystem::path& file)
+    : InputError(file.string(), "", "has changed since the sweep began",
+                 "run the sweep again: points of what it held before are kept and not mixed in") {}
+
+std::string InputHashes::of(const std::filesystem::path& file) {
+  const auto [entry, is_new] = files_.try_emplace(file.lexically_normal().string());
+  std::error_code ignored;
+  if (is_new && std::filesystem::exists(file, ignored)) {
+    const FileContent content = read_input_file(file, {.what = "file"});
+    entry->second = {"sweep", file, content.sha256, static_cast<std::int64_t>(content.bytes.size())};
+  }
+  return entry->second.sha256;
+}
+
+void InputHashes::check(const PreparedRun& run) {
+  for (const MeshNote& mesh : run.meshes)
+    if (mesh.file && of(*mesh.file) != mesh.sha256) throw InputChanged(*mesh.file);
+  for (const InputFile& file : run.files)
+    if (!file.file.empty() && of(file.file) != file.sha256) throw InputChanged(file.file);
+}
+
+std::vector<InputFile> InputHashes::files() const {
+  std::vector<InputFile> result;
+  for (const auto& [name, file] : files_)
+    if (!file.sha256.empty() && name != this_program().string()) result.push_back(file);
+  return result;
+}
+
+std::string point_key(const Sweep& sweep, const SweepPoint& point, InputHashes& hashes) {
+  nlohmann::json json{{"program", hashes.of(this_program())},
+                      {"experiment", scene_key(point.experiment)},
+                      {"method", nlohmann::json::parse(point.experiment.methods.front().options_json)},
+                      {"driver", nlohmann::json::parse(point.experiment.resolved_json)["driver"]},
+                      {"truth", scene_key(point.truth)},
+                      {"truth_check_frames", sweep.truth_check_frames},
+                      {"from_frame", sweep.from_frame},
+                      {"inputs", nlohmann::json::array()}};
+  for (const Experiment* experiment : {&point.experiment, &point.truth}) {
+    for (const std::filesystem::path& file : input_files(*experiment)) {
+      const std::string hash = hashes.of(file);
+      if (file != experiment->file) json["inputs"].push_back(hash);
+    }
+  }
+  return sha256_of_text(json.dump());
+}
+
+std::vector<std::string> point_keys(const Sweep& sweep, InputHashes& hashes) {
+  std::vector<std::string> keys;
+  for (const SweepPoint& point : sweep.points) keys.push_back(point_key(sweep, point, hashes));
+  return keys;
+}
+
+}  // namespace lmdbench
