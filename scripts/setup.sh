@@ -1,13 +1,16 @@
 #!/usr/bin/env bash
 # SPDX-FileCopyrightText: The lmdbench authors
 # SPDX-License-Identifier: BSD-3-Clause
-# Installs the packages of scripts/packages.txt that are missing. Does nothing, and needs neither network nor root,
-# when all are there.
+# Installs the packages of a list that are missing, of scripts/packages.txt without an argument. Does nothing, and needs neither
+# network nor root, when all are there.
+#   setup.sh [LIST]
 set -euo pipefail
 # shellcheck source=scripts/lib.sh
 source "$(dirname "${BASH_SOURCE[0]}")/lib.sh"
 
-mapfile -t wanted < <(sed -e 's/#.*//' -e 's/[[:space:]]//g' -e '/^$/d' "$ROOT/scripts/packages.txt")
+list="${1:-$ROOT/scripts/packages.txt}"
+[[ -r $list ]] || die 2 "$list: cannot be read (remedy: name a list of packages, one a line)"
+mapfile -t wanted < <(sed -e 's/#.*//' -e 's/[[:space:]]//g' -e '/^$/d' "$list")
 
 if ! command -v dpkg-query >/dev/null || ! command -v apt-get >/dev/null; then
   die "$EXIT_ENVIRONMENT" "this is not a Debian system, so nothing can be installed for you" \
@@ -20,7 +23,7 @@ for package in "${wanted[@]}"; do
   grep -qxF "installed $package" <<<"$installed" || missing+=("$package")
 done
 if ((${#missing[@]} == 0)); then
-  say "All ${#wanted[@]} packages of scripts/packages.txt are installed."
+  say "All ${#wanted[@]} packages of ${list#"$ROOT/"} are installed."
   exit 0
 fi
 

@@ -130,5 +130,6 @@ void lmdbench::study::add_builders(CLI::App& app, Run& chosen) {
       ->capture_default_str()
       ->check(CLI::PositiveNumber);
   command->add_option("--seed", choice->seed, "Seed of the poses")->capture_default_str();
-  command->callback([&chosen, choice] { chosen = [choice] { return scaling::compare_builders(*choice); }; });
+  command->callback(
+      [&chosen, choice] { chosen.work = [choice] { return scaling::compare_builders(*choice); }; });
 }

@@ -6,6 +6,7 @@
 #include <benchmarks/global_search/check.h>
 #include <fmt/core.h>
 #include <nlohmann/json.hpp>
+#include <study/pieces.h>
 #include <study/studies.h>
 #include <support/poses.h>
 #include <support/program.h>
@@ -137,5 +138,8 @@ void lmdbench::study::add_compare(CLI::App& app, Run& chosen) {
                       "Recorded path (TUM) instead of random poses: consecutive frames at 1 kHz");
   command->add_option("--first-frame", choice->first_frame, "First frame of the path")->capture_default_str();
   command->add_flag("--slow", choice->slow, "Time slow implementations too");
-  command->callback([&chosen, choice] { chosen = [choice] { return experiments::compare_times(*choice); }; });
+  command->callback([&chosen, command, choice] {
+    chosen.work = [choice] { return experiments::compare_times(*choice); };
+    chosen.pieces = [command, choice] { return pieces_by(*command, {{"--cutoff", texts(choice->cutoffs)}}); };
+  });
 }

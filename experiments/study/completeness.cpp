@@ -11,12 +11,14 @@
 #include <study/completeness/flat_scenes.h>
 #include <study/completeness/rounded_plates.h>
 #include <study/completeness/study.h>
+#include <study/pieces.h>
 #include <study/studies.h>
 #include <support/context.h>
 #include <support/poses.h>
 #include <support/program.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <limits>
@@ -297,6 +299,29 @@ int judge_completeness(const CompletenessChoice& choice) {
   return static_cast<int>(ExitCode::CHECK_FAILED);
 }
 
+/// A pair, a kind of generated scene or a path each, in the order of the report.
+std::vector<study::Arguments> pieces(const CLI::App& command, const CompletenessChoice& choice) {
+  const std::vector<std::string> kinds = {"--far-poses", "--flat-poses", "--rounded-poses"};
+  study::Arguments common = study::arguments_without(
+      command, {"--pair", "--no-pairs", "--experiment", kinds[0], kinds[1], kinds[2]});
+  const auto piece = [&](const study::Arguments& what) {
+    study::Arguments arguments = common;
+    for (const std::string& kind : kinds)
+      if (!what.front().starts_with(kind)) arguments.push_back(kind + "=0");
+    if (!what.front().starts_with("--pair")) arguments.emplace_back("--no-pairs");
+    arguments.insert(arguments.end(), what.begin(), what.end());
+    return arguments;
+  };
+  std::vector<study::Arguments> result;
+  for (const std::string& pair : choice.pairs) result.push_back(piece({"--pair=" + pair}));
+  const std::array<std::size_t, 3> poses = {choice.far_poses, choice.flat_poses, choice.rounded_poses};
+  for (std::size_t kind = 0; kind < kinds.size(); ++kind)
+    if (poses[kind] > 0) result.push_back(piece({fmt::format("{}={}", kinds[kind], poses[kind])}));
+  for (const std::string& experiment : choice.experiments)
+    result.push_back(piece({"--experiment=" + experiment}));
+  return result;
+}
+
 }  // namespace
 }  // namespace lmdbench::completeness
 
@@ -326,8 +351,9 @@ void lmdbench::study::add_completeness(CLI::App& app, Run& chosen) {
       ->add_option("--truth-stride", choice->truth_stride,
                    "Compare every so many frames of a path with exhaustive; 0: none")
       ->capture_default_str();
-  command->callback([&chosen, choice, no_pairs] {
+  command->callback([&chosen, command, choice, no_pairs] {
     if (*no_pairs) choice->pairs.clear();
-    chosen = [choice] { return completeness::judge_completeness(*choice); };
+    chosen.work = [choice] { return completeness::judge_completeness(*choice); };
+    chosen.pieces = [command, choice] { return completeness::pieces(*command, *choice); };
   });
 }

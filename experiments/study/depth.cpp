@@ -172,7 +172,7 @@ void add_depth(CLI::App& app, Run& chosen) {
                    "Compare every so many frames with exhaustive; 0: none")
       ->capture_default_str();
   command->add_option("--json", choice->json, "Also write the table to this file");
-  command->callback([choice, &chosen] { chosen = [choice] { return slide_inwards(*choice); }; });
+  command->callback([choice, &chosen] { chosen.work = [choice] { return slide_inwards(*choice); }; });
 }
 
 }  // namespace lmdbench::study

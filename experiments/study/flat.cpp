@@ -272,6 +272,6 @@ void lmdbench::study::add_flat(CLI::App& app, Run& chosen) {
   command->add_option("--json", choice->json, "Also write every pose's numbers to this file");
   command->callback([choice, no_fcl, &chosen] {
     choice->fcl = !*no_fcl;
-    chosen = [choice] { return flat::run(*choice); };
+    chosen.work = [choice] { return flat::run(*choice); };
   });
 }

@@ -100,7 +100,7 @@ void lmdbench::study::add_integrators(CLI::App& app, Run& chosen) {
   CLI::App* command =
       app.add_subcommand("integrators", "Error against run time of the integrators of the simulated device");
   command->callback([&chosen] {
-    chosen = [] {
+    chosen.work = [] {
       fmt::print(
           "| case | integrator | error of position | energy left over | time a tick, us "
           "|\n|---|---|---|---|---|\n");

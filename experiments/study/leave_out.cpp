@@ -224,7 +224,7 @@ void add_leave_out(CLI::App& app, Run& chosen) {
       ->capture_default_str()
       ->check(CLI::PositiveNumber);
   command->add_option("--frames", choice->frames, "frames of each path; all without it");
-  command->callback([choice, &chosen] { chosen = [choice] { return compare_rules(*choice); }; });
+  command->callback([choice, &chosen] { chosen.work = [choice] { return compare_rules(*choice); }; });
 }
 
 }  // namespace lmdbench::study

@@ -1,6 +1,8 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include <CLI/CLI.hpp>
+#include <fmt/core.h>
+#include <study/pieces.h>
 #include <study/studies.h>
 #include <support/program.h>
 
@@ -11,6 +13,12 @@ int main(int argc, char** argv) {
   CLI::App app("Studies of the methods: what they miss, what they cost, how costs grow", "lmdbench-study");
   app.require_subcommand(1);
   study::Run chosen;
+  bool pieces = false;
+  app.add_flag("--pieces", pieces,
+               "only print the calls that do the same piece by piece: a JSON array of argument lists "
+               "(scripts/cluster/)");
+  app.add_flag("--name-node", experiments::reports_name_node(),
+               "reports say on which node they were made and beside what (scripts/cluster/)");
   study::add_recall(app, chosen);
   study::add_completeness(app, chosen);
   study::add_scaling(app, chosen);
@@ -24,5 +32,9 @@ int main(int argc, char** argv) {
   study::add_leave_out(app, chosen);
   study::add_parts(app, chosen);
   study::add_roles(app, chosen);
-  return experiments::run_program(app, argc, argv, [&chosen] { return chosen(); });
+  return experiments::run_program(app, argc, argv, [&] {
+    if (!pieces) return chosen.work();
+    fmt::print("{}\n", study::pieces_json(app, chosen));
+    return 0;
+  });
 }

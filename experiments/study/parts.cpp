@@ -6,6 +6,7 @@
 #include <fmt/core.h>
 #include <nlohmann/json.hpp>
 #include <study/completeness/parts_study.h>
+#include <study/pieces.h>
 #include <study/studies.h>
 #include <support/context.h>
 #include <support/program.h>
@@ -112,7 +113,7 @@ void lmdbench::study::add_parts(CLI::App& app, Run& chosen) {
   command->add_flag("--flush", *flush, "Only poses without tilt, whose flat contacts are exact");
   command->add_option("--complaints", choice->complaints, "Wrong poses that are told")->capture_default_str();
   command->add_option("--json", choice->json, "File that the table is written to as well");
-  command->callback([&chosen, choice, coordinates, flush, generator] {
+  command->callback([&chosen, command, choice, coordinates, flush, generator] {
     if (*flush) choice->study.family = parts::PoseFamily::FLUSH;
     for (const std::string& kind : choice->study.kinds) parts::parts_kind(kind);
     if (choice->study.kinds.empty())
@@ -123,7 +124,12 @@ void lmdbench::study::add_parts(CLI::App& app, Run& chosen) {
       if (coordinates->empty() ||
           std::find(coordinates->begin(), coordinates->end(), name_of(each)) != coordinates->end())
         choice->study.coordinates.push_back(each);
-    chosen = [choice] { return judge_all(*choice); };
+    chosen.work = [choice] { return judge_all(*choice); };
+    chosen.pieces = [command, choice] {
+      std::vector<std::string> names;
+      for (const parts::Coordinates each : choice->study.coordinates) names.emplace_back(name_of(each));
+      return study::pieces_by(*command, {{"--kind", choice->study.kinds}, {"--coordinates", names}});
+    };
   });
   command->get_option("--coordinates")->check(CLI::IsMember({"exact", "turned", "rounded", "recut"}));
 }

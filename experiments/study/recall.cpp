@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 #include <fmt/core.h>
 #include <nlohmann/json.hpp>
+#include <study/pieces.h>
 #include <study/recall/variant.h>
 #include <study/studies.h>
 #include <support/poses.h>
@@ -103,6 +104,8 @@ void lmdbench::study::add_recall(CLI::App& app, Run& chosen) {
   choice->seed = 2;
   experiments::add_mesh_options(*command, choice->scene);
   experiments::add_study_options(*command, *choice);
-  command->callback(
-      [&chosen, choice] { chosen = [choice] { return recall_study::measure_recall(*choice); }; });
+  command->callback([&chosen, command, choice] {
+    chosen.work = [choice] { return recall_study::measure_recall(*choice); };
+    chosen.pieces = [command, choice] { return pieces_by(*command, {{"--cutoff", texts(choice->cutoffs)}}); };
+  });
 }

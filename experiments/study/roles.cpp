@@ -177,7 +177,7 @@ void add_roles(CLI::App& app, Run& chosen) {
       ->check(CLI::Range(1, 1000))
       ->capture_default_str();
   command->add_option("--json", choice->json, "file for the numbers");
-  command->callback([choice, &chosen] { chosen = [choice] { return run_roles(*choice); }; });
+  command->callback([choice, &chosen] { chosen.work = [choice] { return run_roles(*choice); }; });
 }
 
 }  // namespace lmdbench::study

@@ -10,6 +10,7 @@
 #include <CLI/CLI.hpp>
 #include <fmt/core.h>
 #include <nlohmann/json.hpp>
+#include <study/pieces.h>
 #include <study/scaling/measure.h>
 #include <study/scaling/subdivide.h>
 #include <study/studies.h>
@@ -317,5 +318,16 @@ void lmdbench::study::add_scaling(CLI::App& app, Run& chosen) {
                     "The dragon too, whose meshes are optional: lmdbench mesh build dragon-11k dragon-47k "
                     "dragon-202k dragon-871k");
   command->add_option("--json", choice->json, "Also write every pose's numbers to this file");
-  command->callback([&chosen, choice] { chosen = [choice] { return scaling::measure_scaling(*choice); }; });
+  command->callback([&chosen, command, choice] {
+    chosen.work = [choice] { return scaling::measure_scaling(*choice); };
+    chosen.pieces = [command, choice] {
+      std::vector<std::string> names;
+      for (const scaling::Study& each : scaling::all_studies(*choice))
+        if (choice->only.empty()
+                ? !each.large || choice->large
+                : std::find(choice->only.begin(), choice->only.end(), each.name) != choice->only.end())
+          names.push_back(each.name);
+      return pieces_by(*command, {{"--only", names}});
+    };
+  });
 }

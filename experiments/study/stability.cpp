@@ -89,7 +89,7 @@ void add_stability(CLI::App& app, Run& chosen) {
   command->add_option("--known", choice->known, "print only the runs that this output of the study lacks")
       ->check(CLI::ExistingFile);
   command->add_option("--frames", choice->grid.frames, "frames a run")->check(CLI::PositiveNumber);
-  command->callback([choice, &chosen] { chosen = [choice] { return map(*choice); }; });
+  command->callback([choice, &chosen] { chosen.work = [choice] { return map(*choice); }; });
 }
 
 }  // namespace lmdbench::study

@@ -3,6 +3,8 @@
 #pragma once
 
 #include <functional>
+#include <string>
+#include <vector>
 
 namespace CLI {
 class App;
@@ -11,8 +13,12 @@ class App;
 /// One file a subcommand of lmdbench-study.
 namespace lmdbench::study {
 
-/// What the chosen subcommand does once the command line is read; it returns the exit code.
-using Run = std::function<int()>;
+/// What the chosen subcommand does once the command line is read.
+struct Run {
+  std::function<int()> work;  ///< Returns the exit code.
+  /// Command lines that do the same work bit by bit, where the study falls into pieces (pieces.h).
+  std::function<std::vector<std::vector<std::string>>()> pieces;
+};
 
 /// Each adds its subcommand to `app`, which sets `chosen` when it is named; `chosen` must outlive the parsing.
 void add_recall(CLI::App& app, Run& chosen);

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/base/atomic_file.h>
 #include <lmdbench/base/error.h>
+#include <lmdbench/record/node_watch.h>
 
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
@@ -43,13 +44,32 @@ int report_errors(const std::function<int()>& run) {
   }
 }
 
+namespace {
+
+/// Since the command line was read.
+const NodeWatch& watch() {
+  static const NodeWatch since_start(true);
+  return since_start;
+}
+
+}  // namespace
+
+bool& reports_name_node() {
+  static bool name_node = false;
+  return name_node;
+}
+
 int run_program(CLI::App& app, int argc, const char* const* argv, const std::function<int()>& run) {
   CLI11_PARSE(app, argc, argv);
+  if (reports_name_node()) watch();
   return report_errors(run);
 }
 
 void write_report(const std::string& file, const nlohmann::json& report) {
-  if (!file.empty()) write_file_atomically(file, report.dump(2) + '\n');
+  if (file.empty()) return;
+  nlohmann::json told = report;
+  if (reports_name_node()) told["where"] = watch().finish();
+  write_file_atomically(file, told.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + '\n');
 }
 
 nlohmann::json error_json(const Agreement& same, const Agreement& neighbours) {

@@ -46,6 +46,9 @@ int report_errors(const std::function<int()>& run);
 /// @return the exit code, as `report_errors`
 int run_program(CLI::App& app, int argc, const char* const* argv, const std::function<int()>& run);
 
+/// Whether reports say on which node they were made and beside what (`NodeWatch`, from now on), as "where". For command lines.
+bool& reports_name_node();
+
 /// Writes the report, so that the file is the old or the new one at any time; nothing when no file is named.
 /// @throws Error when it cannot be written
 void write_report(const std::string& file, const nlohmann::json& report);

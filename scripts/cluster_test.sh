@@ -1,0 +1,15 @@
+#!/usr/bin/env bash
+# SPDX-FileCopyrightText: The lmdbench authors
+# SPDX-License-Identifier: BSD-3-Clause
+# Fifty points on a Slurm that the test starts on the loopback interface, as root, and whose node fails in the middle; some minutes.
+# Installs the packages of scripts/cluster/packages.txt that are missing.
+set -euo pipefail
+# shellcheck source=scripts/lib.sh
+source "$(dirname "${BASH_SOURCE[0]}")/lib.sh"
+
+(($# == 0)) || die 2 "unknown argument '$1' (remedy: ./scripts/cluster_test.sh takes none)"
+"$ROOT/scripts/setup.sh"
+"$ROOT/scripts/setup.sh" "$ROOT/scripts/cluster/packages.txt"
+build_preset release
+cd "$ROOT"
+ctest --preset release --tests-regex '^(Cluster|Slurm)$' --no-tests=error </dev/null
