@@ -1,7 +1,8 @@
 # SPDX-FileCopyrightText: The lmdbench authors
 # SPDX-License-Identifier: BSD-3-Clause
 """Installs the build tree into a prefix, moves it, and uses it from outside: a project of twenty lines by CMake with g++ and
-clang++, Debug and Release, and by pkg-config; the program with the data and scripts beside it. Argument: the build tree."""
+clang++, Debug and Release, and by pkg-config; the program with the data and scripts beside it. Arguments: the build tree; with
+--every the consumer of every compiler, build type and prefix, without it of one, and all the rest."""
 
 import json
 import os
@@ -16,6 +17,10 @@ HERE = os.path.dirname(os.path.abspath(__file__))
 ROOT = os.path.abspath(os.path.join(HERE, "..", ".."))
 CONSUMER = os.path.join(HERE, "consumer")
 BUILD = None
+# Of each compiler the build types, and where the library is. A release build is linked in any case.
+ONE_CONSUMER = (("g++", ("Debug",), ("prefix",)),)
+EVERY_CONSUMER = tuple((compiler, ("Debug", "Release"), ("staged", "prefix")) for compiler in ("g++", "clang++"))
+CONSUMERS = ONE_CONSUMER
 BOX = """OFF\n8 12 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n0 0 1\n1 0 1\n1 1 1\n0 1 1
 3 0 2 1\n3 0 3 2\n3 4 5 6\n3 4 6 7\n3 0 1 5\n3 0 5 4\n3 1 2 6\n3 1 6 5\n3 2 3 7\n3 2 7 6\n3 3 0 4\n3 3 4 7\n"""
 
@@ -74,10 +79,10 @@ class Installed(unittest.TestCase):
         self.assertEqual(missing.returncode, 3)
         self.assertIn("missing.off", missing.stderr)
 
-    def test_cmake_finds_it_from_any_compiler_and_build_type(self):
-        for compiler in ("g++", "clang++"):
-            for kind in ("Debug", "Release"):
-                for prefix in (self.staged, self.prefix):
+    def test_cmake_finds_it(self):
+        for compiler, kinds, prefixes in CONSUMERS:
+            for kind in kinds:
+                for prefix in (getattr(self, name) for name in prefixes):
                     with self.subTest(compiler=compiler, kind=kind, prefix=prefix):
                         folder, done = self.configure(prefix, f"{compiler}-{kind}-{os.path.basename(prefix)}",
                                                       f"-DCMAKE_CXX_COMPILER={compiler}", f"-DCMAKE_BUILD_TYPE={kind}")
@@ -97,13 +102,18 @@ class Installed(unittest.TestCase):
         self.assertIn("0.2", done.stderr)
 
     def test_pkg_config_finds_it(self):
+        for compiler in [compiler for compiler, _, _ in CONSUMERS]:
+            with self.subTest(compiler=compiler):
+                self.use_pkg_config(compiler)
+
+    def use_pkg_config(self, compiler):
         environment = {**os.environ, "PKG_CONFIG_PATH": os.path.join(self.libdir(), "pkgconfig")}
         done = run("pkg-config", "--cflags", "--libs", "lmdbench", env=environment)
         self.assertEqual(done.returncode, 0, done.stderr)
         flags = shlex.split(done.stdout)  # the prefix has a space
         self.assertIn("-DEIGEN_MAX_ALIGN_BYTES=16", flags)
-        program = os.path.join(self.scratch.name, "by-pkg-config")
-        done = run("g++", "-std=c++20", "-O1", os.path.join(CONSUMER, "main.cpp"), "-o", program, *flags)
+        program = os.path.join(self.scratch.name, f"by-pkg-config-{compiler}")
+        done = run(compiler, "-std=c++20", "-O1", os.path.join(CONSUMER, "main.cpp"), "-o", program, *flags)
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assert_answers(program)
 
@@ -156,5 +166,9 @@ class Installed(unittest.TestCase):
 
 
 if __name__ == "__main__":
+    if "--every" in sys.argv:
+        sys.argv.remove("--every")
+        CONSUMERS = EVERY_CONSUMER
+        sys.argv += ["Installed.test_cmake_finds_it", "Installed.test_pkg_config_finds_it"]
     BUILD = os.path.abspath(sys.argv.pop(1))
     unittest.main()

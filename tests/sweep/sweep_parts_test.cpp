@@ -108,6 +108,19 @@ TEST_F(SweepParts, CollectingNamesThePointsThatLack) {
   EXPECT_FALSE(std::filesystem::exists(out_));
 }
 
+TEST_F(SweepParts, AreDoneWithTheLastRepetition) {
+  const Sweep all = sweep();
+  measure_part(all, {0, 1, 2}, out_);
+  const auto stop_after_one = [](const std::string& phase, std::int64_t at, std::int64_t) {
+    return phase != "points" || at < 1;
+  };
+  EXPECT_THROW(measure_part(all, {3}, out_, stop_after_one), Interrupted);
+  EXPECT_THAT(done(all), ElementsAre(true, true, true, false));
+  EXPECT_THROW(collect(all), InputError);
+  EXPECT_EQ(measure_part(all, {3}, out_).resumed_runs, 1);
+  EXPECT_EQ(collect(all).points[3].begun, 2) << "each repetition once";
+}
+
 TEST_F(SweepParts, NamesWhatWasBegunAgain) {
   const Sweep all = sweep();
   const auto stop_at_truth = [](const std::string& phase, std::int64_t, std::int64_t) {
