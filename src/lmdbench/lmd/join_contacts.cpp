@@ -40,6 +40,7 @@ bool contact_less(const Contact& a, const Contact& b) {
   if (a.distance != b.distance) return a.distance < b.distance;
   if (name_of(a) != name_of(b)) return name_of(a) < name_of(b);
   if (a.dimension != b.dimension) return a.dimension > b.dimension;
+  if (a.index != b.index) return std::abs(a.index) > std::abs(b.index);
   const auto place = [](const Contact& c) {
     return std::tuple(c.point_moving[0], c.point_moving[1], c.point_moving[2]);
   };
@@ -74,8 +75,23 @@ constexpr std::size_t NOT_KNOWN = std::numeric_limits<std::size_t>::max();
 
 class Joining {
  public:
-  Joining(const ShapePair& pair, std::int32_t body, ContactSet& set)
-      : pair_(pair), tolerance_(pair.tolerance), body_(body), set_(set), contacts_(set.contacts) {}
+  /// Of every LMD that is reported, where it is wanted.
+  struct Sign {
+    int index;
+    bool is_minimum, has_index, is_basin;
+  };
+  struct Signs {
+    const SignedFeatures &moving, &fixed;
+    std::vector<Sign> of_lmds;
+  };
+
+  Joining(const ShapePair& pair, std::int32_t body, ContactSet& set, Signs* signs = nullptr)
+      : pair_(pair),
+        tolerance_(pair.tolerance),
+        body_(body),
+        set_(set),
+        contacts_(set.contacts),
+        signs_(signs) {}
 
   void run(std::span<const Intersection> intersections, LmdSet& lmds) {
     drop_intersecting(intersections);
@@ -84,21 +100,25 @@ class Joining {
     contacts_.erase(std::unique(contacts_.begin(), contacts_.end(),
                                 [](const Contact& a, const Contact& b) {
                                   return a.dimension == 0 && b.dimension == 0 && name_of(a) == name_of(b) &&
-                                         a.distance == b.distance;
+                                         a.distance == b.distance && a.is_minimum == b.is_minimum;
                                 }),
                     contacts_.end());
     find_company();
     if (company_.empty()) {
-      for (const Contact& contact : contacts_)
-        if (contact.dimension == 0) report(contact, lmds);
+      for (std::size_t i = 0; i < contacts_.size(); ++i)
+        if (contacts_[i].dimension == 0 && (contacts_[i].is_minimum || contacts_[i].index != 0))
+          report_signed(contacts_[i], contacts_[i], {&i, 1}, contacts_[i].is_minimum, lmds);
       return;
     }
     sets_ = boost::disjoint_sets_with_storage<>(contacts_.size());
     for (Carriers* carriers : {&carriers_moving_, &carriers_fixed_})
       carriers->rows.assign(contacts_.size(), {NOT_KNOWN, 0});
     grids_.resize(set_.frames.size());
-    join_what_meets();
-    join_over_level_ways();
+    if (signs_ == nullptr) {
+      join_company();
+    } else {
+      join_signed_company();
+    }
     report_all(lmds);
   }
 
@@ -213,6 +233,33 @@ class Joining {
 
   // --- joining
 
+  void join_company() {
+    join_what_meets();
+    join_over_level_ways();
+  }
+
+  /// First the minima alone, so that they become the same LMDs as without the other critical pairs; those then join a minimum or each
+  /// other, and never two minima.
+  void join_signed_company() {
+    const std::vector<std::size_t> all = company_;
+    std::erase_if(company_, [&](std::size_t i) { return !contacts_[i].is_minimum; });
+    join_company();
+    has_minimum_.resize(contacts_.size());
+    for (std::size_t i = 0; i < contacts_.size(); ++i)
+      if (contacts_[i].is_minimum) has_minimum_[sets_.find_set(i)] = true;
+    company_ = all;
+    join_company();
+  }
+
+  void join(std::size_t i, std::size_t j) {
+    const std::size_t a = sets_.find_set(i), b = sets_.find_set(j);
+    if (has_minimum_.empty()) return sets_.link(a, b);
+    if (has_minimum_[a] && has_minimum_[b]) return;
+    const bool has_one = has_minimum_[a] || has_minimum_[b];
+    sets_.link(a, b);
+    has_minimum_[sets_.find_set(a)] = has_one;
+  }
+
   Eigen::AlignedBox3d box_of(const Contact& contact, double reach) const {
     Eigen::AlignedBox3d box;
     if (contact.dimension == 0) {
@@ -250,7 +297,7 @@ class Joining {
         const Contact &a = contacts_[i], &b = contacts_[j];
         if (sets_.find_set(i) == sets_.find_set(j) || std::abs(a.distance - b.distance) > granted(a, b))
           continue;
-        if (are_one_place(i, j)) sets_.union_set(i, j);
+        if (are_one_place(i, j)) join(i, j);
       }
       open.push_back(k);
     }
@@ -372,7 +419,7 @@ class Joining {
         if (sets_.find_set(i) == sets_.find_set(other.contact) ||
             std::abs(a.distance - b.distance) > granted(a, b))
           continue;
-        if (is_level_way(bucket.front(), a, b)) sets_.union_set(i, other.contact);
+        if (is_level_way(bucket.front(), a, b)) join(i, other.contact);
       }
     }
   }
@@ -420,18 +467,23 @@ class Joining {
 
   /// @param set  indices of contacts of one LMD, nearest first
   void report_set(std::span<const std::size_t> set, LmdSet& lmds) {
-    const auto has_point = [&] {
-      return std::ranges::any_of(set, [&](std::size_t i) { return contacts_[i].dimension == 0; });
+    const auto is_point = [&](std::size_t i) {
+      return contacts_[i].dimension == 0 && contacts_[i].is_minimum;
     };
-    if (!has_point()) return;
-    const double least = contacts_[set.front()].distance;
+    if (std::ranges::none_of(set, is_point)) {
+      if (sum_of(set) != 0) report_signed(contacts_[set.front()], contacts_[set.front()], set, false, lmds);
+      return;
+    }
+    const auto first = std::ranges::find_if(set, [&](std::size_t i) { return contacts_[i].is_minimum; });
+    const double least = contacts_[*first].distance;
     const double highest = least + tolerance_.same_distance(least);
     int dimension = 0;
     for (const std::size_t i : set)
-      if (contacts_[i].distance <= highest) dimension = std::max(dimension, contacts_[i].dimension);
+      if (contacts_[i].distance <= highest && contacts_[i].is_minimum)
+        dimension = std::max(dimension, contacts_[i].dimension);
     std::vector<const Contact*> pieces, points;
     for (const std::size_t i : set) {
-      if (contacts_[i].distance > highest) continue;
+      if (contacts_[i].distance > highest || !contacts_[i].is_minimum) continue;
       if (contacts_[i].dimension == dimension) pieces.push_back(&contacts_[i]);
       if (contacts_[i].dimension == 0) points.push_back(&contacts_[i]);
     }
@@ -439,7 +491,8 @@ class Joining {
     if (dimension == 2) whole = middle_of_polygons(pieces);
     if (dimension == 1) whole = middle_of_segments(pieces);
     if (!whole) {
-      report(nearest_contact(points.empty() ? pieces : points), lmds);
+      const Contact& nearest = nearest_contact(points.empty() ? pieces : points);
+      report_signed(nearest, nearest, set, true, lmds);
       return;
     }
     const Contact* namesake = nullptr;
@@ -453,7 +506,28 @@ class Joining {
       nearest = namesake == nullptr ? apart : std::min(apart, nearest);
       namesake = piece;
     }
-    report(*whole, *namesake, lmds);
+    report_signed(*whole, *namesake, set, true, lmds);
+  }
+
+  int sum_of(std::span<const std::size_t> set) const {
+    int sum = 0;
+    for (const std::size_t i : set) sum += contacts_[i].index;
+    return sum;
+  }
+
+  /// Reports an LMD, or a critical pair that is none, and the sign of its set.
+  void report_signed(const Contact& contact, const Contact& namesake, std::span<const std::size_t> set,
+                     bool is_minimum, LmdSet& lmds) const {
+    const std::size_t before = lmds.size();
+    report(contact, namesake, lmds);
+    if (signs_ == nullptr || lmds.size() == before) return;
+    const bool has_index = std::ranges::all_of(set, [&](std::size_t i) {
+      return signs_->moving.has_index(contacts_[i].moving) && signs_->fixed.has_index(contacts_[i].fixed);
+    });
+    const bool is_basin =
+        sum_of(set) > 0 && std::ranges::any_of(set, [&](std::size_t i) { return contacts_[i].is_basin; });
+    signs_->of_lmds.push_back(
+        {has_index ? sum_of(set) : 1, is_minimum, has_index, has_index ? is_basin : is_minimum});
   }
 
   static Contact middle_of_polygons(const std::vector<const Contact*>& pieces) {
@@ -569,8 +643,6 @@ class Joining {
     return q + frame.lifted(nearest) - frame.lifted(x);
   }
 
-  void report(const Contact& contact, LmdSet& lmds) const { report(contact, contact, lmds); }
-
   /// @param namesake  the contact whose features name the LMD
   void report(const Contact& contact, const Contact& namesake, LmdSet& lmds) const {
     if (contact.distance > tolerance_.cutoff) return;
@@ -605,6 +677,8 @@ class Joining {
   std::int32_t body_;
   ContactSet& set_;
   std::vector<Contact>& contacts_;
+  Signs* signs_;
+  std::vector<bool> has_minimum_;  ///< Of the roots, while critical pairs that are no minima are joined.
   double last_granted_ = 0.0;
   std::vector<std::size_t> company_;
   boost::disjoint_sets_with_storage<> sets_;
@@ -617,6 +691,34 @@ class Joining {
 void join_contacts(const ShapePair& pair, std::int32_t fixed_body, ContactSet& contacts,
                    std::span<const Intersection> intersections, LmdSet& lmds) {
   Joining(pair, fixed_body, contacts).run(intersections, lmds);
+}
+
+void join_critical(const ShapePair& pair, const SignedFeatures& moving, const SignedFeatures& fixed,
+                   std::int32_t fixed_body, ContactSet& contacts, std::span<const Intersection> intersections,
+                   CriticalSet& critical) {
+  Joining::Signs signs{moving, fixed, {}};
+  LmdSet lmds;
+  Joining(pair, fixed_body, contacts, &signs).run(intersections, lmds);
+  for (std::size_t i = 0; i < lmds.size(); ++i)
+    critical.push_back({lmds[i], signs.of_lmds[i].index, signs.of_lmds[i].is_minimum,
+                        signs.of_lmds[i].has_index, signs.of_lmds[i].is_basin});
+}
+
+void decide_critical(const ShapePair& pair, const SignedPair& signs, const FeatureId& on_moving,
+                     const FeatureId& on_fixed, ContactSet& found) {
+  const std::size_t before = found.contacts.size();
+  decide(pair, on_moving, on_fixed, found);
+  const std::size_t between = found.contacts.size();
+  signs.append(on_moving, on_fixed, found);
+  if (found.contacts.size() == between || between != before + 1 || found.contacts[before].dimension != 0)
+    return;
+  found.contacts[before].index = found.contacts.back().index;
+  found.contacts[before].is_basin = found.contacts.back().is_basin;
+  found.contacts.pop_back();
+}
+
+void append_touching(const LmdSet& lmds, CriticalSet& critical) {
+  for (const Lmd& lmd : lmds) critical.push_back({lmd, 1, true, true, true});
 }
 
 }  // namespace lmdbench

@@ -3,6 +3,8 @@
 #pragma once
 
 #include <lmdbench/lmd/contact.h>
+#include <lmdbench/lmd/critical_index.h>
+#include <lmdbench/lmd/critical_pair.h>
 #include <lmdbench/lmd/decide.h>
 #include <lmdbench/lmd/intersections.h>
 #include <lmdbench/lmd/lmd.h>
@@ -28,5 +30,18 @@ namespace lmdbench {
 /// @param lmds  those within the cutoff are appended, unsorted
 void join_contacts(const ShapePair& pair, std::int32_t fixed_body, ContactSet& contacts,
                    std::span<const Intersection> intersections, LmdSet& lmds);
+
+/// The same with the critical pairs among the contacts: an LMD's index is the sum over its contacts; what is joined and has no minimum
+/// is a critical pair at its nearest contact where the sum is not 0. The minima are the set that `join_contacts` makes.
+void join_critical(const ShapePair& pair, const SignedFeatures& moving, const SignedFeatures& fixed,
+                   std::int32_t fixed_body, ContactSet& contacts, std::span<const Intersection> intersections,
+                   CriticalSet& critical);
+
+/// Asks two features for their contacts and for their critical pair; where both are one pair of points the contact takes the index.
+void decide_critical(const ShapePair& pair, const SignedPair& signs, const FeatureId& on_moving,
+                     const FeatureId& on_fixed, ContactSet& found);
+
+/// What was appended for triangles that intersect (intersections.h), as minima of index 1.
+void append_touching(const LmdSet& lmds, CriticalSet& critical);
 
 }  // namespace lmdbench

@@ -1,11 +1,17 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/lmd/method.h>
+#include <lmdbench/lmd/method_description.h>
 
 #include <algorithm>
 #include <iterator>
+#include <stdexcept>
 
 namespace lmdbench {
+
+void Method::find_critical(const Pose&, CriticalSet&, WorkCounters&) {
+  throw std::logic_error(description().name + " finds no critical pairs");
+}
 
 LmdSet within_cutoff(const LmdSet& lmds, double cutoff) {
   LmdSet result;

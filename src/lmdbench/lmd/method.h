@@ -3,6 +3,7 @@
 #pragma once
 
 #include <lmdbench/geometry/pose.h>
+#include <lmdbench/lmd/critical_pair.h>
 #include <lmdbench/lmd/lmd.h>
 #include <lmdbench/lmd/work_counters.h>
 
@@ -29,6 +30,11 @@ class Method {
   /// Brings a set to a new pose (L1..L4) and drops duplicates by the method's rule. Tracked pairs may lie
   /// beyond the cutoff: they stay in the set, exert no force and are not reported (see `within_cutoff`).
   virtual void track(const Pose& X_WM, LmdSet& lmds, WorkCounters& counters) = 0;
+
+  /// Finds all critical pairs (critical_pair.h). Only for methods whose description says that they do
+  /// (`finds_critical_pairs`); costs more than `search`.
+  /// @throws std::logic_error for others
+  virtual void find_critical(const Pose& X_WM, CriticalSet& critical, WorkCounters& counters);
 };
 
 /// The pairs of a tracked set that count as LMDs: those within the cutoff.

@@ -64,6 +64,9 @@ struct MethodDescription {
   /// Whether a search looks at every pair of triangles, so that benchmarks time it only where asked to.
   bool brute_force = false;
 
+  /// Whether `Method::find_critical` answers.
+  bool finds_critical_pairs = false;
+
   /// The options, as "properties" of a draft-07 JSON Schema; each has a description and a default.
   nlohmann::json options = nlohmann::json::object();
 

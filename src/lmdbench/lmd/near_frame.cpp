@@ -57,6 +57,13 @@ class InNearFrame : public Method {
     method_->track(frame_.to_near(X_WM), lmds, counters);
     frame_.to_world(lmds);
   }
+  void find_critical(const Pose& X_WM, CriticalSet& critical, WorkCounters& counters) override {
+    method_->find_critical(frame_.to_near(X_WM), critical, counters);
+    for (CriticalPair& pair : critical) {
+      pair.pair.point_moving += frame_.origin_W();
+      pair.pair.point_fixed += frame_.origin_W();
+    }
+  }
 
  private:
   NearFrame frame_;

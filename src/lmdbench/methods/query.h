@@ -7,6 +7,7 @@
 #include <lmdbench/lmd/method.h>
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -18,6 +19,7 @@ struct QueryAnswer {
   double time = 0.0;  ///< Of the pose [s].
   std::string method;
   LmdSet lmds;                                                  ///< Sorted by `lmd_less`, world coordinates.
+  std::optional<CriticalSet> critical;                          ///< Where asked for; the LMDs are its minima.
   std::vector<std::pair<std::string, std::uint64_t>> counters;  ///< The method's, by name.
   double seconds = 0.0;                                         ///< What the method took.
 };
@@ -28,8 +30,13 @@ struct QueryAnswer {
 /// @param time   of the pose, for the answer [s]
 QueryAnswer query(Method& method, const Pose& X_WM, double cutoff, double time = 0.0);
 
+/// The same with all critical pairs.
+/// @pre the method's description says that it finds them
+QueryAnswer query_critical(Method& method, const Pose& X_WM, double time = 0.0);
+
 /// One line of JSON without a line end (the contract of `lmdbench query --json`). A
-/// distance of 0 is a number like any other; an empty set has the minimum distance null.
+/// distance of 0 is a number like any other; an empty set has the minimum distance null. With critical pairs these are the entries, each with its
+/// "index" (null where it has none) and whether it is a "minimum".
 std::string query_json(const QueryAnswer& answer);
 
 /// For people: a heading and one line an LMD.

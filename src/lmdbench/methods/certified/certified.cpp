@@ -5,9 +5,11 @@
 #include <lmdbench/lmd/search_counters.h>
 #include <lmdbench/methods/certified/certified.h>
 #include <lmdbench/methods/certified/filter.h>
+#include <lmdbench/methods/certified/hierarchy/signed_hierarchy.h>
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace lmdbench {
 
@@ -77,12 +79,23 @@ struct Certified::Frame {
   TouchingPairs::Frame touching;
   ContactSet& contacts;
   WorkCounters& counters;
+  const SignedPair* signs = nullptr;  ///< Where critical pairs are looked for.
   WideCounters work{};
 
   /// Asks the definition where the filter does not say no; returns what the answer stands.
   Certificate decide_pair(const WidePair& candidate, double lever_arm) {
     const FeatureId on_moving = candidate.a.feature_id(), on_fixed = candidate.b.feature_id();
     ++counters[Counter::LEAF_PAIRS];
+    if (signs != nullptr) {
+      // An index has no certificate: what bounds cannot reject is asked in every frame.
+      if (filter(on_moving, on_fixed, lever_arm).verdict == PairVerdict::NO_LMD) {
+        signs->append(on_moving, on_fixed, contacts);
+      } else {
+        ++counters[Counter::DECISIONS];
+        decide_critical(pair, *signs, on_moving, on_fixed, contacts);
+      }
+      return {};
+    }
     const PairAnswer answer = filter(on_moving, on_fixed, lever_arm);
     if (answer.verdict == PairVerdict::NO_LMD) return answer.certificate;
     ++counters[Counter::DECISIONS];
@@ -92,9 +105,15 @@ struct Certified::Frame {
 };
 
 Certified::Certified(Scene scene, const CertifiedOptions& options, WideKernel kernel)
+    : Certified(std::move(scene), options, kernel, false) {}
+
+Certified::Certified(Scene scene, const CertifiedOptions& options, WideKernel kernel, bool with_critical)
     : scene_(std::move(scene)),
-      hierarchy_moving_(scene_.moving->prepared<WideHierarchy>()),
+      hierarchy_moving_(with_critical ? scene_.moving->prepared<SignedHierarchy>().hierarchy
+                                      : scene_.moving->prepared<WideHierarchy>()),
       shape_moving_(scene_.moving->prepared<ShapeComplex>()),
+      signs_moving_(with_critical ? &scene_.moving->prepared<SignedFeatures>() : nullptr),
+      options_(options),
       coherent_(options.frame_coherence),
       target_(options.kernel),
       kernel_(kernel) {
@@ -102,7 +121,12 @@ Certified::Certified(Scene scene, const CertifiedOptions& options, WideKernel ke
   double extent = hierarchy_moving_.radius;
   for (const auto& body : scene_.fixed) {
     fixed_.push_back(
-        {body->surface(), body->prepared<ShapeComplex>(), body->prepared<WideHierarchy>(), {}, {}});
+        {body->surface(),
+         body->prepared<ShapeComplex>(),
+         with_critical ? body->prepared<SignedHierarchy>().hierarchy : body->prepared<WideHierarchy>(),
+         with_critical ? &body->prepared<SignedFeatures>() : nullptr,
+         {},
+         {}});
     extent = std::max(extent, fixed_.back().hierarchy.radius);
   }
   // Without a cutoff that means something there is nothing to save, and lever arms would be without bound.
@@ -172,11 +196,11 @@ void Certified::enumerate_coherently(Frame& frame, FixedBody& body) {
   }
 }
 
-void Certified::search(const Pose& X_WM, LmdSet& lmds, WorkCounters& counters) {
+template <class Join>
+void Certified::find(const Pose& X_WM, WorkCounters& counters, Join&& join) {
   const UseVectorTarget use(target_);
   static const RigidTransform identity;
   const RigidTransform transform(X_WM);
-  lmds.clear();
   intersections_.clear();
   crossing_pairs_.clear();
   double coordinates =
@@ -205,6 +229,8 @@ void Certified::search(const Pose& X_WM, LmdSet& lmds, WorkCounters& counters) {
                             fixed.shape};
     const WideQuery query(hierarchy_moving_, body.hierarchy, transform, pair.tolerance.reach, touch);
     contacts_.clear();
+    std::optional<SignedPair> signs;
+    if (signs_moving_ != nullptr) signs.emplace(pair, *signs_moving_, *body.signs);
     Frame frame{hierarchy_moving_,
                 body.hierarchy,
                 pair,
@@ -213,7 +239,8 @@ void Certified::search(const Pose& X_WM, LmdSet& lmds, WorkCounters& counters) {
                 std::max(pair.tolerance.reach, touch),
                 {pair, static_cast<std::int32_t>(i), touch, contacts_, intersections_, crossing_pairs_},
                 contacts_,
-                counters};
+                counters,
+                signs ? &*signs : nullptr};
     if (keep && query.possible && body.policy.keep()) {
       enumerate_coherently(frame, body);
     } else {
@@ -223,10 +250,34 @@ void Certified::search(const Pose& X_WM, LmdSet& lmds, WorkCounters& counters) {
     add_traversal<Counter>(counters, frame.work);
     counters[Counter::LEAF_PAIRS] += frame.touching.triangle_pairs;
     counters[Counter::TRIANGLE_DISTANCES] += frame.touching.triangle_distances;
-    join_contacts(pair, static_cast<std::int32_t>(i), contacts_, intersections_, lmds);
+    join(pair, i);
   }
+}
+
+void Certified::search(const Pose& X_WM, LmdSet& lmds, WorkCounters& counters) {
+  lmds.clear();
+  find(X_WM, counters, [&](const ShapePair& pair, std::size_t body) {
+    join_contacts(pair, static_cast<std::int32_t>(body), contacts_, intersections_, lmds);
+  });
   append_contacts(scene_, intersections_, lmds);
   std::sort(lmds.begin(), lmds.end(), lmd_less);
+}
+
+void Certified::find_critical(const Pose& X_WM, CriticalSet& critical, WorkCounters& counters) {
+  if (signs_moving_ == nullptr) {
+    if (!critical_) critical_.reset(new Certified(scene_, options_, kernel_, true));
+    critical_->find_critical(X_WM, critical, counters);
+    return;
+  }
+  critical.clear();
+  find(X_WM, counters, [&](const ShapePair& pair, std::size_t body) {
+    join_critical(pair, *signs_moving_, *fixed_[body].signs, static_cast<std::int32_t>(body), contacts_,
+                  intersections_, critical);
+  });
+  LmdSet touching;
+  append_contacts(scene_, intersections_, touching);
+  append_touching(touching, critical);
+  sort_critical(critical);
 }
 
 }  // namespace lmdbench

@@ -14,6 +14,7 @@
 #include <lmdbench/methods/certified/touching_pairs.h>
 
 #include <cstdint>
+#include <memory>
 #include <utility>
 #include <vector>
 
@@ -61,6 +62,9 @@ class Certified : public Method {
   void track(const Pose& X_WM, LmdSet& lmds, WorkCounters& counters) override {
     search(X_WM, lmds, counters);
   }
+  /// The same three steps over hierarchies that own every feature with an index (hierarchy/signed_hierarchy.h); what is kept from
+  /// frame to frame is kept apart from `search`.
+  void find_critical(const Pose& X_WM, CriticalSet& critical, WorkCounters& counters) override;
 
   /// Calls visit(pair) for every pair of triangles that shared a point at the last pose; some more than once.
   template <class Visit>
@@ -74,10 +78,17 @@ class Certified : public Method {
     const Surface& surface;
     const ShapeComplex& shape;
     const WideHierarchy& hierarchy;
-    TraversalFront front;  ///< Empty where nothing is kept.
+    const SignedFeatures* signs;  ///< Where critical pairs are looked for.
+    TraversalFront front;         ///< Empty where nothing is kept.
     CoherencePolicy policy;
   };
   struct Frame;
+
+  /// @param with_critical  looks for critical pairs
+  Certified(Scene scene, const CertifiedOptions& options, WideKernel kernel, bool with_critical);
+  /// Calls join(pair, fixed body, contacts) for each fixed body.
+  template <class Join>
+  void find(const Pose& X_WM, WorkCounters& counters, Join&& join);
 
   // Steps 1 and 2. No other name begins with `search`: instructions are counted by that name (scripts/tuned_constants.py).
   bool follow_motion(const RigidTransform& X_WM, double touch);
@@ -87,6 +98,8 @@ class Certified : public Method {
   Scene scene_;
   const WideHierarchy& hierarchy_moving_;
   const ShapeComplex& shape_moving_;
+  const SignedFeatures* signs_moving_;  ///< Where critical pairs are looked for.
+  CertifiedOptions options_;
   std::vector<FixedBody> fixed_;
   bool coherent_;
   VectorTarget target_;
@@ -102,6 +115,7 @@ class Certified : public Method {
   TouchingPairs touching_;
   std::vector<WidePair> touching_pairs_;
   std::vector<std::uint32_t> touching_leaves_;  ///< Of touching_pairs_, in the front.
+  std::unique_ptr<Certified> critical_;         ///< Looks for critical pairs; made when they are asked for.
 };
 
 }  // namespace lmdbench

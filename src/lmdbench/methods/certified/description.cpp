@@ -23,6 +23,7 @@ const MethodDescription& certified_method() {
       .promise = Promise::COMPLETE_SET,
       .tracks_locally = false,
       .trackings_after_search = 0,
+      .finds_critical_pairs = true,
       .options = with_defaults(
           {{"frame_coherence",
             {{"type", "boolean"},

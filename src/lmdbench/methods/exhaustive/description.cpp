@@ -14,6 +14,7 @@ const MethodDescription& exhaustive_method() {
       .tracks_locally = false,
       .trackings_after_search = 0,
       .brute_force = true,
+      .finds_critical_pairs = true,
       .counters = {{Counter::FEATURE_PAIRS, "feature_pairs", "pairs of features whose boxes are near enough",
                     CountedBy::SEARCH},
                    {Counter::CONTACTS, "contacts", "contacts that pairs of features have", CountedBy::SEARCH},

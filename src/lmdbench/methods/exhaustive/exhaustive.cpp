@@ -48,7 +48,9 @@ Exhaustive::Exhaustive(Scene scene) : scene_(std::move(scene)) {
   asked_face_.assign(faces, 0);
 }
 
-void Exhaustive::decide_features(const ShapePair& pair, FeatureGrid& grid, WorkCounters& counters) {
+template <class Ask>
+void Exhaustive::for_each_feature_pair(const ShapePair& pair, FeatureGrid& grid, WorkCounters& counters,
+                                       Ask&& ask_pair) {
   const ShapeSide &moving = pair.moving, &fixed = pair.fixed;
   // @param parts faces or edges that the feature consists of
   const auto ask = [&](const FeatureId& lead, std::span<const std::int32_t> parts) {
@@ -65,7 +67,7 @@ void Exhaustive::decide_features(const ShapePair& pair, FeatureGrid& grid, WorkC
             if (asked == asking_) return;
             asked = asking_;
             ++counters[Counter::FEATURE_PAIRS];
-            decide(pair, lead, other, contacts_);
+            ask_pair(lead, other);
           });
   };
   for (std::int32_t v = 0; v < static_cast<std::int32_t>(moving.surface.mesh.vertices.size()); ++v)
@@ -95,28 +97,65 @@ void Exhaustive::find_intersections(const ShapePair& pair, std::int32_t body, Fe
   }
 }
 
-void Exhaustive::search(const Pose& X_WM, LmdSet& lmds, WorkCounters& counters) {
+template <class Decide, class Join>
+void Exhaustive::for_each_body(const Pose& X_WM, WorkCounters& counters, Decide&& decide_body,
+                               Join&& join_body) {
   static const RigidTransform identity;
   const RigidTransform transform(X_WM);
   const ShapeComplex& moving_shape = scene_.moving->prepared<ShapeComplex>();
   const ShapeSide moving{scene_.moving->surface(), moving_shape, transform, true};
   intersections_.clear();
-  lmds.clear();
   for (std::size_t i = 0; i < scene_.fixed.size(); ++i) {
-    const auto body = static_cast<std::int32_t>(i);
     const ShapeSide fixed{scene_.fixed[i]->surface(), scene_.fixed[i]->prepared<ShapeComplex>(), identity,
                           false};
     const ShapePair pair{moving, fixed,
                          ContactTolerance::of(moving.surface, moving_shape, fixed.surface, fixed.shape,
                                               transform, scene_.cutoff)};
     contacts_.clear();
-    find_intersections(pair, body, grids_[i], counters);
-    decide_features(pair, grids_[i], counters);
+    find_intersections(pair, static_cast<std::int32_t>(i), grids_[i], counters);
+    decide_body(i, pair);
     counters[Counter::CONTACTS] += contacts_.contacts.size();
-    join_contacts(pair, body, contacts_, intersections_, lmds);
+    join_body(static_cast<std::int32_t>(i), pair);
   }
+}
+
+void Exhaustive::search(const Pose& X_WM, LmdSet& lmds, WorkCounters& counters) {
+  lmds.clear();
+  for_each_body(
+      X_WM, counters,
+      [&](std::size_t i, const ShapePair& pair) {
+        for_each_feature_pair(pair, grids_[i], counters,
+                              [&](const FeatureId& f, const FeatureId& g) { decide(pair, f, g, contacts_); });
+      },
+      [&](std::int32_t body, const ShapePair& pair) {
+        join_contacts(pair, body, contacts_, intersections_, lmds);
+      });
   append_contacts(scene_, intersections_, lmds);
   std::sort(lmds.begin(), lmds.end(), lmd_less);
+}
+
+void Exhaustive::find_critical(const Pose& X_WM, CriticalSet& critical, WorkCounters& counters) {
+  critical.clear();
+  const auto& signs_moving = scene_.moving->prepared<SignedFeatures>();
+  const auto signs_fixed = [&](std::size_t i) -> const SignedFeatures& {
+    return scene_.fixed[i]->prepared<SignedFeatures>();
+  };
+  for_each_body(
+      X_WM, counters,
+      [&](std::size_t i, const ShapePair& pair) {
+        const SignedPair signs(pair, signs_moving, signs_fixed(i));
+        for_each_feature_pair(pair, grids_[i], counters, [&](const FeatureId& f, const FeatureId& g) {
+          decide_critical(pair, signs, f, g, contacts_);
+        });
+      },
+      [&](std::int32_t body, const ShapePair& pair) {
+        join_critical(pair, signs_moving, signs_fixed(static_cast<std::size_t>(body)), body, contacts_,
+                      intersections_, critical);
+      });
+  LmdSet touching;
+  append_contacts(scene_, intersections_, touching);
+  append_touching(touching, critical);
+  sort_critical(critical);
 }
 
 }  // namespace lmdbench

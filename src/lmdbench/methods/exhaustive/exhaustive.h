@@ -31,9 +31,15 @@ class Exhaustive : public Method {
   void track(const Pose& X_WM, LmdSet& lmds, WorkCounters& counters) override {
     search(X_WM, lmds, counters);
   }
+  void find_critical(const Pose& X_WM, CriticalSet& critical, WorkCounters& counters) override;
 
  private:
-  void decide_features(const ShapePair& pair, FeatureGrid& grid, WorkCounters& counters);
+  /// Calls ask(lead of the moving mesh, lead of the fixed one) for every pair near enough.
+  template <class Ask>
+  void for_each_feature_pair(const ShapePair& pair, FeatureGrid& grid, WorkCounters& counters, Ask&& ask);
+  /// Calls decide(fixed body, pair) and then join(fixed body, pair) for each fixed body.
+  template <class Decide, class Join>
+  void for_each_body(const Pose& X_WM, WorkCounters& counters, Decide&& decide, Join&& join);
   void find_intersections(const ShapePair& pair, std::int32_t body, FeatureGrid& grid,
                           WorkCounters& counters);
 

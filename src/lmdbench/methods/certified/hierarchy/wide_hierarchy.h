@@ -72,6 +72,8 @@ inline constexpr float UNBOUNDED_THICKNESS = 1e18F;
 /// Cosine of children that carry no LMD.
 inline constexpr float NO_LMD_COSINE = 2.0F;
 
+class SignedFeatures;
+
 /// How the builder divides a set of features. The choices, by node tests a query (median of 40 grazing poses
 /// of two bunnies of 16,298 triangles, cutoffs 0.5 / 2 / 5 % of the diagonal):
 ///
@@ -108,6 +110,8 @@ struct WideBuildOptions {
   std::size_t leaf_size = 1;
   double normal_weight = 0.3;  ///< Length that a unit of axis difference counts
                                ///< as, in units of the set's extent.
+  /// Where given, features that carry other critical pairs than LMDs are owned too (signed_hierarchy.h); needs a shape.
+  const SignedFeatures* signs = nullptr;
 };
 
 /// Hierarchy over the features of a mesh that can carry an LMD (non-empty outward polar cone),

@@ -5,6 +5,7 @@
 #include <lmdbench/lmd/contact_tolerance.h>
 #include <lmdbench/mesh/feature_corners.h>
 #include <lmdbench/mesh/shape_complex.h>
+#include <lmdbench/methods/certified/hierarchy/signed_hierarchy.h>
 #include <lmdbench/methods/certified/hierarchy/wide_items.h>
 
 #include <algorithm>
@@ -44,7 +45,10 @@ PolarCap widened(const PolarCap& cap, double angle) {
 
 void append_item(const Surface& surface, const WideBuildOptions& options, const ShapeComplex* shape,
                  const FeatureId& feature, std::vector<WideItem>& items) {
-  const std::optional<PolarCap> cap = polar_cap(surface, feature, shape);
+  std::optional<PolarCap> cap = polar_cap(surface, feature, shape);
+  if (options.signs != nullptr)
+    if (const auto signed_one = signed_cap(*options.signs, *shape, feature))
+      cap = cap ? merged_caps(*cap, *signed_one) : *signed_one;
   if (!cap && feature.kind != FeatureKind::FACE) return;
   WideItem& item = items.emplace_back();
   item.ref = WideRef::feature(feature);

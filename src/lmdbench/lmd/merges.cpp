@@ -1,0 +1,130 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/geometry/point_triangle.h>
+#include <lmdbench/geometry/segment_distance.h>
+#include <lmdbench/geometry/triangle_distance.h>
+#include <lmdbench/lmd/contact_tolerance.h>
+#include <lmdbench/lmd/critical_index.h>
+#include <lmdbench/lmd/merges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace lmdbench {
+
+namespace {
+
+constexpr std::size_t NO_MINIMUM = std::numeric_limits<std::size_t>::max();
+/// Cosine of the angle up to which the end of a descent has a minimum's direction where their features differ: on a flat contact, say.
+constexpr double SAME_DESCENT_DIRECTION = 0.995;
+/// Distances differ by less than this part of the coordinates where the end of a descent is a minimum: the turn of the generic pose and
+/// what meshes are known to.
+constexpr double SAME_DESCENT_DISTANCE = 16.0 * LEAST_TOLERANCE;
+
+double largest_coordinate_of(const Surface& surface) {
+  double largest = 0.0;
+  for (const Vec3& v : surface.mesh.vertices) largest = std::max(largest, v.cwiseAbs().maxCoeff());
+  return largest;
+}
+
+}  // namespace
+
+std::size_t MergeFinder::descend(const RigidTransform& X_WM, const CriticalSet& critical, std::int32_t body,
+                                 std::int32_t t_moving, std::int32_t t_fixed) {
+  const Surface &moving = scene_.moving->surface(),
+                &fixed = scene_.fixed[static_cast<std::size_t>(body)]->surface();
+  const auto distance_of = [&](std::int32_t a, std::int32_t b) {
+    ++triangle_distances_;
+    return triangle_distance(X_WM.triangle(moving.mesh.triangle(a)), fixed.mesh.triangle(b));
+  };
+  std::vector<std::pair<std::int32_t, std::int32_t>> way{{t_moving, t_fixed}};
+  TrianglePairDistance here = distance_of(t_moving, t_fixed);
+  std::size_t end = NO_MINIMUM;
+  for (;;) {
+    const auto [a, b] = way.back();
+    if (const auto known = ended_.find(way.back()); known != ended_.end()) {
+      end = known->second;
+      break;
+    }
+    const FeatureId f = moving.feature_of(a, here.feature_a), g = fixed.feature_of(b, here.feature_b);
+    std::pair<std::int32_t, std::int32_t> next{-1, -1};
+    TrianglePairDistance there = here;
+    for (const std::int32_t s : moving.incident_triangles(f))
+      for (const std::int32_t t : fixed.incident_triangles(g)) {
+        if (s == a && t == b) continue;
+        const TrianglePairDistance found = distance_of(s, t);
+        if (!(found.squared_distance < there.squared_distance)) continue;
+        there = found;
+        next = {s, t};
+      }
+    if (next.first >= 0) {
+      here = there;
+      way.push_back(next);
+      continue;
+    }
+    const double distance = std::sqrt(here.squared_distance);
+    const Vec3 direction = (here.point_b - here.point_a) / distance;
+    const double same =
+        SAME_DESCENT_DISTANCE * std::max(largest_coordinate_of(moving), largest_coordinate_of(fixed)) +
+        moving.mesh.planar_tolerance + fixed.mesh.planar_tolerance;
+    double nearest = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < critical.size(); ++i) {
+      const Lmd& lmd = critical[i].pair;
+      if (!critical[i].is_basin || lmd.fixed_body != body || std::abs(lmd.distance - distance) > same)
+        continue;
+      const bool same_features = lmd.feature_moving == f && lmd.feature_fixed == g;
+      if (!same_features && !(lmd.direction.dot(direction) > SAME_DESCENT_DIRECTION)) continue;
+      const double apart = same_features ? -1.0 : (lmd.point_fixed - here.point_b).norm();
+      if (apart >= nearest) continue;
+      nearest = apart;
+      end = i;
+    }
+    break;
+  }
+  for (const auto& pair : way) ended_[pair] = end;
+  return end;
+}
+
+void MergeFinder::find(const Pose& pose, const CriticalSet& critical, std::vector<Merge>& merges) {
+  merges.clear();
+  const auto minima = std::ranges::count_if(critical, [](const CriticalPair& c) { return c.is_basin; });
+  if (minima < 2) return;
+  const RigidTransform X_WM = generic_pose(RigidTransform(pose));
+  const Surface& moving = scene_.moving->surface();
+  std::vector<std::size_t> ends;
+  // Grouped by body, for the triangle pairs that are known.
+  for (std::int32_t body = 0; body < static_cast<std::int32_t>(scene_.fixed.size()); ++body) {
+    const Surface& fixed = scene_.fixed[static_cast<std::size_t>(body)]->surface();
+    ended_.clear();
+    for (std::size_t i = 0; i < critical.size(); ++i) {
+      const Lmd& saddle = critical[i].pair;
+      if (critical[i].index > -1 || critical[i].is_minimum || saddle.fixed_body != body) continue;
+      // Where two triangles meet the saddle's features they are at most as far apart as it: nearer, or there is no way down between.
+      std::vector<std::pair<std::pair<std::int32_t, std::int32_t>, double>> around;
+      for (const std::int32_t s : moving.incident_triangles(saddle.feature_moving))
+        for (const std::int32_t t : fixed.incident_triangles(saddle.feature_fixed)) {
+          ++triangle_distances_;
+          const double d =
+              std::sqrt(triangle_distance(X_WM.triangle(moving.mesh.triangle(s)), fixed.mesh.triangle(t))
+                            .squared_distance);
+          around.push_back({{s, t}, d});
+        }
+      const double level = saddle.distance;
+      const double rounding =
+          64.0 * std::numeric_limits<double>::epsilon() *
+          (saddle.point_fixed.cwiseAbs().maxCoeff() + saddle.point_moving.cwiseAbs().maxCoeff());
+      ends.clear();
+      for (const auto& [pair, d] : around) {
+        if (!(d < level - rounding)) continue;
+        const std::size_t end = descend(X_WM, critical, body, pair.first, pair.second);
+        if (end != NO_MINIMUM && std::ranges::find(ends, end) == ends.end()) ends.push_back(end);
+      }
+      for (std::size_t k = 1; k < ends.size(); ++k) merges.push_back({i, ends[0], ends[k]});
+    }
+  }
+  std::ranges::stable_sort(merges, {},
+                           [&](const Merge& merge) { return critical[merge.saddle].pair.distance; });
+}
+
+}  // namespace lmdbench

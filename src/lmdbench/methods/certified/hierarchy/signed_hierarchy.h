@@ -1,0 +1,30 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <lmdbench/mesh/signed_features.h>
+#include <lmdbench/methods/certified/hierarchy/polar_cap.h>
+#include <lmdbench/methods/certified/hierarchy/wide_hierarchy.h>
+
+#include <optional>
+
+namespace lmdbench {
+
+/// A wide hierarchy over all features that carry an LMD or another critical pair: reflex edges, saddles and pits too. Made when
+/// critical pairs are asked for, beside the one that LMDs are searched in.
+struct SignedHierarchy {
+  WideHierarchy hierarchy;
+
+  static SignedHierarchy of(const Body& body);
+};
+
+/// Cap of all directions in which a feature has an index that is not 0: a region's normal, both normals of a chain, all normals round
+/// a corner, whose index is 0 outside their convex hull; nothing for a feature without an index.
+/// @param lead  of the shape
+std::optional<PolarCap> signed_cap(const SignedFeatures& signs, const ShapeComplex& shape,
+                                   const FeatureId& lead);
+
+/// The smallest cap that the makers of cones find around both.
+PolarCap merged_caps(const PolarCap& a, const PolarCap& b);
+
+}  // namespace lmdbench
