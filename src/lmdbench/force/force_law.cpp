@@ -9,6 +9,26 @@
 #include <limits>
 
 namespace lmdbench {
+
+const std::vector<ForceLaw>& force_laws() {
+  static const std::vector<ForceLaw> all{ForceLaw::LINEAR, ForceLaw::EXPONENTIAL};
+  return all;
+}
+
+std::string_view to_string(ForceLaw law) {
+  return law == ForceLaw::LINEAR ? "linear" : "exponential";
+}
+
+ForceLaw force_law_named(std::string_view name, const std::string& file, const std::string& place) {
+  std::vector<std::string_view> known;
+  for (const ForceLaw law : force_laws()) {
+    if (to_string(law) == name) return law;
+    known.push_back(to_string(law));
+  }
+  throw UsageError(file, place, fmt::format("unknown force law \"{}\"", name),
+                   fmt::format("known ones: {}", fmt::join(known, ", ")));
+}
+
 namespace {
 
 /// Below this sharpness the exponential law differs from the linear one by less than a rounding error: its

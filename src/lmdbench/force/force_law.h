@@ -5,6 +5,8 @@
 #include <cstdint>
 #include <limits>
 #include <string>
+#include <string_view>
+#include <vector>
 
 namespace lmdbench {
 
@@ -13,6 +15,14 @@ enum class ForceLaw : std::uint8_t {
   LINEAR,      ///< The original's: proportional to what is left of the cutoff.
   EXPONENTIAL  ///< The improved algorithm's (paper, section 4.5; decision E9).
 };
+
+/// All of them, in the order of their values.
+const std::vector<ForceLaw>& force_laws();
+/// As experiment files spell it: "linear", "exponential".
+std::string_view to_string(ForceLaw law);
+/// @throws UsageError for an unknown name, naming those that there are
+ForceLaw force_law_named(std::string_view name, const std::string& file = "",
+                         const std::string& place = "force_law");
 
 /// A force law with its constants; *hard* and *soft* are profiles. The paper states none of the constants
 /// (decision E8): they belong to the experiment and are recorded with the result.

@@ -1,0 +1,36 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/force/aggregation.h>
+#include <lmdbench/force/wrench_sum.h>
+
+namespace lmdbench {
+
+namespace {
+
+/// F = - sum over all critical pairs of index * f(d) * direction. Where a minimum is born or dies it has a saddle beside it, at the same
+/// distance and in the same direction, and both cancel. It is the gradient of a potential, sum of index * (integral of f from d to the
+/// cutoff), so it does no work in a closed loop; between walls at less than 60 degrees to each other it may pull.
+Wrench sum_of_signed_forces(const ForceInput& input, const ForceProfile& profile, const Vec3& reference_W) {
+  WrenchSum sum(reference_W);
+  for (const CriticalPair& critical : input.critical) {
+    const Lmd& lmd = critical.pair;
+    if (!WrenchSum::acts(lmd, profile)) continue;
+    sum.push(lmd, critical.index * force_magnitude(profile, lmd.distance));
+    sum.stiffen(lmd.direction, lmd.direction, critical.index * force_stiffness(profile, lmd.distance));
+  }
+  return sum.wrench();
+}
+
+}  // namespace
+
+const Aggregation& signed_law() {
+  static const Aggregation law{
+      .name = "signed",
+      .summary =
+          "every critical pair by its index: continuous, no work in a closed loop; may pull in sharp notches",
+      .needs = AggregationNeeds::CRITICAL_PAIRS,
+      .combine = sum_of_signed_forces};
+  return law;
+}
+
+}  // namespace lmdbench

@@ -1,0 +1,36 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <lmdbench/force/aggregate.h>
+
+namespace lmdbench {
+
+/// Adds up what pairs exert.
+class WrenchSum {
+ public:
+  explicit WrenchSum(const Vec3& reference_W) : reference_W_(reference_W) {}
+
+  /// Whether a pair exerts a force at all. Decision E12, ours: distance 0 has no direction of its own. Where the method still knows the
+  /// last valid one, the LMD pushes along it, saturated; where it does not, pushing anywhere would be an invention.
+  static bool acts(const Lmd& lmd, const ForceProfile& profile) {
+    return !(lmd.distance >= profile.cutoff) && !(lmd.distance <= 0.0 && !lmd.direction.allFinite());
+  }
+  /// A force of `length` [N] that pushes the moving mesh away along -direction, at the pair's point of it.
+  void push(const Lmd& lmd, double length) {
+    const Vec3 force_W = -length * lmd.direction;
+    force_ += force_W;
+    torque_ += (lmd.point_moving - reference_W_).cross(force_W);
+  }
+  /// A force along `along` that grows by `stiffness` [N/m] a metre that the moving mesh goes along `measured`.
+  void stiffen(const Vec3& along, const Vec3& measured, double stiffness) {
+    stiffness_W_ += stiffness * along * measured.transpose();
+  }
+  Wrench wrench() const;
+
+ private:
+  Vec3 reference_W_, force_ = Vec3::Zero(), torque_ = Vec3::Zero();
+  Mat3 stiffness_W_ = Mat3::Zero();
+};
+
+}  // namespace lmdbench

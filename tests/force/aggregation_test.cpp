@@ -1,0 +1,125 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/base/error.h>
+#include <lmdbench/force/aggregation.h>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace lmdbench {
+namespace {
+
+using ::testing::HasSubstr;
+
+const ForceProfile PROFILE_OF_ONE{
+    .law = ForceLaw::LINEAR, .cutoff = 1.0, .saturation_distance = 0.0, .maximum_force = 1.0};
+
+CriticalPair critical(double distance, const Vec3& direction, int index) {
+  CriticalPair pair;
+  pair.pair.distance = distance;
+  pair.pair.direction = direction.normalized();
+  pair.pair.point_moving = Vec3(distance, 0.0, 0.0);
+  pair.index = index;
+  pair.is_minimum = pair.is_basin = index > 0;
+  return pair;
+}
+
+Vec3 force_of(const Aggregation& law, const CriticalSet& set, const std::vector<Merge>& merges = {}) {
+  return law.combine({set, merges}, PROFILE_OF_ONE, Vec3::Zero()).force;
+}
+
+void expect_near(const Vec3& a, const Vec3& b, double tolerance = 1e-15) {
+  EXPECT_LE((a - b).norm(), tolerance) << a.transpose() << " and " << b.transpose();
+}
+
+TEST(Aggregation, UnknownNameIsAnError) {
+  EXPECT_EQ(aggregations().front().name, "sum");
+  for (const Aggregation& law : aggregations()) EXPECT_EQ(aggregation_named(law.name).combine, law.combine);
+  try {
+    aggregation_named("shard", "my.json", "/force/aggregation");
+    FAIL();
+  } catch (const UsageError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("/force/aggregation"));
+    EXPECT_THAT(error.what(), HasSubstr("sum, signed, shared"));
+  }
+  EXPECT_THROW(force_law_named("cubic"), UsageError);
+  for (const ForceLaw law : force_laws()) EXPECT_EQ(force_law_named(to_string(law)), law);
+}
+
+TEST(Aggregation, OfSeparatedMinimaAllAreTheSum) {
+  const CriticalSet set{critical(0.2, {0, 0, -1}, 1), critical(0.5, {0, 1, -1}, 1),
+                        critical(0.9, {1, 1, 1}, 1)};
+  for (const Aggregation& law : aggregations()) {
+    const Wrench own = law.combine({set, {}}, PROFILE_OF_ONE, Vec3::Zero()),
+                 sum = sum_forces(minima_of(set), PROFILE_OF_ONE, Vec3::Zero());
+    expect_near(own.force, sum.force);
+    expect_near(own.torque, sum.torque);
+    EXPECT_NEAR(own.stiffness, sum.stiffness, 1e-14) << law.name;
+  }
+}
+
+TEST(Aggregation, AMinimumAndItsSaddleVanishTogether) {
+  const Vec3 u(0.3, -0.2, 0.9), v(-0.5, 0.1, 0.8);
+  const CriticalSet before{critical(0.2, u, 1)};
+  for (const double apart : {0.0, 1e-12, 1e-6}) {
+    const CriticalSet set{critical(0.2, u, 1), critical(0.4 - apart, v, 1), critical(0.4, v, -1)};
+    const std::vector<Merge> merges{{2, 0, 1}};
+    for (const Aggregation* law : {&signed_law(), &shared_law()})
+      expect_near(force_of(*law, set, merges), force_of(*law, before), 10.0 * apart + 1e-15);
+    EXPECT_GT((force_of(sum_law(), set, merges) - force_of(sum_law(), before)).norm(), 0.5);
+  }
+}
+
+TEST(Aggregation, SharedIsTheIntegralOverLevels) {
+  const Vec3 u = Vec3(0.3, -0.2, 0.9).normalized(), v = Vec3(-0.5, 0.1, 0.8).normalized();
+  const CriticalSet set{critical(0.1, u, 1), critical(0.3, v, 1), critical(0.5, {0, 0, 1}, -1)};
+  // f = 1 - d. Alone from .1 and .3 to .5, then .4 and .2 long.
+  const Vec3 expected = -(0.4 * u + 0.2 * v) - 0.5 * (2.0 / 3.0 * u + 1.0 / 3.0 * v);
+  expect_near(force_of(shared_law(), set, {{{2, 0, 1}}}), expected);
+  // The order of merges does not matter where they are at one level.
+  const CriticalSet three{critical(0.1, u, 1), critical(0.2, v, 1), critical(0.3, {1, 0, 0}, 1),
+                          critical(0.6, {0, 0, 1}, -1), critical(0.6, {0, 1, 1}, -1)};
+  expect_near(force_of(shared_law(), three, {{3, 0, 1}, {4, 1, 2}}),
+              force_of(shared_law(), three, {{4, 1, 2}, {3, 0, 1}}), 1e-15);
+  // Of a loop nothing more is shared.
+  expect_near(force_of(shared_law(), three, {{3, 0, 1}, {4, 1, 0}}),
+              force_of(shared_law(), three, {{3, 0, 1}}), 1e-15);
+}
+
+TEST(Aggregation, SignedIsTheSlopeOfItsPotential) {
+  // Two parallel walls' worth of indices: weights alone.
+  const CriticalSet set{critical(0.2, {0, 0, 1}, 1), critical(0.3, {0, 0, 1}, -2),
+                        critical(0.4, {0, 0, 1}, 3)};
+  expect_near(force_of(signed_law(), set), -Vec3(0, 0, 0.8 - 2 * 0.7 + 3 * 0.6));
+  const Wrench wrench = signed_law().combine({set, {}}, PROFILE_OF_ONE, Vec3::Zero());
+  EXPECT_NEAR(wrench.stiffness, 1.0 - 2.0 + 3.0, 1e-14);
+}
+
+TEST(Aggregation, NothingBeyondTheCutoffPushes) {
+  const CriticalSet set{critical(0.9999999, {0, 0, 1}, 1), critical(1.5, {0, 1, 0}, 1),
+                        critical(1.2, {1, 0, 0}, -1)};
+  for (const Aggregation& law : aggregations())
+    EXPECT_LT(force_of(law, set, {{2, 0, 1}}).norm(), 1e-6) << law.name;
+}
+
+TEST(Aggregation, ContactWithoutDirectionIsLeftOut) {
+  CriticalPair touching;
+  touching.pair.distance = 0.0;
+  const CriticalSet set{touching, critical(0.5, {0, 0, 1}, 1)};
+  for (const Aggregation& law : aggregations()) expect_near(force_of(law, set), -Vec3(0, 0, 0.5));
+}
+
+TEST(Aggregation, SaturationIsPartOfTheProfile) {
+  ForceProfile saturated = PROFILE_OF_ONE;
+  saturated.saturation_distance = 0.6;
+  // Both saturated up to the merge: neither has a force of its own, and the shares are the branches' lengths all the same.
+  const Vec3 u = Vec3(1, 0, 1).normalized(), v = Vec3(-1, 0, 1).normalized();
+  const CriticalSet set{critical(0.1, u, 1), critical(0.3, v, 1), critical(0.5, {0, 0, 1}, -1)};
+  const std::vector<Merge> merges{{2, 0, 1}};
+  expect_near(shared_law().combine({set, merges}, saturated, Vec3::Zero()).force, -(2.0 * u + v) / 3.0);
+}
+
+}  // namespace
+}  // namespace lmdbench
