@@ -21,6 +21,7 @@ int main(int argc, char** argv) {
                "reports say on which node they were made and beside what (scripts/cluster/)");
   study::add_recall(app, chosen);
   study::add_completeness(app, chosen);
+  study::add_continuous_force(app, chosen);
   study::add_scaling(app, chosen);
   study::add_builders(app, chosen);
   study::add_compare(app, chosen);

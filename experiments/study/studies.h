@@ -23,6 +23,7 @@ struct Run {
 /// Each adds its subcommand to `app`, which sets `chosen` when it is named; `chosen` must outlive the parsing.
 void add_recall(CLI::App& app, Run& chosen);
 void add_completeness(CLI::App& app, Run& chosen);
+void add_continuous_force(CLI::App& app, Run& chosen);
 void add_scaling(CLI::App& app, Run& chosen);
 void add_builders(CLI::App& app, Run& chosen);
 void add_compare(CLI::App& app, Run& chosen);

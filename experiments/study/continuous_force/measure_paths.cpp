@@ -1,0 +1,152 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/base/statistics.h>
+
+#include <Eigen/LU>
+#include <study/continuous_force/measures.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace lmdbench::continuous_force {
+
+namespace {
+
+/// Rounding of a force that is a sum of pushes.
+constexpr double CONE_ROUNDING = 1e-9;
+constexpr int DIVISION = 10, DIVISIONS = 3;
+
+/// Whether a force is a sum of pushes along -direction of minima: of at most three of them, if of any (Caratheodory).
+bool lies_in_cone(const Vec3& force, const CriticalSet& critical) {
+  if (force.norm() <= CONE_ROUNDING) return true;
+  std::vector<Vec3> pushes;
+  for (const CriticalPair& c : critical)
+    if (c.is_basin) pushes.push_back(-c.pair.direction);
+  const auto fits = [&](const Vec3& rest) {
+    return rest.norm() <= CONE_ROUNDING * std::max(1.0, force.norm());
+  };
+  for (std::size_t i = 0; i < pushes.size(); ++i) {
+    if (fits(force - std::max(0.0, force.dot(pushes[i])) * pushes[i])) return true;
+    for (std::size_t j = i + 1; j < pushes.size(); ++j) {
+      Eigen::Matrix<double, 3, 2> two;
+      two << pushes[i], pushes[j];
+      const Eigen::Vector2d x = (two.transpose() * two).fullPivLu().solve(two.transpose() * force);
+      if (x.minCoeff() >= -CONE_ROUNDING && fits(force - two * x)) return true;
+      for (std::size_t k = j + 1; k < pushes.size(); ++k) {
+        Mat3 three;
+        three << pushes[i], pushes[j], pushes[k];
+        const Vec3 y = three.fullPivLu().solve(force);
+        if (y.minCoeff() >= -CONE_ROUNDING && fits(force - three * y)) return true;
+      }
+    }
+  }
+  return false;
+}
+
+double step_of(const Forces& a, const Forces& b, std::size_t law) {
+  return (b[law] - a[law]).norm();
+}
+
+/// Divides a stretch of the path again and again at its largest step; notes the largest step of each division.
+void refine(Renderer& renderer, const Pose& from, const Pose& to, std::size_t law, int left,
+            std::vector<double>& largest) {
+  if (left == 0) return;
+  std::vector<Pose> poses;
+  std::vector<Forces> forces;
+  for (int k = 0; k <= DIVISION; ++k) {
+    poses.push_back(between(from, to, k / double{DIVISION}));
+    forces.push_back(renderer.at(poses.back()).force);
+  }
+  std::size_t worst = 0;
+  double step = 0.0;
+  for (std::size_t k = 0; k + 1 < forces.size(); ++k)
+    if (step_of(forces[k], forces[k + 1], law) > step) {
+      step = step_of(forces[k], forces[k + 1], law);
+      worst = k;
+    }
+  double& noted = largest[largest.size() - static_cast<std::size_t>(left)];
+  noted = std::max(noted, step);
+  refine(renderer, poses[worst], poses[worst + 1], law, left - 1, largest);
+}
+
+}  // namespace
+
+PathRow measure_path(const PathScene& scene, std::size_t refined) {
+  PathRow row;
+  row.scene = scene.name;
+  Renderer renderer(scene.scene, scene.profile);
+  std::vector<Forces>& forces = row.forces;
+  for (const Pose& pose : scene.poses) {
+    const Rendered here = renderer.at(pose);
+    forces.push_back(here.force);
+    ++row.frames;
+    if (!here.in_contact()) continue;
+    ++row.in_contact;
+    row.separated += here.is_separated();
+    row.minima += static_cast<double>(minima_of(here.critical).size());
+    row.pairs += static_cast<double>(here.critical.size());
+    row.merges += static_cast<double>(here.merges);
+    for (std::size_t law = 0; law < LAWS; ++law) {
+      PathRow::Law& own = row.laws[law];
+      const double apart = (here.force[law] - here.force[SUM]).norm();
+      own.rms_from_sum += apart * apart;
+      if (here.is_separated()) own.separated_difference = std::max(own.separated_difference, apart);
+      own.outside_cone += !lies_in_cone(here.force[law], here.critical);
+      own.against_all += std::ranges::all_of(here.critical, [&](const CriticalPair& c) {
+        return !c.is_basin || here.force[law].dot(c.pair.direction) > CONE_ROUNDING;
+      });
+    }
+  }
+  const double count = std::max<double>(1.0, static_cast<double>(row.in_contact));
+  row.minima /= count, row.pairs /= count, row.merges /= count;
+  for (std::size_t law = 0; law < LAWS; ++law) {
+    PathRow::Law& own = row.laws[law];
+    own.rms_from_sum = std::sqrt(own.rms_from_sum / count);
+    std::vector<std::size_t> order(forces.size() - 1);
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::ranges::stable_sort(order, std::greater{},
+                             [&](std::size_t i) { return step_of(forces[i], forces[i + 1], law); });
+    own.largest.assign(1 + DIVISIONS, 0.0);
+    own.largest[0] = step_of(forces[order[0]], forces[order[0] + 1], law);
+    for (const std::size_t i : order) own.above_quarter += step_of(forces[i], forces[i + 1], law) > 0.25;
+    for (std::size_t k = 0; k < std::min(refined, order.size()); ++k)
+      refine(renderer, scene.poses[order[k]], scene.poses[order[k] + 1], law, DIVISIONS, own.largest);
+  }
+  return row;
+}
+
+EventRow measure_events(const PathScene& scene, std::size_t most, double shortest) {
+  EventRow row{scene.name, 0, {}};
+  for (Vec3& largest : row.largest) largest = Vec3::Zero();
+  Renderer renderer(scene.scene, scene.profile);
+  Forces before = renderer.at(scene.poses.front()).force;
+  for (std::size_t i = 0; i + 1 < scene.poses.size() && row.events < most; ++i) {
+    const Forces after = renderer.at(scene.poses[i + 1]).force;
+    // A step of the plain sum that the continuous law does not take: a birth or a death.
+    const bool event = step_of(before, after, SUM) > 0.1 &&
+                       step_of(before, after, SIGNED) < 0.5 * step_of(before, after, SUM);
+    if (event) {
+      double from = 0.0, to = 1.0;
+      Forces low = before, high = after;
+      while (to - from > shortest) {
+        const double middle = 0.5 * (from + to);
+        const Forces there = renderer.at(between(scene.poses[i], scene.poses[i + 1], middle)).force;
+        if (step_of(low, there, SUM) > step_of(there, high, SUM)) {
+          to = middle;
+          high = there;
+        } else {
+          from = middle;
+          low = there;
+        }
+      }
+      ++row.events;
+      for (std::size_t law = 0; law < LAWS; ++law)
+        row.largest[law].x() = std::max(row.largest[law].x(), step_of(low, high, law));
+    }
+    before = after;
+  }
+  return row;
+}
+
+}  // namespace lmdbench::continuous_force

@@ -1,0 +1,70 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <lmdbench/force/aggregation.h>
+#include <lmdbench/geometry/pose.h>
+#include <lmdbench/lmd/merges.h>
+#include <lmdbench/lmd/method.h>
+#include <lmdbench/lmd/scene.h>
+
+#include <array>
+#include <cstddef>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+/// What the laws of force/aggregation.h make of the same critical pairs.
+namespace lmdbench::continuous_force {
+
+/// Laws, in the order of `aggregations()`.
+inline constexpr std::size_t SUM = 0, SIGNED = 1, SHARED = 2, LAWS = 3;
+using Forces = std::array<Vec3, LAWS>;
+
+struct Rendered {
+  Forces force;          ///< In units of one LMD's largest force.
+  CriticalSet critical;  ///< Within the cutoff.
+  std::size_t merges = 0;
+
+  bool in_contact() const { return !critical.empty(); }
+  /// No saddle within the cutoff: every law is the plain sum.
+  bool is_separated() const;
+};
+
+/// Renders a scene at poses with all laws.
+class Renderer {
+ public:
+  Renderer(const Scene& scene, const ForceProfile& profile, const std::string& method = "certified");
+
+  Rendered at(const Pose& X_WM);
+  const ForceProfile& profile() const { return profile_; }
+
+ private:
+  ForceProfile profile_;
+  std::unique_ptr<Method> method_;
+  MergeFinder merges_;
+  std::vector<Merge> found_;
+};
+
+/// A scene with a path along which it is looked at.
+struct PathScene {
+  std::string name;
+  Scene scene;
+  ForceProfile profile;  ///< Of a largest force of 1.
+  std::vector<Pose> poses;
+};
+
+/// The recorded hard, soft and generated contact, as the experiments of these names have them.
+/// @param stride  every so many frames of 1 kHz
+PathScene load_path_scene(const std::string& name, const std::filesystem::path& meshes,
+                          const std::filesystem::path& paths, std::size_t frames, std::size_t stride = 1,
+                          const std::string& soft_mesh = "bunny-16k");
+
+/// Exponential with sharpness 4, saturated below a tenth of the cutoff.
+ForceProfile profile_of(double cutoff);
+
+/// Between two poses: along the line and the shortest turn.
+Pose between(const Pose& a, const Pose& b, double share);
+
+}  // namespace lmdbench::continuous_force
