@@ -29,7 +29,10 @@ def described(text):
 
 def documented_path(path):
     """'/methods/LABEL/force' is described as 'force', the counters of all methods as 'counters/NAME'; of a closed loop
-    '/methods/LABEL/path' is described as '/path'."""
+    '/methods/LABEL/path' is described as '/path'; loops and series of '/realtime/LABEL' share their rows."""
+    path = re.sub(r"^/realtime/[^/]+/", "/realtime/LABEL/", path)
+    path = re.sub(r"^(/realtime/LABEL/)(?!grants/)[^/]+/(?=(?:asked|woken|done|age)$)", r"\1LOOP/", path)
+    path = re.sub(r"^(/realtime/LABEL/lateness)/[^/]+/", r"\1/SERIES/", path)
     path = re.sub(r"^/methods/[^/]+/(?=(?:path|reference|crosscheck|polylines)/)", "/", path)
     return re.sub(r"^((?:global_)?counters)/[^/]+$", r"\1/NAME", re.sub(r"^/methods/[^/]+/", "", path))
 

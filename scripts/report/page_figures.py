@@ -13,6 +13,7 @@ import figure7
 import figure_style as style
 import sweep as sweep_figure
 import work_precision
+from clock_results import age_table, clocks, draw_timing, excess_table, lateness_table, role_table
 from lmdbench_results import truth_of
 
 
@@ -78,6 +79,20 @@ def figure7_entry(results, folder):
     return {**made, "csv_results": [(i, results[i].name) for i in taken]}
 
 
+def clock_entry(result, folder):
+    """Loop timing over the floor and ages over time of a run with the driver realtime."""
+    named = [(clock.label, clock) for clock in clocks(result)]
+    lists = (excess_table(named), lateness_table(named), age_table(named), role_table(named))
+    made = entry(
+        draw_timing(named), folder, f"clock-{result.name}", f"On the clock: {result.name}",
+        "How late the servo loop wakes and how late its force is, over an empty loop of the same priority on the same core; and how old "
+        "the sets in use are. What the empty loop is late by is the machine's own: verdicts rest on what exceeds it. Intervals are 95 %.",
+        csv_text(["method", "series", "share", "value [s]", "low [s]", "high [s]"],
+                 ([name, series, share, *row] for name, clock in named for series in ("floor", "servo", "response", "excess", "response_excess")
+                  for share, row in clock.quantiles(series).items())))
+    return {**made, "html": markdown.markdown("\n\n".join("\n".join(table) for table in lists), extensions=["tables"])}
+
+
 def figures(results, sweeps, folder):
     entries = [sweep_entry(sweep, folder) for sweep in sweeps]
     probed = [result for result in results if any(truth_of(method) for method in result.methods.values())]
@@ -86,5 +101,6 @@ def figures(results, sweeps, folder):
             work_precision.draw(probed), folder, "work_precision", "Error against run time of these runs" if sweeps else "Error against run time",
             "A point a method and experiment: what error it leaves for what run time of a frame in contact. Lower left is better; "
             "shaded lanes hold errors of exactly zero and methods that fail.", work_precision_csv(probed)))
+    entries += [clock_entry(result, folder) for result in results if clocks(result)]
     paper = figure7_entry(results, folder)
     return entries + ([paper] if paper else [])

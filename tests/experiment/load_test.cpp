@@ -160,7 +160,8 @@ TEST(LoadExperiment, SchemaViolationsNamePointerValueAndExpectation) {
               AllOf(HasSubstr("/methods/0/force_law: "), HasSubstr("[\"linear\",\"exponential\"]")));
   EXPECT_THAT(message({"/methods=[]"}), HasSubstr("/methods: "));
   EXPECT_THAT(message({"/fixed=[]"}), HasSubstr("/fixed: "));
-  EXPECT_THAT(message({"/driver/kind=realtime"}), AllOf(HasSubstr("/driver/kind: "), HasSubstr("lockstep")));
+  EXPECT_THAT(message({"/driver/kind=sundial"}),
+              AllOf(HasSubstr("/driver/kind: "), HasSubstr("lockstep"), HasSubstr("realtime")));
   EXPECT_THAT(message({"/name=has blank"}), HasSubstr("/name: "));
   EXPECT_THAT(message({"/methods/0/label=a/b"}), HasSubstr("/methods/0/label: "));
   EXPECT_THAT(message({}, R"({"name": "x"})"), HasSubstr("Missing required property"));

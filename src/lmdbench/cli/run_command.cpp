@@ -8,6 +8,7 @@
 #include <lmdbench/experiment/experiment.h>
 #include <lmdbench/experiment/run.h>
 #include <lmdbench/experiment/summary.h>
+#include <lmdbench/experiment/write_realtime.h>
 #include <lmdbench/methods/registry.h>
 
 #include <CLI/CLI.hpp>
@@ -31,11 +32,14 @@ struct RunOptions {
   std::string driver;
   bool json = false;
   bool resume = false;
+  bool require_realtime = false;
 };
 
 void run_to_file(const RunOptions& options, const std::vector<std::string>& argv) {
   std::vector<Override> overrides = options.overrides;
   if (!options.driver.empty()) overrides.push_back("/driver/kind=" + options.driver);
+  if (options.require_realtime)
+    overrides.insert(overrides.end(), {"/driver/kind=realtime", "/driver/realtime/required=true"});
   const Experiment experiment = load_experiment(options.experiment, overrides);
   const std::filesystem::path out = options.out.empty() ? "results/" + experiment.name + ".h5" : options.out;
 
@@ -68,6 +72,7 @@ void run_to_file(const RunOptions& options, const std::vector<std::string>& argv
     }
     fmt::print("{}{}", options.json ? summary_json(summary) : summary_text(summary),
                options.json ? "\n" : "");
+    if (!options.json) fmt::print("{}", realtime_text(result.clocks));
     spdlog::info("wrote {}", out.string());
     if (!summary.broken_limits.empty())
       throw Error(
@@ -96,6 +101,9 @@ void add_run_command(CLI::App& app, const std::vector<std::string>& argv) {
   command->add_option("--set", options->overrides, "override a value: /json/pointer=value; repeatable")
       ->allow_extra_args(false);
   command->add_option("--driver", options->driver, "same as --set /driver/kind=...");
+  command->add_flag(
+      "--require-realtime", options->require_realtime,
+      "on the clock, and an error where the system refuses a core, a priority or locked memory");
   command->add_flag("--json", options->json, "summary as JSON");
   command->add_flag("--resume", options->resume,
                     "go on with what an interrupted run of the same experiment left, if anything");

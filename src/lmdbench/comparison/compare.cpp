@@ -30,12 +30,21 @@ void refuse_sweep(const ResultReader& file) {
         "give results of lmdbench run; lmdbench report and scripts/figures/sweep.py read sweeps");
 }
 
+/// Runs on the clock differ from one to the next in every frame, whatever the programs.
+void refuse_realtime(const ResultReader& file) {
+  if (file.has("/realtime"))
+    throw UsageError(file.file().string(), "/realtime", "a run on the clock, no two of which are the same",
+                     "compare runs of the driver lockstep; scripts/figures/realtime.py puts runs on the "
+                     "clock beside each other");
+}
+
 Files open_side(const std::vector<std::filesystem::path>& names, const std::string& side) {
   if (names.empty()) throw UsageError("", "--" + side, "no result file", "give at least one");
   Files files;
   std::map<std::string, std::string> seen;
   for (const std::filesystem::path& name : names) {
     refuse_sweep(files.emplace_back(name));
+    refuse_realtime(files.back());
     const auto [found, fresh] = seen.emplace(sha256_of_file(name), name.string());
     if (!fresh)
       throw UsageError(name.string(), "", "the same file as " + found->second + ", also given to --" + side,

@@ -3,14 +3,13 @@
 #include <lmdbench/experiment/direction_memory.h>
 
 #include <limits>
-#include <utility>
 
 namespace lmdbench {
 
 std::int64_t DirectionMemory::complete(LmdSet& lmds) {
   std::int64_t without_direction = 0;
   const double reach = is_older_ ? cutoff_ : std::numeric_limits<double>::infinity();
-  LmdSet known;
+  known_.clear();
   for (Lmd& lmd : lmds) {
     // A method may have carried the direction along itself; distance 0 tells that it is not the frame's own.
     if (!(lmd.distance > 0.0)) ++without_direction;
@@ -29,10 +28,10 @@ std::int64_t DirectionMemory::complete(LmdSet& lmds) {
         }
       }
     }
-    if (!lmd.direction.hasNaN()) known.push_back(lmd);
+    if (!lmd.direction.hasNaN()) known_.push_back(lmd);
   }
-  is_older_ = known.empty();
-  if (!known.empty()) last_ = std::move(known);
+  is_older_ = known_.empty();
+  if (!known_.empty()) last_.swap(known_);
   return without_direction;
 }
 

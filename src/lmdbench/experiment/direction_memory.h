@@ -4,6 +4,7 @@
 
 #include <lmdbench/lmd/lmd.h>
 
+#include <cstddef>
 #include <cstdint>
 
 namespace lmdbench {
@@ -19,6 +20,12 @@ class DirectionMemory {
   /// @param cutoff how far the LMD of an older frame may lie from the one that borrows its direction [m]
   explicit DirectionMemory(double cutoff) : cutoff_(cutoff) {}
 
+  /// Sets of up to so many LMDs need no memory from then on.
+  void reserve(std::size_t lmds) {
+    last_.reserve(lmds);
+    known_.reserve(lmds);
+  }
+
   /// Gives the frame's LMDs directions and remembers them for the next frame.
   /// @return how many LMDs had none of their own
   std::int64_t complete(LmdSet& lmds);
@@ -26,6 +33,7 @@ class DirectionMemory {
  private:
   double cutoff_;
   LmdSet last_;            ///< LMDs with a direction of the last frame that had any.
+  LmdSet known_;           ///< Those of the frame under way; kept for its memory.
   bool is_older_ = false;  ///< That frame is not the one before.
 };
 

@@ -5,6 +5,7 @@
 #include <lmdbench/experiment/acceptance.h>
 #include <lmdbench/experiment/defaults.h>
 #include <lmdbench/experiment/loop_choice.h>
+#include <lmdbench/experiment/realtime_choice.h>
 #include <lmdbench/experiment/rules.h>
 #include <lmdbench/force/force_law.h>
 #include <lmdbench/geometry/pose.h>
@@ -90,6 +91,7 @@ struct Experiment {
   /// With named profiles each method is there once a profile, under the label METHOD-PROFILE.
   std::vector<MethodChoice> methods;
   DriverChoice driver;
+  std::optional<RealtimeChoice> realtime;  ///< Set: the driver is `realtime_driver.h`'s, not lockstep's.
   std::string device;
   LoopChoice loop;
   std::int64_t truth_stride_frames = 0;  ///< 0: no truth probe.

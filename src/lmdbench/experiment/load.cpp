@@ -177,6 +177,12 @@ Experiment from_json(Json document, const std::filesystem::path& path) {
         fmt::format("a search takes {} frames, but the next one starts after {}",
                     experiment.driver.search_latency_frames, experiment.driver.search_every_frames),
         "one thread searches: let the latency be at most search_every_frames");
+  if (driver["kind"] == "realtime") {
+    experiment.realtime = realtime_choice(driver["realtime"]);
+    // No second traversal is like the first, and when a search starts its thread decides.
+    experiment.driver.repetitions = experiment.driver.search_every_frames = 1;
+    experiment.driver.search_latency_frames = 0;
+  }
   experiment.loop = loop_choice(document["loop"], device, file);
   const Json& probes = document["probes"];
   experiment.truth_stride_frames = probes["truth"]["stride_frames"].get<std::int64_t>();

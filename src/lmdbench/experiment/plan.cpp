@@ -90,8 +90,10 @@ Plan make_plan(const Experiment& experiment) {
       fmt::format("planar tolerance: {}; `lmdbench mesh info` says what that moves", join_labels(tolerances)),
       "planar_tolerance is off for every mesh");
   add(Part::LOCAL_TRACKING, "global searches and local tracking", !tracking.empty(),
-      fmt::format("{}: a search every {} frames that arrives {} frames later", join_labels(tracking),
-                  experiment.driver.search_every_frames, experiment.driver.search_latency_frames),
+      experiment.realtime
+          ? fmt::format("{}: in threads of their own", join_labels(tracking))
+          : fmt::format("{}: a search every {} frames that arrives {} frames later", join_labels(tracking),
+                        experiment.driver.search_every_frames, experiment.driver.search_latency_frames),
       "no method tracks locally");
   add(Part::SEARCH_PER_FRAME, "a search in every frame", !searching.empty(), join_labels(searching),
       "every method tracks locally");
@@ -126,7 +128,11 @@ Plan make_plan(const Experiment& experiment) {
   add(Part::INTERSECTIONS, "intersection polylines", experiment.polyline_stride_frames > 0,
       fmt::format("every {} frames, outside the timed frames", experiment.polyline_stride_frames),
       "record/polylines/stride_frames is 0");
-  add(Part::THREADS, "threads", false, "", "the lockstep driver has one clock and one thread");
+  add(Part::THREADS, "threads", experiment.realtime.has_value(),
+      "the driver realtime: servo loop, recorder and, for methods that track locally, search and tracking, "
+      "on the machine's "
+      "clock; results differ from run to run",
+      "the lockstep driver has one clock and one thread");
   return plan;
 }
 

@@ -7,6 +7,7 @@
 #include <lmdbench/base/statistics.h>
 #include <lmdbench/catalogue/manifest.h>
 #include <lmdbench/experiment/prepare.h>
+#include <lmdbench/experiment/realtime_driver.h>
 #include <lmdbench/experiment/truth_probe.h>
 #include <lmdbench/lmd/method_description.h>
 #include <lmdbench/mesh/placement.h>
@@ -269,6 +270,8 @@ PreparedRun prepare(const Experiment& experiment, const Progress& progress) {
     prepared.input.poses.push_back(frame.pose);
     prepared.times.push_back(frame.time);
   }
+  if (experiment.realtime && experiment.realtime->seconds)
+    lengthen(prepared.input.poses, prepared.times, experiment.frame_rate_hz, *experiment.realtime->seconds);
   for (const MeshNote& note : prepared.meshes) {
     const bool listed = std::any_of(prepared.files.begin(), prepared.files.end(), [&](const InputFile& file) {
       return file.role == "mesh:" + note.name && file.sha256 == note.sha256;

@@ -5,7 +5,9 @@
 #include <lmdbench/base/file_hash.h>
 #include <lmdbench/base/output_guard.h>
 #include <lmdbench/experiment/contact.h>
+#include <lmdbench/experiment/realtime_driver.h>
 #include <lmdbench/experiment/run.h>
+#include <lmdbench/experiment/write_realtime.h>
 #include <lmdbench/experiment/write_result.h>
 #include <lmdbench/methods/registry.h>
 #include <lmdbench/record/machine_info.h>
@@ -44,7 +46,9 @@ void note_findings(const Experiment& experiment, RunResult& result) {
   for (std::size_t i = 0; i < result.records.size(); ++i)
     if (const auto warning = clipping_warning(result.records[i], result.track_of(i).in_contact))
       result.warnings.push_back(to_text(*warning));
-  if (experiment.driver.repetitions == 1)
+  for (const RealtimeRecord& clock : result.clocks)
+    for (std::string& warning : realtime_warnings(clock)) result.warnings.push_back(std::move(warning));
+  if (experiment.driver.repetitions == 1 && !experiment.realtime)
     result.warnings.emplace_back("a single repetition: its times include the warm-up");
   for (const Track& track : result.tracks) {
     if (!track.fcl) continue;
@@ -112,14 +116,14 @@ RunResult run_and_keep(const Experiment& experiment, const RunProgress& progress
     return [&progress, name](std::int64_t done, std::int64_t total) { return progress(name, done, total); };
   };
   RunResult result{
-      make_plan(experiment), prepare(experiment, phase("path")), {}, {}, {}, {}, false, {}, {}, 0};
+      make_plan(experiment), prepare(experiment, phase("path")), {}, {}, {}, {}, {}, false, {}, {}, 0};
   make_tracks(experiment, result);
   PreparedRun& prepared = result.prepared;
   result.warnings = prepared.warnings;
   const auto frame_count = static_cast<std::int64_t>(prepared.input.poses.size());
   const std::vector<LockstepMethod> methods = lockstep_methods(experiment, prepared);
 
-  const std::vector<std::int64_t> probed = truth_frames(experiment, prepared);
+  std::vector<std::int64_t> probed = truth_frames(experiment, prepared);
   if (result.plan.needs(Part::LMD_LISTS)) {
     prepared.input.keep_lmds = [](std::int64_t) { return true; };
   } else {
@@ -135,7 +139,20 @@ RunResult run_and_keep(const Experiment& experiment, const RunProgress& progress
   result.plan.rules = decide_rules({experiment, prepared.input.poses, result.in_contact, probed});
   const ProbeShortcuts shortcuts{.warm = is_on(result.plan.rules, Rule::WARM_CROSSCHECK),
                                  .reuse_repeated = is_on(result.plan.rules, Rule::REPEATED_POSE)};
-  result.records = run_lockstep(methods, prepared.input, experiment.driver, phase("run"), keeper.get());
+  if (experiment.realtime) {
+    RealtimeRun run = run_realtime(methods, prepared.input,
+                                   {*experiment.realtime, experiment.loop, experiment.driver.predict},
+                                   phase("run"), keeper.get());
+    result.records = std::move(run.records);
+    result.clocks = std::move(run.clocks);
+    // Frames whose sets nobody knows cannot be compared.
+    std::erase_if(probed, [&](std::int64_t frame) {
+      return std::any_of(result.records.begin(), result.records.end(),
+                         [&](const MethodRecord& record) { return !record.lmds.contains(frame); });
+    });
+  } else {
+    result.records = run_lockstep(methods, prepared.input, experiment.driver, phase("run"), keeper.get());
+  }
   if (keeper) result.resumed_frames = keeper->resumed_frames();
 
   for (Track& track : result.tracks) {
@@ -189,7 +206,12 @@ RunResult run_experiment_to_file(const Experiment& experiment, const std::filesy
   PartFile& part = writer.part();
   if (leftover == Leftover::REFUSE && RunKeeper::measured_frames(part) > 0)
     throw EnvironmentError(part.part_name().string(), "", "holds what an interrupted run measured",
-                           "go on with it by --resume, or remove the file to start again");
+                           experiment.realtime
+                               ? "a run on the clock cannot be taken up again: remove the file"
+                               : "go on with it by --resume, or remove the file to start again");
+  if (leftover == Leftover::RESUME && experiment.realtime)
+    throw UsageError(experiment.file.string(), "/driver/kind", "a run on the clock cannot be taken up again",
+                     "run it without --resume");
   RunKeeper::prepare(part);
   // A run that ends before it measured anything leaves nothing.
   struct RemoveEmptyPart {

@@ -9,6 +9,7 @@
 #include <lmdbench/experiment/plan.h>
 #include <lmdbench/experiment/polyline_probe.h>
 #include <lmdbench/experiment/prepare.h>
+#include <lmdbench/experiment/realtime_record.h>
 #include <lmdbench/experiment/records.h>
 #include <lmdbench/experiment/run_keeper.h>
 #include <lmdbench/experiment/truth_probe.h>
@@ -37,7 +38,8 @@ struct Track {
 struct RunResult {
   Plan plan;
   PreparedRun prepared;
-  std::vector<MethodRecord> records;  ///< In the order of the experiment's methods, like the next two.
+  std::vector<MethodRecord> records;   ///< In the order of the experiment's methods, like the next two.
+  std::vector<RealtimeRecord> clocks;  ///< Of the driver realtime; else empty.
   std::vector<std::size_t> track_of_method;
   std::vector<std::vector<TruthComparison>> comparisons;  ///< One list a method, one entry a TruthFrame.
   std::vector<Track> tracks;

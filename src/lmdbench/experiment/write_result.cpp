@@ -3,6 +3,7 @@
 #include <lmdbench/experiment/columns.h>
 #include <lmdbench/experiment/summary.h>
 #include <lmdbench/experiment/write_polylines.h>
+#include <lmdbench/experiment/write_realtime.h>
 #include <lmdbench/experiment/write_result.h>
 #include <lmdbench/methods/registry.h>
 
@@ -287,8 +288,11 @@ void write_result(ResultWriter& writer, const Experiment& experiment, const RunR
   // With a single repetition nothing would be left after the warm-up, so it then counts, with a warning.
   writer.attribute("/methods", "warm_up_repetitions",
                    std::int64_t{experiment.driver.repetitions > 1 ? 1 : 0});
-  writer.attribute("/methods", "search_every_frames", experiment.driver.search_every_frames);
-  writer.attribute("/methods", "search_latency_frames", experiment.driver.search_latency_frames);
+  writer.attribute("/methods", "driver", std::string(experiment.realtime ? "realtime" : "lockstep"));
+  if (!experiment.realtime) {
+    writer.attribute("/methods", "search_every_frames", experiment.driver.search_every_frames);
+    writer.attribute("/methods", "search_latency_frames", experiment.driver.search_latency_frames);
+  }
   for (std::size_t i = 0; i < experiment.methods.size(); ++i) write_method(writer, experiment, result, i);
   if (result.one_track) {
     const Track& track = result.tracks.front();
@@ -296,6 +300,7 @@ void write_result(ResultWriter& writer, const Experiment& experiment, const RunR
     if (track.fcl) write_fcl(writer, "/crosscheck/fcl", *track.fcl, experiment.fcl_tolerance_relative);
     if (experiment.polyline_stride_frames > 0) write_polylines(writer, "/polylines", track.polylines);
   }
+  write_realtime(writer, result.clocks);
   write_summary(writer, summarise(experiment, result));
 }
 

@@ -1,0 +1,155 @@
+# SPDX-FileCopyrightText: The lmdbench authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""What a run with the driver `realtime` left of its clock (results/README.md, /realtime), its figure and its tables."""
+
+import numpy as np
+
+import figure_style as style
+from intervals import poisson_interval
+
+import matplotlib.pyplot as plt
+
+SERIES = ("servo", "response", "floor")
+MOST_POINTS = 4000  # of a line over time: more than a page is wide
+
+
+class Clock:
+    """One method's group of /realtime."""
+
+    def __init__(self, result, label):
+        self.result, self.label = result, label
+        self.group = result.h5[f"/realtime/{label}"]
+
+    def attribute(self, name, of=""):
+        return float((self.group[of] if of else self.group).attrs[name])
+
+    def read(self, name):
+        return self.group[name][()]
+
+    def roles(self):
+        return [name for name in ("servo", "tracking", "search", "scene") if name in self.group]
+
+    def quantiles(self, series):
+        """{share: (value, low, high) [s]}"""
+        return {float(share): row for share, row in zip(self.read("lateness/share"), zip(*(
+            self.read(f"lateness/{series}/{name}") for name in ("value", "low", "high"))))}
+
+    def above(self, series):
+        return {float(share): int(count) for share, count in zip(self.read("lateness/share"), self.read(f"lateness/{series}/above"))}
+
+    def skipped_per_million(self, of):
+        """(rate, low, high) of instants without a turn per million instants, Poisson: of the servo loop or of the floor."""
+        groups = ("floor_before", "floor_after") if of == "floor" else (of,)
+        skipped = sum(self.attribute("skipped", name) for name in groups)
+        ticks = sum(self.read(f"{name}/asked").size for name in groups) + skipped
+        low, high = poisson_interval(skipped)
+        return tuple(1e6 * value / max(ticks, 1) for value in (skipped, low, high))
+
+    def floor_skipped(self):
+        return int(sum(self.attribute("skipped", name) for name in ("floor_before", "floor_after")))
+
+    def refused(self):
+        granted, asked, thread = (self.read(f"grants/{name}") for name in ("granted", "asked", "thread"))
+        return [f"{who.decode()}: {what.decode()}" for ok, what, who in zip(granted, asked, thread) if not ok]
+
+    def ages_ms(self):
+        """(time [s], age of the set in use [ms], age of its search [ms]) by tick."""
+        return self.read("servo/woken"), 1e3 * self.read("servo/age"), 1e3 * self.read("servo/search_age")
+
+
+def clocks(result):
+    """The clocks of a result in the order of its methods; empty for one of the lockstep driver."""
+    return [Clock(result, label) for label in result.methods if f"/realtime/{label}" in result.h5]
+
+
+def thinned(time, values):
+    """The largest of each stretch, so that no peak is lost."""
+    if values.size <= MOST_POINTS:
+        return time, values
+    step = -(-values.size // MOST_POINTS)
+    cut = values.size // step * step
+    return time[:cut:step], values[:cut].reshape(-1, step).max(axis=1)
+
+
+def draw_timing(named):
+    """Left: lateness as a histogram over the floor; right: ages over time. A row for each (name, clock)."""
+    style.use_style()
+    figure, rows = plt.subplots(len(named), 2, figsize=(style.TWO_COLUMNS_IN, 1.7 * len(named) + 0.5), squeeze=False,
+                                gridspec_kw={"width_ratios": (1.2, 1.0)})
+    looks = {"floor": {"color": style.PALE_GREY, "label": "empty loop"}, "servo": {"color": style.BLUE, "label": "servo, woken"},
+             "response": {"color": style.VERMILLION, "label": "servo, force"}}
+    for (name_of_run, clock), (left, right) in zip(named, rows):
+        edges = 1e6 * np.concatenate(([0.8e-6], clock.read("lateness/edges"), [1.25]))
+        for name in ("floor", "servo", "response"):
+            counts = clock.read(f"lateness/{name}/histogram").astype(float)
+            share = counts / max(counts.sum(), 1.0)
+            left.stairs(share, edges, fill=name == "floor", linewidth=0.9, **looks[name])
+        left.set(xscale="log", yscale="log", xlim=(0.8, 2e4), ylabel="share of the ticks")
+        left.set_title(name_of_run, loc="left")
+        left.axvline(1e6 * clock.attribute("period_s"), color=style.GREY, linewidth=0.6, linestyle=":")
+        time, age, search_age = clock.ages_ms()
+        if age.any():
+            right.plot(*thinned(time, search_age), color=style.SKY, linewidth=0.6, label="since its search")
+            right.plot(*thinned(time, age), color=style.BLUE, linewidth=0.6, label="of the set in use")
+            right.set(yscale="log", ylabel="age [ms]")
+            right.legend(loc="upper right")
+        else:
+            right.text(0.5, 0.5, "searched in the tick: age 0", ha="center", va="center", transform=right.transAxes)
+            right.set_yticks([])
+        right.set_xlim(left=0.0)
+    rows[0][0].legend(loc="upper right")
+    rows[-1][0].set_xlabel("later than the instant of the grid [us]; dotted: a servo period")
+    rows[-1][1].set_xlabel("time [s]")
+    figure.tight_layout()
+    return figure
+
+
+def micro(row):
+    """'12.3 (11.9 to 12.8)' of (value, low, high) [s]."""
+    value, low, high = (1e6 * number for number in row)
+    return f"{value:.1f} ({low:.1f} to {high:.1f})"
+
+
+def lateness_table(named):
+    """Markdown rows: [(name, clock)]."""
+    lines = ["| run | loop | p50 [us] | p95 | p99 | p99.9 | p99.99 (ticks above) | largest |", "|---|---|---|---|---|---|---|---|"]
+    for name, clock in named:
+        for series, loop in (("floor", "empty"), ("servo", "servo, woken"), ("response", "servo, force")):
+            rows, above = clock.quantiles(series), clock.above(series)
+            cells = [micro(row) for row in rows.values()]
+            last = list(rows)[-1]
+            lines.append(f"| {name} | {loop} | " + " | ".join(cells[:-1]) + f" | {cells[-1]} ({above[last]}) | "
+                         f"{1e6 * clock.attribute('maximum_s', f'lateness/{series}'):.0f} |")
+    return lines
+
+
+def excess_table(named):
+    lines = ["| run | woken over empty, p99 [us] | force over empty, p50 [us] | p99 [us] | periods without a tick, a million | of the empty loop | stolen [s] |",
+             "|---|---|---|---|---|---|---|"]
+    for name, clock in named:
+        excess, force = clock.quantiles("excess"), clock.quantiles("response_excess")
+        miss, floor = (f"{rate:.0f} ({low:.0f} to {high:.0f})" for rate, low, high in map(clock.skipped_per_million, ("servo", "floor")))
+        lines.append(f"| {name} | {micro(excess[0.99])} | {micro(force[0.5])} | {micro(force[0.99])} | {miss} | {floor} | "
+                     f"{clock.attribute('stolen_s'):.2f} |")
+    return lines
+
+
+def role_table(named):
+    lines = ["| run | role | core | turns a second | processor time a turn [us] | share of a core [%] | faults | processor taken away |",
+             "|---|---|---|---|---|---|---|---|"]
+    for name, clock in named:
+        for role in clock.roles():
+            turns, processor = (clock.attribute(key, role) for key in ("turns", "processor_s"))
+            faults = clock.attribute("minor_faults", role) + clock.attribute("major_faults", role)
+            lines.append(f"| {name} | {role} | {clock.attribute('core', role):.0f} | {clock.attribute('rate_hz', role):.1f} | "
+                         f"{1e6 * processor / max(turns, 1):.1f} | {100 * clock.attribute('load', role):.2f} | {faults:.0f} | "
+                         f"{clock.attribute('involuntary_switches', role):.0f} |")
+    return lines
+
+
+def age_table(named):
+    lines = ["| run | age of the set in use, p50 [ms] | p99 | largest | since its search, p50 [ms] | p99 | largest |", "|---|---|---|---|---|---|---|"]
+    for name, clock in named:
+        cells = [f"{value:.2f}" for ages in clock.ages_ms()[1:] for value in (*np.quantile(ages, (0.5, 0.99)), ages.max())]
+        lines.append(f"| {name} | " + " | ".join(cells) + " |")
+    return lines

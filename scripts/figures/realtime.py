@@ -1,0 +1,332 @@
+#!/usr/bin/env python3
+# SPDX-FileCopyrightText: The lmdbench authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""The paper's four threads on the clock: runs both bunnies, hard and soft, each method, over the floor of the machine; the force error
+that age causes, by path speed, with and without prediction; overload; the closed loops. Leaves realtime.md and realtime.png.
+
+What is there already is not run again, so the study can be made in parts: --parts names them, --most limits how many runs this call makes."""
+
+import argparse
+import json
+import os
+import signal
+import subprocess
+import sys
+import time
+
+import numpy as np
+
+import figure_style as style
+from clock_results import age_table, clocks, draw_timing, excess_table, lateness_table, role_table
+from lmdbench_results import Result, ResultError, run_script
+
+import matplotlib.pyplot as plt
+
+METHODS = {"original": "linear", "improved": "exponential", "certified": "exponential"}
+SCENES = ("bunny-hard", "bunny-soft")
+SPEEDS_MM_S = (1, 10, 100)
+PREDICTIONS = ("none", "linear")
+AGE_PATH_M = 0.02  # way of the recorded path that the speeds share
+AGE_SECONDS = 10.0
+STOPPED_S = 0.3
+WALL_SHARES = (0.9, 0.97, 1.03, 1.1)  # of the lockstep's boundary
+PARTS = ("clock", "free", "age", "overload", "closed")
+
+
+class OutOfRuns(Exception):
+    """This call has made as many runs as it may."""
+
+
+class Study:
+    def __init__(self, program, out, most, seconds):
+        self.program, self.out, self.left, self.seconds = program, out, most, seconds
+        os.makedirs(out, exist_ok=True)
+
+    def file(self, name):
+        return os.path.join(self.out, name + ".h5")
+
+    def command(self, experiment, file, settings):
+        command = [self.program, "-q", "run", experiment, "--out", file]
+        for pointer, value in settings.items():
+            command += ["--set", f"{pointer}={json.dumps(value)}"]
+        return command
+
+    def spend(self):
+        if self.left == 0:
+            raise OutOfRuns
+        self.left -= 1
+
+    def run(self, name, experiment, settings):
+        """The result of a run, made unless it is there."""
+        file = self.file(name)
+        if not os.path.exists(file):
+            self.spend()
+            command = self.command(experiment, file, settings)
+            done = subprocess.run(command, capture_output=True, text=True, check=False, stdin=subprocess.DEVNULL)
+            if done.returncode != 0:
+                raise ResultError(f"{' '.join(command)}: exit code {done.returncode}\n{done.stderr}")
+        return Result(file)
+
+    def clock(self, name, experiment, settings):
+        return clocks(self.run(name, experiment, {"/driver/kind": "realtime", **settings}))[0]
+
+
+def one(method, **more):
+    return {"/methods": [{"name": method, "force_law": METHODS[method], **more}]}
+
+
+NO_PROBES = {"/probes/truth/stride_frames": 0, "/probes/fcl/stride_frames": 0}
+
+
+def clock_part(study):
+    named = []
+    for scene in SCENES:
+        for method in METHODS:
+            settings = {**one(method), **NO_PROBES, "/driver/realtime/seconds": study.seconds}
+            named.append((f"{scene}, {method}", study.clock(f"{scene}-{method}", f"experiments/{scene}.json", settings)))
+    style.save(draw_timing(named), study.out, "realtime-timing")
+    searches = [f"| {name} | {clock.attribute('rate_hz', 'search'):.0f} | {clock.attribute('rate_hz', 'tracking'):.0f} |"
+                if "search" in clock.roles() else f"| {name} | one loop: {clock.attribute('rate_hz', 'servo'):.0f} | - |" for name, clock in named]
+    refused = sorted({what for _, clock in named for what in clock.refused()})
+    return ["## Both bunnies on the clock", "",
+            f"{study.seconds:g} s each, two bunnies of 16,298 triangles, the recorded path there and back. Refused by the system: {'; '.join(refused) or 'nothing'}. "
+            "What the empty loop is late by, under the same policy on the same core before and after each run, is the machine's own.", "",
+            *excess_table(named), "", *lateness_table(named), "", "Rates and loads:", "", *role_table(named), "",
+            "The paper: \"the thread can sometimes make only a several loops per second\" (section 5), on an Opteron 275 of 2005. Here:", "",
+            "| run | searches a second | local updates a second |", "|---|---|---|", *searches, "", "Ages:", "", *age_table(
+                [(name, clock) for name, clock in named if "search" in clock.roles()]), ""]
+
+
+def free_part(study):
+    """K9: local updates as fast as they come, on the core of the servo loop."""
+    lines = ["## Local tracking as fast as it can (K9)", "",
+             "Tracking without a grid, at normal priority on the servo loop's core, as the paper ran it; processor time of a turn is what a core of its own would give.", "",
+             "| run | updates a second | processor time an update [us] | updates a second of processor time | servo loop's share of the core [%] |",
+             "|---|---|---|---|---|"]
+    for scene in SCENES:
+        for method in ("original", "improved"):
+            settings = {**one(method), **NO_PROBES, "/driver/realtime/seconds": min(study.seconds, 20.0), "/driver/realtime/tracking_rate_hz": 0}
+            clock = study.clock(f"free-{scene}-{method}", f"experiments/{scene}.json", settings)
+            turns, processor = (clock.attribute(key, "tracking") for key in ("turns", "processor_s"))
+            lines.append(f"| {scene}, {method} | {clock.attribute('rate_hz', 'tracking'):.0f} | {1e6 * processor / turns:.2f} | {turns / processor:.0f} | "
+                         f"{100 * clock.attribute('load', 'servo'):.2f} |")
+    return [*lines, ""]
+
+
+def scaled_path(study, speed):
+    """The same stretch of the hard path at a mean speed [mm/s], there and back for AGE_SECONDS; at most 1000 poses a second."""
+    poses = np.loadtxt(os.path.join("paths", "bunny-hard.tum"))
+    # From where the meshes touch: the recorded path is in contact from a second on.
+    poses = poses[poses[:, 0] >= 1.0]
+    way = np.concatenate(([0.0], np.cumsum(np.linalg.norm(np.diff(poses[:, 1:4], axis=0), axis=1))))
+    poses = poses[: np.searchsorted(way, AGE_PATH_M) + 1]
+    factor = way[len(poses) - 1] / (1e-3 * speed) / (poses[-1, 0] - poses[0, 0])
+    times = (poses[:, 0] - poses[0, 0]) * factor
+    rows, start = [], 0.0
+    forth, back = poses[:, 1:], poses[::-1, 1:]
+    back_times = times[-1] - times[::-1]
+    while start < AGE_SECONDS:
+        for leg, leg_times in ((forth, times), (back, back_times)):
+            rows += [np.concatenate(([start + t], pose)) for t, pose in zip(leg_times[:-1], leg[:-1])]
+            start += times[-1]
+    file = os.path.join(study.out, f"path-{speed}.tum")
+    np.savetxt(file, np.array(rows), fmt="%.9g", header="time x y z qx qy qz qw")
+    return os.path.abspath(file)
+
+
+def age_part(study):
+    """Force with aged sets against the same method's force with a set that was searched at the frame's own pose."""
+    lines = ["## Force error that age causes", "",
+             f"{1e3 * AGE_PATH_M:.0f} mm of the hard path at three mean speeds, there and back for {AGE_SECONDS:g} s; hard profile (F_max 3 N, cutoff 0.75 mm). Error: length of the difference to "
+             "the force of the same method whose set was searched at that very pose, over the frames in contact; so only age counts, not what the method misses.", "",
+             "| mean speed [mm/s] | method | prediction | age of the set, p50 [ms] | since its search, p50 [ms] | error, RMS [N] | median [N] | p99 [N] | largest [N] | share of the RMS force [%] |",
+             "|---|---|---|---|---|---|---|---|---|---|"]
+    points = {}
+    for speed in SPEEDS_MM_S:
+        path = scaled_path(study, speed)
+        common = {"/path/file": path, "/frames": int(1000 * AGE_SECONDS), **NO_PROBES}
+        for method in METHODS:
+            fresh = study.run(f"fresh-{speed}-{method}", "experiments/bunny-hard.json", {
+                **one(method), **common, "/driver/search_every_frames": 1, "/driver/search_latency_frames": 0, "/driver/repetitions": 1})
+            true = fresh.methods[method].read("force")
+            contact = fresh.in_contact()
+            for prediction in PREDICTIONS if method != "certified" else PREDICTIONS[:1]:
+                clock = study.clock(f"age-{speed}-{method}-{prediction}", "experiments/bunny-hard.json",
+                                    {**one(method), **common, "/driver/prediction": prediction})
+                force = clock.result.methods[method].read("force")
+                error = np.linalg.norm(force - true, axis=1)[contact]
+                rms = float(np.sqrt(np.mean(error**2)))
+                scale = float(np.sqrt(np.mean(np.sum(true[contact]**2, axis=1))))
+                _, age, search_age = clock.ages_ms()
+                points[method, prediction, speed] = rms
+                lines.append(f"| {speed} | {method} | {prediction} | {np.median(age):.2f} | {np.median(search_age):.2f} | {rms:.3g} | {np.median(error):.3g} | "
+                             f"{np.quantile(error, 0.99):.3g} | {error.max():.3g} | {100 * rms / scale:.2g} |")
+    style.save(draw_age(points), study.out, "realtime")
+    return [*lines, "", "![Force error by speed and method, with and without prediction](realtime.png)", ""]
+
+
+def draw_age(points):
+    style.use_style()
+    figure, axes = plt.subplots(figsize=(0.6 * style.TWO_COLUMNS_IN, 2.8))
+    for order, method in enumerate(METHODS):
+        for prediction in PREDICTIONS:
+            values = [points.get((method, prediction, speed)) for speed in SPEEDS_MM_S]
+            if None in values:
+                continue
+            label = f"{method}, one loop" if method == "certified" else f"{method}{', predicted' if prediction == 'linear' else ''}"
+            axes.plot(SPEEDS_MM_S, np.maximum(values, 1e-7), color=style.METHOD_COLOURS[order], linestyle="--" if prediction == "linear" else "-",
+                      marker="o", markersize=3, label=label)
+    axes.set(xscale="log", yscale="log", xlabel="mean speed [mm/s]", ylabel="force error caused by age, RMS [N]\n(at the foot: 1e-7 and less)")
+    axes.legend(loc="upper left")
+    figure.tight_layout()
+    return figure
+
+
+def frames_of(clock):
+    source = clock.read("frame_source")
+    return {"ticks": int(np.sum(source == 0)), "skipped": int(np.sum(source == 1)), "lost": int(np.sum(source == 2)), "all": source.size}
+
+
+def kept_grid(clock):
+    """Every tick at its instant or later, in its period, none twice."""
+    asked, woken, frame = (clock.read(f"servo/{name}") for name in ("asked", "woken", "frame"))
+    period = clock.attribute("period_s")
+    on_grid = np.allclose(np.round(asked / period) * period, asked, atol=1e-8, rtol=0)
+    return bool(on_grid and np.all(woken >= asked) and np.all(np.diff(frame) > 0) and np.all(frame == np.floor((woken + 1e-10) / period)))
+
+
+def stopped_process(study, experiment, settings):
+    """SIGSTOP of the whole program for STOPPED_S in the middle of a run."""
+    file = study.file("overload-sigstop")
+    if not os.path.exists(file):
+        study.spend()
+        command = study.command(experiment, file, {"/driver/kind": "realtime", **settings})
+        with subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True) as process:
+            part = file + ".part"
+            while process.poll() is None and measured(part) < 1000:
+                time.sleep(0.05)
+            process.send_signal(signal.SIGSTOP)
+            time.sleep(STOPPED_S)
+            process.send_signal(signal.SIGCONT)
+            _, errors = process.communicate()
+            if process.returncode != 0:
+                raise ResultError(f"{' '.join(command)}: exit code {process.returncode}\n{errors}")
+    return clocks(Result(file))[0]
+
+
+def measured(part):
+    """Frames in the part file of a run that goes on."""
+    import h5py
+    try:
+        with h5py.File(part, "r", locking=False) as h5:
+            return int(h5["/frames_measured"][0])
+    except (OSError, KeyError):
+        return 0
+
+
+def full_disk(study, settings):
+    """A run whose result finds no room: what is said, and what is left."""
+    note = os.path.join(study.out, "overload-full-disk.json")
+    if not os.path.exists(note):
+        study.spend()
+        file = study.file("overload-full-disk")
+        # A limit on the length of files stands for the disk: room for what is reserved at the start, none for the result.
+        limit = f"ulimit -f {FULL_DISK_KIB}; exec \"$@\""
+        command = ["bash", "-c", limit, "run", *study.command("experiments/bunny-hard.json", file, {"/driver/kind": "realtime", **settings})]
+        done = subprocess.run(command, capture_output=True, text=True, check=False, stdin=subprocess.DEVNULL)
+        with open(note, "w", encoding="utf-8") as stream:
+            json.dump({"exit": done.returncode, "error": done.stderr.strip().splitlines()[-1:], "frames": measured(file + ".part"),
+                       "result": os.path.exists(file)}, stream)
+    with open(note, encoding="utf-8") as stream:
+        return json.load(stream)
+
+
+FULL_DISK_KIB = 2600
+
+
+def overload_part(study):
+    settings = {**one("improved"), **NO_PROBES, "/driver/realtime/seconds": 8}
+    plants = (("nothing", {}), ("a search that sleeps 100 ms", {"search_sleep_s": 0.1}), ("a recorder that stands still 1 s, room for 256 ticks", {"recorder_stall_s": 1.0}),
+              ("tracking stopped 0.3 s", {"stopped_role": "tracking", "stop_s": STOPPED_S}), ("search stopped 0.3 s", {"stopped_role": "search", "stop_s": STOPPED_S}),
+              ("a neighbour of the same priority, 10 of 50 ms", {"neighbour_busy_s": 0.01}))
+    lines = ["## Overload", "", "`improved` on the hard path for 8 s. Every frame is a tick, a skip that is counted, or a record that is counted as lost.", "",
+             "| planted | ticks | skipped | lost | of frames | grid kept | age of the set, largest [ms] | since its search, largest [ms] |", "|---|---|---|---|---|---|---|---|"]
+
+    def row(name, clock):
+        frames = frames_of(clock)
+        _, age, search_age = clock.ages_ms()
+        whole = frames["ticks"] + frames["skipped"] + frames["lost"] == frames["all"]
+        lines.append(f"| {name} | {frames['ticks']} | {frames['skipped']} | {frames['lost']} | {frames['all']} | {'yes' if kept_grid(clock) and whole else 'NO'} | "
+                     f"{age.max():.1f} | {search_age.max():.1f} |")
+
+    for number, (name, plant) in enumerate(plants):
+        more = {"/driver/realtime/queue_ticks": 256} if "recorder_stall_s" in plant else {}
+        row(name, study.clock(f"overload-{number}", "experiments/bunny-hard.json", {**settings, **more, "/driver/realtime/plant": plant}))
+    row(f"the whole program stopped {STOPPED_S:g} s (SIGSTOP)", stopped_process(study, "experiments/bunny-hard.json", settings))
+    disk = full_disk(study, settings)
+    return [*lines, "", f"No room for the result: exit code {disk['exit']}, {disk['frames']} frames in the part file, result file {'there' if disk['result'] else 'not there'}: "
+            f"\"{' '.join(disk['error'])}\"", ""]
+
+
+def swing(position):
+    """Root mean square of the way about its mean in the last third of a run over that in the middle third: above 1 it grows."""
+    def spread(part):
+        return float(np.sqrt(np.mean(np.sum((part - part.mean(axis=0))**2, axis=1))))
+    third = len(position) // 3
+    return spread(position[2 * third:]) / max(spread(position[third: 2 * third]), 1e-12)
+
+
+def closed_part(study):
+    """The wall's boundary by the lockstep, and what the clock makes of stiffnesses about it."""
+    done = subprocess.run([study.program, "-q", "stability", "experiments/wall.json", "--json"], capture_output=True, text=True, check=True, stdin=subprocess.DEVNULL)
+    boundary = json.loads(done.stdout)[0]["critical_stiffness_n_per_m"]
+    lines = ["## Closed loops", "", f"`wall`: the lockstep's boundary is {boundary:.5g} N/m. On the clock, 1.5 s at shares of it, the ball tapped by its start beside its place of rest: does the swing "
+             "grow from the middle third of the run to the last (spread of the last over that of the middle)?", "",
+             "| share of the boundary | driver | growth | periods skipped | mean response [us] |", "|---|---|---|---|---|"]
+    for share in WALL_SHARES:
+        settings = {"/force/maximum_force_n": boundary * share * 0.02, **NO_PROBES, "/frames": 1500, "/loop/push_n": [0, 0, -0.02]}
+        lockstep = study.run(f"wall-{share}-lockstep", "experiments/wall.json", settings)
+        clock = study.clock(f"wall-{share}-clock", "experiments/wall.json", settings)
+        method = next(iter(lockstep.methods))
+        lines.append(f"| {share} | lockstep | {swing(lockstep.methods[method].read('loop/position')):.3g} | - | - |")
+        response = clock.read("servo/done") - clock.read("servo/asked")
+        lines.append(f"| {share} | clock | {swing(clock.result.methods[method].read('loop/position')):.3g} | {frames_of(clock)['skipped']} | {1e6 * response.mean():.0f} |")
+    lines += ["", "`bunny-closed`: an arm draws the simulated PHANTOM along the recorded path.", "",
+              "| driver | method | RMS force [N] | force above 30 Hz [N] | energy created [mJ] | distance from the lockstep's device, RMS [mm] |", "|---|---|---|---|---|---|"]
+    lockstep = study.run("bunny-closed-lockstep", "experiments/bunny-closed.json", NO_PROBES)
+    result = study.run("bunny-closed-clock", "experiments/bunny-closed.json", {"/driver/kind": "realtime", **NO_PROBES})
+    for label, method in result.methods.items():
+        for driver, of in (("lockstep", lockstep.methods[label]), ("clock", method)):
+            force = of.force_magnitude()
+            apart = np.linalg.norm(of.read("loop/position") - lockstep.methods[label].read("loop/position"), axis=1)
+            lines.append(f"| {driver} | {label} | {np.sqrt(np.mean(force**2)):.3g} | {of.number('force_above_30_hz_n'):.3g} | {1e3 * of.number('energy_created_j'):.3g} | "
+                         f"{1e3 * np.sqrt(np.mean(apart**2)):.3g} |")
+    return [*lines, ""]
+
+
+def main(argv):
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--program", default="build/release/lmdbench")
+    parser.add_argument("--out", default="results/realtime", help="folder of results, realtime.md and figures")
+    parser.add_argument("--seconds", type=float, default=60.0, help="of each run on the clock")
+    parser.add_argument("--parts", nargs="+", choices=PARTS, default=PARTS)
+    parser.add_argument("--most", type=int, default=-1, help="runs of this call; later calls go on")
+    arguments = parser.parse_args(argv)
+    study = Study(arguments.program, arguments.out, arguments.most, arguments.seconds)
+    lines = ["# On the clock", "", "`scripts/figures/realtime.py`. Intervals are 95 %, by blocks of 100 ticks; counts are Poisson's.", ""]
+    makers = {"clock": clock_part, "free": free_part, "age": age_part, "overload": overload_part, "closed": closed_part}
+    for part in arguments.parts:
+        try:
+            lines += makers[part](study)
+        except OutOfRuns:
+            print(f"{part}: more runs are needed: call again", file=sys.stderr)
+            return 0
+    file = os.path.join(arguments.out, "realtime.md")
+    with open(file, "w", encoding="utf-8") as stream:
+        stream.write("\n".join(lines))
+    print(file)
+    return 0
+
+
+if __name__ == "__main__":
+    raise SystemExit(run_script(main))

@@ -1,0 +1,22 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <lmdbench/experiment/realtime_record.h>
+#include <lmdbench/record/result_writer.h>
+
+#include <string>
+#include <vector>
+
+namespace lmdbench {
+
+/// `/realtime` of the result file (results/README.md).
+void write_realtime(ResultWriter& writer, const std::vector<RealtimeRecord>& clocks);
+
+/// What a reader of the result must know of the clock: what was refused, what came late, what was lost.
+std::vector<std::string> realtime_warnings(const RealtimeRecord& clock);
+
+/// For people: rates, loads and lateness over the floor.
+std::string realtime_text(const std::vector<RealtimeRecord>& clocks);
+
+}  // namespace lmdbench

@@ -1,0 +1,24 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+
+namespace lmdbench::testing {
+
+/// Calls that were made inside servo ticks, in all threads, since the last `reset`.
+struct CountedCalls {
+  std::int64_t allocations = 0;  ///< operator new
+  std::int64_t locks =
+      0;  ///< pthread_mutex_lock; not counted under the thread sanitizer, which needs it itself.
+};
+CountedCalls counted_calls();
+void reset_counted_calls();
+
+#ifdef __SANITIZE_THREAD__
+inline constexpr bool COUNTS_LOCKS = false;
+#else
+inline constexpr bool COUNTS_LOCKS = true;
+#endif
+
+}  // namespace lmdbench::testing

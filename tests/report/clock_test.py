@@ -1,0 +1,153 @@
+#!/usr/bin/env python3
+# SPDX-FileCopyrightText: The lmdbench authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Runs on the machine's clock through the program, argument 1: what the result holds and how it is described, its page, what is refused,
+and a program that is stopped or finds no room. No test rests on a tick that is in time."""
+
+import json
+import os
+import resource
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+
+import h5py
+import numpy as np
+
+ROOT = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..")
+sys.path.insert(0, os.path.join(ROOT, "scripts", "figures"))
+
+from clock_results import clocks  # noqa: E402  (the figures' folder must be found first)
+from lmdbench_results import Result  # noqa: E402
+
+PROGRAM = None
+FRAMES = 800
+
+
+def command(out, *more, seconds=None):
+    return [PROGRAM, "-q", "run", "experiments/shapes.json", "--driver", "realtime", "--out", out, "--set", f"/frames={FRAMES}", "--set",
+            "/driver/realtime/floor_s=0.1", "--set", '/methods/-={"name": "certified"}', *(["--set", f"/driver/realtime/seconds={seconds}"] if seconds else []), *more]
+
+
+def call(arguments, **more):
+    return subprocess.run(arguments, cwd=ROOT, stdin=subprocess.DEVNULL, capture_output=True, text=True, check=False, **more)
+
+
+def counts(clock):
+    source = clock.read("frame_source")
+    return [int(np.sum(source == kind)) for kind in range(3)], source.size
+
+
+class Clock(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.folder = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(cls.folder.cleanup)
+        cls.out = os.path.join(cls.folder.name, "clock.h5")
+        cls.done = call(command(cls.out))
+        assert cls.done.returncode == 0, cls.done.stderr
+
+    def path(self, name):
+        return os.path.join(self.folder.name, name)
+
+    def test_the_result_is_as_described(self):
+        done = call([sys.executable, "scripts/figures/check_format.py", self.out])
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+
+    def test_every_frame_is_a_tick_or_a_skip(self):
+        result = Result(self.out)
+        self.assertEqual([clock.label for clock in clocks(result)], list(result.methods))
+        for clock in clocks(result):
+            (ticks, skipped, lost), frames = counts(clock)
+            self.assertEqual(ticks + skipped, frames)
+            self.assertEqual(lost, 0)
+            self.assertEqual(result.methods[clock.label].read("force").shape, (frames, 3))
+            self.assertEqual(clock.read("servo/asked").size, ticks)
+            tracks = bool(result.h5[f"/methods/{clock.label}"].attrs["tracks_locally"])
+            self.assertEqual("search" in clock.roles(), tracks)
+            self.assertEqual(bool(clock.read("servo/age").any()), tracks)
+            for series in ("servo", "response", "floor"):
+                self.assertEqual(int(clock.read(f"lateness/{series}/histogram").sum()), clock.attribute("ticks", f"lateness/{series}"))
+
+    def test_the_summary_names_lateness_and_loads(self):
+        for words in ("force over empty, p99", "% of a core", "servo", "empty"):
+            self.assertIn(words, self.done.stdout)
+        methods = [line.split()[0] for line in self.done.stdout.splitlines() if "force over empty" in line]
+        self.assertEqual(sorted(methods), sorted(Result(self.out).methods))
+
+    def test_truth_is_compared_where_the_sets_are_known(self):
+        result = Result(self.out)
+        self.assertGreater(result.read("/reference/frame").size, 10)
+        self.assertGreater(result.method("certified").number("recall"), 0.5)
+
+    def test_the_page_shows_the_clock(self):
+        done = call([PROGRAM, "-q", "report", self.out, "--out", self.path("page")])
+        self.assertEqual(done.returncode, 0, done.stderr)
+        with open(os.path.join(self.path("page"), "index.html"), encoding="utf-8") as stream:
+            page = stream.read()
+        for words in ('id="clock-shapes"', "force over empty, p99", "Age of the LMD set in use", "periods without a tick"):
+            self.assertIn(words, page)
+        self.assertTrue(os.path.exists(os.path.join(self.path("page"), "clock-shapes.svg")))
+
+    def test_what_cannot_be_is_refused(self):
+        for arguments, code, words in (
+                ([*command(self.path("other.h5")), "--resume"], 2, "cannot be taken up again"),
+                ([PROGRAM, "run", "experiments/shapes.json", "--driver", "sundial"], 2, "/driver/kind"),
+                ([PROGRAM, "compare", self.out, self.out], 2, "no two of which are the same"),
+                (command(self.path("other.h5"), "--set", "/driver/realtime/priority=99"), 2, "/driver/realtime/priority")):
+            done = call(arguments)
+            self.assertEqual(done.returncode, code, done.stderr)
+            self.assertIn(words, done.stderr)
+
+    def test_the_plan_says_which_threads(self):
+        plan = json.loads(call([PROGRAM, "plan", "experiments/shapes.json", "--json", "--set", "/driver/kind=realtime"]).stdout)
+        self.assertIn("threads", [item["part"] for item in plan["needed"]])
+
+    def test_a_stopped_program_loses_ticks_and_counts_them(self):
+        out = self.path("stopped.h5")
+        with subprocess.Popen(command(out, "--set", '/methods=[{"name": "improved"}]', "--set", '/probes={"truth": {"stride_frames": 0}, "fcl": {"stride_frames": 0}}',
+                                      seconds=4), cwd=ROOT, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE) as process:
+            until = time.monotonic() + 60
+            while measured(out + ".part") < 500 and process.poll() is None and time.monotonic() < until:
+                time.sleep(0.02)
+            process.send_signal(signal.SIGSTOP)
+            time.sleep(0.4)
+            process.send_signal(signal.SIGCONT)
+            _, errors = process.communicate()
+            self.assertEqual(process.returncode, 0, errors)
+        clock = clocks(Result(out))[0]
+        (ticks, skipped, lost), frames = counts(clock)
+        self.assertEqual(ticks + skipped + lost, frames)
+        self.assertGreater(skipped, 300)
+        frame = clock.read("servo/frame")
+        self.assertTrue(np.all(np.diff(frame) > 0), "no burst after it")
+        self.assertGreater(np.diff(frame).max(), 300)
+
+    def test_without_room_for_the_result_the_frames_stay_in_the_part(self):
+        out = self.path("full.h5")
+        part_bytes = os.path.getsize(self.out) // 4
+
+        def full_disk():
+            signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
+            resource.setrlimit(resource.RLIMIT_FSIZE, (part_bytes, part_bytes))
+
+        done = call(command(out), preexec_fn=full_disk)
+        self.assertEqual(done.returncode, 4, done.stderr)
+        self.assertFalse(os.path.exists(out))
+
+
+def measured(part):
+    """Frames in the part of a run that goes on."""
+    try:
+        with h5py.File(part, "r", locking=False) as h5:
+            return int(h5["/frames_measured"][0])
+    except (OSError, KeyError):
+        return 0
+
+
+if __name__ == "__main__":
+    PROGRAM = os.path.abspath(sys.argv.pop(1))
+    unittest.main()
