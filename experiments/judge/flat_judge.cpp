@@ -62,12 +62,11 @@ FlatTruth::FlatTruth(const Surface& moving, const Surface& fixed, const Pose& X_
       pairs_(std::make_unique<CellPairs>(moving_, fixed_, cutoff + 2.0 * MARGIN * tolerance_)) {
   for (std::size_t i = 0; i < pairs_->size(); ++i) touching_ = touching_ || (*pairs_)[i].distance == 0.0;
   if (touching_) return;
-  const double least_climb = tolerance_ / MARGIN;
   small_climbs_ = find_basins(*pairs_, 0.0, std::numeric_limits<double>::min());
   std::erase_if(small_climbs_, [&](const Basin& basin) {
-    return basin.climb <= ROUNDING * basin.least || basin.climb >= least_climb;
+    return basin.climb <= ROUNDING * basin.least || basin.climb > MARGIN * tolerance_;
   });
-  for (Basin& basin : find_basins(*pairs_, tolerance_, least_climb)) {
+  for (Basin& basin : find_basins(*pairs_, tolerance_, tolerance_ / MARGIN)) {
     Place place{std::move(basin), {}, Claim::NONE};
     place.claim = claim_of(place.basin);
     if (place.claim == Claim::NONE) continue;

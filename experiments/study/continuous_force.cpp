@@ -255,7 +255,7 @@ void add_continuous_force(CLI::App& app, Run& chosen) {
   command->add_option("--seed", choice->seed, "Of poses and loops")->capture_default_str();
   command->add_flag("!--no-exhaustive", choice->exhaustive, "Sums of indices of certified alone");
   command->add_option("--json", choice->json, "Also write the tables to this file");
-  command->callback([choice, &chosen] { chosen = [choice] { return Report(*choice).run(); }; });
+  command->callback([choice, &chosen] { chosen.work = [choice] { return Report(*choice).run(); }; });
 }
 
 }  // namespace lmdbench::study
