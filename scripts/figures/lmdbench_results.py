@@ -16,7 +16,10 @@ import traceback
 import h5py
 import numpy as np
 
-from intervals import Rate
+if __package__:  # as part of the Python module
+    from .intervals import Rate
+else:
+    from intervals import Rate
 
 FORMAT = "lmdbench-result"
 FORMAT_VERSION = 2
