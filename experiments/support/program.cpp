@@ -60,9 +60,16 @@ bool& reports_name_node() {
 }
 
 int run_program(CLI::App& app, int argc, const char* const* argv, const std::function<int()>& run) {
-  CLI11_PARSE(app, argc, argv);
-  if (reports_name_node()) watch();
-  return report_errors(run);
+  // What a command checks while it is read throws our errors, too.
+  return report_errors([&] {
+    try {
+      app.parse(argc, argv);
+    } catch (const CLI::ParseError& error) {
+      return app.exit(error);
+    }
+    if (reports_name_node()) watch();
+    return run();
+  });
 }
 
 void write_report(const std::string& file, const nlohmann::json& report) {

@@ -18,7 +18,7 @@ import sys
 import tempfile
 
 HERE = os.path.dirname(os.path.abspath(__file__))
-CONSUMER = os.path.join(HERE, "..", "..", "tests", "install", "consumer", "main.cpp")
+CONSUMER = [os.path.join(HERE, "..", "..", "tests", "install", "consumer", name) for name in ("main.cpp", "CMakeLists.txt")]
 # What the system itself writes whenever packages come and go.
 SYSTEMS_OWN = ("/var/cache", "/var/lib/apt", "/var/lib/dpkg", "/var/log", "/etc/ld.so.cache", "/tmp", "/debs", "/root", "/proc", "/sys",
                "/dev", "/run", "/var/lib/systemd", "/var/lib/ucf", "/var/lib/python", "/etc/ssl/certs", "/var/lib/xml-core")
@@ -29,6 +29,11 @@ sides = [[0,1,3],[0,3,2],[4,6,7],[4,7,5],[0,4,5],[0,5,1],[2,3,7],[2,7,6],[0,2,6]
 pose = np.eye(4); pose[:3, 3] = 0.2, 0.3, 1.02
 sets = lmdbench.query((box, sides), (box, sides), pose, 0.05)
 assert abs(sets[0]["distance"][0] - 0.02) < 1e-12, sets[0]
+"""
+USE_RESULTS = """
+import lmdbench
+frames = lmdbench.open_result("/root/shapes.h5").frames("improved")
+assert len(frames) == 200 and frames.attrs["units"]["force_z"] == "N", frames
 """
 
 
@@ -117,11 +122,15 @@ def life(build, archive, scratch, checks):
     checks.that(not more, f"nor do the packages it needed: {more[:20]}")
 
     install(2)
-    root("apt-get", "install", "-qq", "-y", "--no-install-recommends", "g++", "pkg-config")
-    root.copy([CONSUMER], "/root")
-    code, said = root("sh", "-c", "cd /root && g++ -std=c++20 main.cpp -o consumer $(pkg-config --cflags --libs lmdbench) && "
-                      "printf 'OFF\\n3 1 0\\n0 0 0\\n1 0 0\\n0 1 0\\n3 0 1 2\\n' > t.off && ./consumer t.off t.off 2")
-    checks.that(code == 0, f"a program outside is built against the library: {said.strip()[-2000:]}")
+    root("apt-get", "install", "-qq", "-y", "--no-install-recommends", "cmake", "g++", "make", "pkg-config", "python3-h5py", "python3-pandas")
+    code, said = root("python3", "-c", USE_RESULTS)
+    checks.that(code == 0, f"the module opens the result {said[-2000:]}")
+    root.copy(CONSUMER, "/root")
+    for how, build in (("pkg-config", "g++ -std=c++20 main.cpp -o consumer $(pkg-config --cflags --libs lmdbench)"),
+                       ("find_package", "cmake -B made . >/dev/null && cmake --build made >/dev/null && cp made/consumer .")):
+        code, said = root("sh", "-c", f"cd /root && rm -f consumer && {build} && "
+                          "printf 'OFF\\n3 1 0\\n0 0 0\\n1 0 0\\n0 1 0\\n3 0 1 2\\n' > t.off && ./consumer t.off t.off 2")
+        checks.that(code == 0, f"a program outside is built against the library by {how}: {said.strip()[-2000:]}")
 
 
 def main():

@@ -87,7 +87,7 @@ class Studies(Scratch):
     """Pieces of a study, run and put together, against the study at once."""
 
     CASES = (["recall", "--moving", "small-blob", "--fixed", "torus", "--poses", "20", "--cutoff", "0.02", "0.05"],
-             ["parts", "--poses", "3", "--kind", "ring on ring", "--kind", "peg in slot", "--coordinates", "exact", "rounded"],
+             ["parts", "--poses", "3", "--kind", "ring on ring", "--kind", "block on block", "--coordinates", "exact", "rounded"],
              ["completeness", "--poses", "4", "--pair", "box:box", "cube:plate", "--far-poses", "50", "--flat-poses", "0",
               "--rounded-poses", "2", "--experiment", str(ROOT / "experiments" / "shapes.json")])
 
