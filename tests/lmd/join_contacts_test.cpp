@@ -7,6 +7,7 @@
 #include <lmdbench/lmd/join_contacts.h>
 
 #include <gtest/gtest.h>
+#include <support/lmd_text.h>
 #include <support/rounded.h>
 #include <support/shape_scene.h>
 #include <support/sheets.h>
@@ -25,22 +26,10 @@ namespace {
 using testing::moved;
 using testing::ShapeScene;
 using testing::sheet_of;
+using testing::text;
 using testing::turned_by;
 using testing::uniform;
 using enum FeatureKind;
-
-std::string text(const LmdSet& lmds) {
-  std::string result;
-  for (const Lmd& lmd : lmds) {
-    char line[200];
-    std::snprintf(line, sizeof line, "%.17g %s %d - %s %d at %.17g %.17g %.17g\n", lmd.distance,
-                  to_string(lmd.feature_moving.kind).data(), lmd.feature_moving.index,
-                  to_string(lmd.feature_fixed.kind).data(), lmd.feature_fixed.index, lmd.point_moving.x(),
-                  lmd.point_moving.y(), lmd.point_moving.z());
-    result += line;
-  }
-  return result;
-}
 
 /// Distance of a point from the part of the mesh that names it.
 double off_feature(const Surface& surface, const FeatureId& feature, const Vec3& p_S) {

@@ -124,5 +124,20 @@ TEST(ShapeComplex, LeadsAreTheLowestAndCarriersTheRegionsThatHoldAFeature) {
   }
 }
 
+TEST(ShapeComplex, NamesTheFirstFaceAtAPoint) {
+  const Surface surface = build_surface(make_box(Vec3(1.0, 1.0, 1.0), 3));
+  const ShapeComplex shape = ShapeComplex::of(surface);
+  for (std::int32_t t = 0; t < static_cast<std::int32_t>(surface.mesh.triangles.size()); ++t) {
+    const Triangle corners = surface.mesh.triangle(t);
+    const std::int32_t region = shape.region_of(t);
+    EXPECT_EQ(shape.face_at(surface, region, (corners[0] + corners[1] + corners[2]) / 3.0), t);
+    // On a corner several faces meet: the first of them, and rounding does not matter.
+    const std::int32_t at_corner = shape.face_at(surface, region, corners[1]);
+    EXPECT_LE(at_corner, t);
+    EXPECT_EQ(shape.face_at(surface, region, corners[1] + Vec3(1e-13, -1e-13, 1e-13)), at_corner);
+  }
+  EXPECT_EQ(shape.face_at(surface, 2, Vec3(9.0, 9.0, 9.0)), shape.lead_of_region(2));
+}
+
 }  // namespace
 }  // namespace lmdbench

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <support/convex_bodies.h>
+#include <support/lmd_text.h>
 #include <support/rounded.h>
 #include <support/scenes.h>
 
@@ -18,24 +19,8 @@ namespace lmdbench {
 namespace {
 
 using testing::ConvexBody;
+using testing::text;
 using testing::uniform;
-
-std::string text(const LmdSet& lmds) {
-  std::string result;
-  for (const Lmd& lmd : lmds)
-    result += fmt::format("{:.17g} {} {} - {} {} at {:.17g} {:.17g} {:.17g}\n", lmd.distance,
-                          to_string(lmd.feature_moving.kind), lmd.feature_moving.index,
-                          to_string(lmd.feature_fixed.kind), lmd.feature_fixed.index, lmd.point_fixed.x(),
-                          lmd.point_fixed.y(), lmd.point_fixed.z());
-  return result;
-}
-
-std::string text(const Pose& pose) {
-  return fmt::format(
-      "{{Vec3({:.17g}, {:.17g}, {:.17g}), Eigen::Quaterniond({:.17g}, {:.17g}, {:.17g}, {:.17g})}}",
-      pose.translation.x(), pose.translation.y(), pose.translation.z(), pose.rotation.w(), pose.rotation.x(),
-      pose.rotation.y(), pose.rotation.z());
-}
 
 /// LMDBENCH_CONVEX_SCENES, or few.
 int scene_count() {

@@ -1,6 +1,5 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include <lmdbench/geometry/point_triangle.h>
 #include <lmdbench/geometry/segment_distance.h>
 #include <lmdbench/geometry/tolerance.h>
 #include <lmdbench/mesh/flat_regions.h>
@@ -201,25 +200,6 @@ FlatRegions FlatRegions::of(const Surface& surface) {
   regions.vertex_is_inside.assign(surface.mesh.vertices.size(), false);
   StraightEdgeFinder(surface, regions, tolerance).run();
   return regions;
-}
-
-FeatureId FlatRegions::flat_feature_of(const Surface& surface, const FeatureId& feature) const {
-  const auto i = static_cast<std::size_t>(feature.index);
-  if (feature.kind == FeatureKind::FACE) return {FeatureKind::FACE, region_of_triangle[i]};
-  if (feature.kind == FeatureKind::VERTEX) return {};
-  if (straight_of_edge[i] >= 0) return {FeatureKind::EDGE, straight_of_edge[i]};
-  const auto triangle = static_cast<std::size_t>(surface.adjacency.edge_triangles[feature.index].front());
-  return {FeatureKind::FACE, region_of_triangle[triangle]};
-}
-
-std::int32_t FlatRegions::face_at(const Surface& surface, std::int32_t region, const Vec3& p_S) const {
-  const double tolerance = NAMING_TOLERANCE * extent;
-  const auto triangles = region_triangles[region];
-  const Plane& plane = planes[static_cast<std::size_t>(region)];
-  const Vec3 p = p_S - plane.height(p_S) * plane.normal;
-  for (const std::int32_t t : triangles)
-    if ((point_triangle_distance(p, surface.mesh.triangle(t)).point - p).norm() <= tolerance) return t;
-  return triangles.front();
 }
 
 std::int32_t FlatRegions::edge_at(const Surface& surface, std::int32_t straight, const Vec3& p_S) const {

@@ -35,14 +35,8 @@ struct FlatRegions {
 
   std::int32_t region_count() const { return static_cast<std::int32_t>(planes.size()); }
 
-  /// The region or straight edge that a face or an edge is part of; `index` counts those, -1 for a vertex and for a face
-  /// without area.
-  FeatureId flat_feature_of(const Surface& surface, const FeatureId& feature) const;
-
-  /// The face of a region that names what lies at a point of its plane: the first in the mesh's order that
-  /// holds the point (NAMING_TOLERANCE), or the first of the region where none does.
-  std::int32_t face_at(const Surface& surface, std::int32_t region, const Vec3& p_S) const;
-  /// Likewise the edge of a straight edge.
+  /// The edge of a straight edge that names what lies at a point of it: the first in the mesh's order that holds the point
+  /// (NAMING_TOLERANCE), or the first of all where none does.
   std::int32_t edge_at(const Surface& surface, std::int32_t straight, const Vec3& p_S) const;
 
   /// Regions are flat and edges straight to FLATNESS of the largest coordinate.

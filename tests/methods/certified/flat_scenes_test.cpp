@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
+#include <support/lmd_text.h>
 #include <support/rounded.h>
 #include <support/scenes.h>
 
@@ -26,23 +27,8 @@ namespace {
 
 using testing::make_scene;
 using testing::random_direction;
+using testing::text;
 using testing::uniform;
-
-std::string text(const LmdSet& lmds) {
-  std::string result;
-  for (const Lmd& lmd : lmds)
-    result += fmt::format("{:.17g} {} {} - {} {} at {:.9g} {:.9g} {:.9g}\n", lmd.distance,
-                          to_string(lmd.feature_moving.kind), lmd.feature_moving.index,
-                          to_string(lmd.feature_fixed.kind), lmd.feature_fixed.index, lmd.point_fixed.x(),
-                          lmd.point_fixed.y(), lmd.point_fixed.z());
-  return result;
-}
-
-std::string text(const Pose& pose) {
-  return fmt::format("pose {:.17g} {:.17g} {:.17g} xyzw {:.17g} {:.17g} {:.17g} {:.17g}",
-                     pose.translation.x(), pose.translation.y(), pose.translation.z(), pose.rotation.x(),
-                     pose.rotation.y(), pose.rotation.z(), pose.rotation.w());
-}
 
 /// Every contact of the truth, of the same features, at the same place, and no other.
 void expect_same(const LmdSet& set, const LmdSet& truth, const Pose& pose) {
