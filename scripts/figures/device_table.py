@@ -3,15 +3,15 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Largest clean stiffness of PHANTOM presets: experiments/stability/device.json on each device, under two models of its Coulomb friction (with
 stiction, exactly; smoothed, by an integrator of Boost.odeint) and without friction, where a closed form exists. Markdown on standard
-output. Exit code 1 where the frictionless rows are farther than TOLERANCE from the closed form, or a search takes longer than MOST_SECONDS."""
+output. Exit code 1 where the frictionless rows are farther than TOLERANCE from the closed form, or a search takes more processor time than MOST_SECONDS."""
 
 import argparse
 import json
 import math
 import os
+import resource
 import subprocess
 import sys
-import time
 
 DEVICES = ["phantom-desktop", "phantom-premium-1.5", "phantom-omni", "phantom-premium-3.0-6dof"]
 FRICTIONS = [
@@ -21,7 +21,8 @@ FRICTIONS = [
 ]
 PERIOD_S = 1e-3
 TOLERANCE = 1e-3
-MOST_SECONDS = 30
+MOST_SECONDS = 30  # of processor time
+WALL_SECONDS = 900  # of the clock, so that a machine under load has an answer, too
 
 
 def closed_form(mass, damping):
@@ -32,11 +33,16 @@ def closed_form(mass, damping):
     return damping ** 2 * -math.expm1(-x) / (mass * math.exp(-x) * remainder)
 
 
+def processor_seconds():
+    """Of the searches so far, which does not depend on what else the machine does."""
+    return resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime
+
+
 def search(program, experiment, device, settings):
-    command = [program, "stability", experiment, "--json", "--set", f"/device={device}", *settings]
-    begin = time.monotonic()
+    command = [program, "stability", experiment, "--json", "--seconds", str(WALL_SECONDS), "--set", f"/device={device}", *settings]
+    begin = processor_seconds()
     done = subprocess.run(command, capture_output=True, text=True, check=False, stdin=subprocess.DEVNULL)
-    seconds = time.monotonic() - begin
+    seconds = processor_seconds() - begin
     if done.returncode not in (0, 3):  # 3: no answer, with its reason in the row
         raise SystemExit(f"{' '.join(command)}: exit code {done.returncode}\n{done.stderr}")
     plan = subprocess.run([program, "plan", experiment, "--json", "--set", f"/device={device}", *settings], capture_output=True,
@@ -51,7 +57,7 @@ def main():
     arguments = parser.parse_args()
     wrong = []
     print("| device | mass [kg] | damping [N s/m] | friction | [N] | encoder [um] | largest clean stiffness [N/m] | ends by | tap [mm] "
-          "| linear boundary [N/m] | closed form | trials | seconds |")
+          "| linear boundary [N/m] | closed form | trials | processor time [s] |")
     print("|---|---|---|---|---|---|---|---|---|---|---|---|---|")
     for device in DEVICES:
         for name, settings in FRICTIONS:

@@ -97,6 +97,7 @@ TEST(Flatten, SaysHowFarTheFarthestMovedAndMight) {
     EXPECT_NEAR(std::stod(said[3]), report.tolerance, 0.01 * report.tolerance);
     EXPECT_NEAR(std::stod(said[4]), report.largest_move, 0.01 * report.largest_move);
     EXPECT_LE(std::stod(said[4]), std::stod(said[5])) << text;
+    EXPECT_GT(std::stod(said[5]), 1.01 * std::stod(said[3])) << "what a corner of two planes may move";
   }
 }
 
