@@ -83,7 +83,7 @@ OMISSIONS = (
     "A time is the median of the repetitions of its frame; the largest frame is the largest of these medians, not of all samples.",
     "In a run truth is probed at a stride: events between the probed frames are not seen by recall, precision and force error. True jumps are "
     "counted in every frame where a method that promises the complete set runs along. In a sweep truth stands in every frame.",
-    "The methods run in one thread and take turns, block by block, in random order.",
+    "The methods run in one thread and take turns, block by block, in random order; on the machine's clock each runs by itself.",
     "The methods of the paper are scalar code; where a method uses vector instructions, its times say so in the experiment's options or not at "
     "all: work counters in the result file are the fair comparison.",
 )

@@ -11,7 +11,7 @@
 namespace lmdbench {
 namespace {
 
-constexpr std::int64_t MS = 1'000'000;
+constexpr std::int64_t TICK_NS = 1'000'000;
 
 LoopChoice free_mass(double mass, std::int64_t delay = 0) {
   LoopChoice loop;
@@ -36,48 +36,48 @@ TEST(SimulatedServoDevice, InTimeItIsTheLockstepsDevice) {
   std::vector<Pose> path(300);
   for (std::size_t i = 0; i < path.size(); ++i) path[i].translation.y() = 1e-5 * static_cast<double>(i);
   DevicePoses lockstep(loop, path, 1e-3);
-  SimulatedServoDevice clock(loop, path, 0, MS, 10, Vec3::Zero());
+  SimulatedServoDevice clock(loop, path, 0, TICK_NS, 10, Vec3::Zero());
   for (std::int64_t tick = 0; tick < 300; ++tick) {
     const Vec3 there = lockstep.pose().translation;
-    const Vec3 here = clock.sense(tick, tick * MS).translation;
+    const Vec3 here = clock.sense(tick, tick * TICK_NS).translation;
     ASSERT_LT((here - there).norm(), 1e-9) << "tick " << tick;
     const RenderedForce rendered = push_of(-500.0 * here.y());
     lockstep.render(rendered);
-    clock.render(rendered, tick * MS);
+    clock.render(rendered, tick * TICK_NS);
   }
 }
 
 TEST(SimulatedServoDevice, AForceThatComesLateActsLate) {
   // x = F/m t^2 / 2, from the instant on at which the force is there.
   const std::vector<Pose> path(20);
-  for (const std::int64_t late : {std::int64_t{0}, 3 * MS / 10}) {
-    SimulatedServoDevice device(free_mass(0.1), path, 0, MS, 10, Vec3::Zero());
+  for (const std::int64_t late : {std::int64_t{0}, 3 * TICK_NS / 10}) {
+    SimulatedServoDevice device(free_mass(0.1), path, 0, TICK_NS, 10, Vec3::Zero());
     device.sense(0, 0);
     device.render(push_of(1.0), late);
-    const double x = device.sense(10, 10 * MS).translation.x();
-    const double acting = 1e-9 * static_cast<double>(10 * MS - late);
+    const double x = device.sense(10, 10 * TICK_NS).translation.x();
+    const double acting = 1e-9 * static_cast<double>(10 * TICK_NS - late);
     EXPECT_NEAR(x, 0.5 * 10.0 * acting * acting, 1e-12);
   }
 }
 
 TEST(SimulatedServoDevice, GoesOnUnderTheLastForceWhileNoTickComes) {
   const std::vector<Pose> path(50);
-  SimulatedServoDevice device(free_mass(0.1), path, 0, MS, 10, Vec3::Zero());
+  SimulatedServoDevice device(free_mass(0.1), path, 0, TICK_NS, 10, Vec3::Zero());
   device.sense(0, 0);
   device.render(push_of(1.0), 0);
-  EXPECT_NEAR(device.sense(30, 30 * MS).translation.x(), 0.5 * 10.0 * 0.03 * 0.03, 1e-12);
+  EXPECT_NEAR(device.sense(30, 30 * TICK_NS).translation.x(), 0.5 * 10.0 * 0.03 * 0.03, 1e-12);
   EXPECT_NEAR(device.moved()->velocity.x(), 10.0 * 0.03, 1e-12);
   EXPECT_EQ(device.moved()->held.force.x(), 1.0);
 }
 
 TEST(SimulatedServoDevice, HoldsForcesAfterTheirDelay) {
   const std::vector<Pose> path(50);
-  SimulatedServoDevice device(free_mass(0.1, 4), path, 0, MS, 10, Vec3::Zero());
+  SimulatedServoDevice device(free_mass(0.1, 4), path, 0, TICK_NS, 10, Vec3::Zero());
   for (std::int64_t tick = 0; tick < 20; ++tick) {
-    device.sense(tick, tick * MS);
+    device.sense(tick, tick * TICK_NS);
     EXPECT_EQ(device.moved()->held.force.x(), tick >= 5 ? static_cast<double>(tick - 5) : 0.0)
         << "held since the tick before, given four before that";
-    device.render(push_of(static_cast<double>(tick)), tick * MS);
+    device.render(push_of(static_cast<double>(tick)), tick * TICK_NS);
   }
 }
 

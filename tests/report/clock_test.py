@@ -92,6 +92,41 @@ class Clock(unittest.TestCase):
             self.assertIn(words, page)
         self.assertTrue(os.path.exists(os.path.join(self.path("page"), "clock-shapes.svg")))
 
+    def test_fewer_cores_than_roles_are_shared(self):
+        for cores, pin in ((1, "true"), (2, "true"), (1, "false")):
+            out = self.path(f"cores-{cores}-{pin}.h5")
+            done = call(command(out, "--set", f"/driver/realtime/cores={cores}", "--set", f"/driver/realtime/pin={pin}", "--set", "/driver/prediction=linear"))
+            self.assertEqual(done.returncode, 0, done.stderr)
+            for clock in clocks(Result(out)):
+                used = {role: int(clock.attribute("core", role)) for role in clock.roles()}
+                if pin == "false":
+                    self.assertEqual(set(used.values()), {-1})
+                    continue
+                self.assertLessEqual(len(set(used.values())), cores)
+                self.assertNotIn(-1, used.values())
+                if "tracking" in used:
+                    self.assertEqual(used["tracking"], used["servo"], "as the paper found that they can")
+                for role in clock.roles():
+                    self.assertGreater(clock.attribute("turns", role), 3, role)
+
+    def test_a_device_calls_the_loop(self):
+        out = self.path("callback.h5")
+        done = call(command(out, "--set", "/driver/realtime/servo=callback", "--set", "/driver/realtime/callback_rate_hz=400"))
+        self.assertEqual(done.returncode, 0, done.stderr)
+        for clock in clocks(Result(out)):
+            (ticks, skipped, _), frames = counts(clock)
+            self.assertEqual(ticks + skipped, frames)
+            self.assertLess(ticks, 0.45 * frames)
+            self.assertGreater(ticks, 10)
+
+    def test_json_has_the_clock(self):
+        done = call([*command(self.path("json.h5")), "--json"])
+        told = json.loads(done.stdout)["realtime"]
+        self.assertEqual([clock["label"] for clock in told], list(Result(self.path("json.h5")).methods))
+        for clock in told:
+            self.assertEqual([len(rows) for rows in clock["lateness"].values()], [5] * 5)
+            self.assertEqual(clock["roles"][0]["name"], "servo")
+
     def test_what_cannot_be_is_refused(self):
         for arguments, code, words in (
                 ([*command(self.path("other.h5")), "--resume"], 2, "cannot be taken up again"),
@@ -126,13 +161,13 @@ class Clock(unittest.TestCase):
         self.assertTrue(np.all(np.diff(frame) > 0), "no burst after it")
         self.assertGreater(np.diff(frame).max(), 300)
 
-    def test_without_room_for_the_result_the_frames_stay_in_the_part(self):
+    def test_without_room_nothing_takes_the_results_name(self):
         out = self.path("full.h5")
-        part_bytes = os.path.getsize(self.out) // 4
+        most_bytes = os.path.getsize(self.out) // 4
 
         def full_disk():
             signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
-            resource.setrlimit(resource.RLIMIT_FSIZE, (part_bytes, part_bytes))
+            resource.setrlimit(resource.RLIMIT_FSIZE, (most_bytes, most_bytes))
 
         done = call(command(out), preexec_fn=full_disk)
         self.assertEqual(done.returncode, 4, done.stderr)

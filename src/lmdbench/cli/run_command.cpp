@@ -14,6 +14,7 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <nlohmann/json.hpp>
 #include <spdlog/spdlog.h>
 
 #include <cstdio>
@@ -70,9 +71,13 @@ void run_to_file(const RunOptions& options, const std::vector<std::string>& argv
             e.pose.translation.y(), e.pose.translation.z(), e.pose.rotation.x(), e.pose.rotation.y(),
             e.pose.rotation.z(), e.pose.rotation.w(), e.triangle_moving, e.triangle_fixed, e.fixed_body);
     }
-    fmt::print("{}{}", options.json ? summary_json(summary) : summary_text(summary),
-               options.json ? "\n" : "");
-    if (!options.json) fmt::print("{}", realtime_text(result.clocks));
+    if (options.json) {
+      nlohmann::ordered_json json = nlohmann::ordered_json::parse(summary_json(summary));
+      if (!result.clocks.empty()) json["realtime"] = realtime_json(result.clocks);
+      fmt::print("{}\n", json.dump(2));
+    } else {
+      fmt::print("{}{}", summary_text(summary), realtime_text(result.clocks));
+    }
     spdlog::info("wrote {}", out.string());
     if (!summary.broken_limits.empty())
       throw Error(

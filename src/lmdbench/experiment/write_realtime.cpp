@@ -4,6 +4,7 @@
 #include <lmdbench/realtime/lateness.h>
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cstdint>
@@ -58,7 +59,8 @@ void write_values(ResultWriter& writer, const DatasetInfo& info, const std::vect
   writer.write(info, std::span<const double>(values), {values.size()});
 }
 
-void write_times(ResultWriter& writer, const std::string& group, const TickTimes& times, std::int64_t start) {
+void write_tick_times(ResultWriter& writer, const std::string& group, const TickTimes& times,
+                      std::int64_t start) {
   write_values(writer, {group + "/asked", "s", "instant that the loop slept until, since the servo's start"},
                seconds_since(times.asked, start));
   write_values(writer, {group + "/woken", "s", "when it went on"}, seconds_since(times.woken, start));
@@ -68,7 +70,7 @@ void write_times(ResultWriter& writer, const std::string& group, const TickTimes
 }
 
 void write_role(ResultWriter& writer, const std::string& group, const RoleRecord& role, std::int64_t start) {
-  write_times(writer, group, role.times, start);
+  write_tick_times(writer, group, role.times, start);
   if (!role.age.empty())
     write_values(writer,
                  {group + "/age", "s",
@@ -172,8 +174,8 @@ void write_realtime(ResultWriter& writer, const std::vector<RealtimeRecord>& clo
     write_values(
         writer, {group + "/servo/search_age", "s", "time since the pose that the set in use was searched at"},
         seconds_of(clock.search_age));
-    write_times(writer, group + "/floor_before", clock.floor_before, clock.start);
-    write_times(writer, group + "/floor_after", clock.floor_after, clock.start);
+    write_tick_times(writer, group + "/floor_before", clock.floor_before, clock.start);
+    write_tick_times(writer, group + "/floor_after", clock.floor_after, clock.start);
     write_lateness(writer, group + "/lateness", clock);
     std::vector<std::uint8_t> sources;
     for (const FrameSource source : clock.frame_source) sources.push_back(static_cast<std::uint8_t>(source));
@@ -198,6 +200,53 @@ std::vector<std::string> realtime_warnings(const RealtimeRecord& clock) {
   note(clock.lmd_lists_lost, "LMD lists lost because the recorder had no room");
   note(clock.servo().use.minor_faults + clock.servo().use.major_faults, "page faults in the servo loop");
   return warnings;
+}
+
+nlohmann::ordered_json realtime_json(const std::vector<RealtimeRecord>& clocks) {
+  using Json = nlohmann::ordered_json;
+  Json list = Json::array();
+  for (const RealtimeRecord& clock : clocks) {
+    const RunLateness late(clock);
+    const Lateness servo(late.servo), response(late.response), floor(late.floor),
+        floor_response(late.floor_response);
+    const auto table = [](const auto& rows) {
+      Json json = Json::array();
+      for (const auto& row : rows)
+        json.push_back(
+            {{"share", row.share}, {"value_s", row.value}, {"low_s", row.low}, {"high_s", row.high}});
+      return json;
+    };
+    Json grants = Json::array(), roles = Json::array();
+    for (const Grant& grant : clock.grants)
+      grants.push_back({{"thread", grant.thread},
+                        {"asked", grant.asked},
+                        {"granted", grant.granted},
+                        {"reason", grant.reason}});
+    for (const RoleRecord& role : clock.roles)
+      roles.push_back({{"name", role.name},
+                       {"core", role.core ? Json(*role.core) : Json(nullptr)},
+                       {"rate_hz", role.rate_hz()},
+                       {"load", role.load()},
+                       {"skipped", role.times.skipped},
+                       {"minor_faults", role.use.minor_faults},
+                       {"major_faults", role.use.major_faults},
+                       {"involuntary_switches", role.use.involuntary_switches}});
+    list.push_back({{"label", clock.label},
+                    {"frames", clock.frame_source.size()},
+                    {"frames_skipped", frames_from(clock, FrameSource::SKIPPED)},
+                    {"frames_lost", frames_from(clock, FrameSource::LOST)},
+                    {"floor_skipped", clock.floor_before.skipped + clock.floor_after.skipped},
+                    {"stolen_s", clock.stolen_s},
+                    {"grants", std::move(grants)},
+                    {"lateness",
+                     {{"servo", table(servo.quantiles())},
+                      {"response", table(response.quantiles())},
+                      {"floor", table(floor.quantiles())},
+                      {"excess", table(servo.excess_over(floor))},
+                      {"response_excess", table(response.excess_over(floor_response))}}},
+                    {"roles", std::move(roles)}});
+  }
+  return list;
 }
 
 std::string realtime_text(const std::vector<RealtimeRecord>& clocks) {

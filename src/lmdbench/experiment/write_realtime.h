@@ -5,6 +5,8 @@
 #include <lmdbench/experiment/realtime_record.h>
 #include <lmdbench/record/result_writer.h>
 
+#include <nlohmann/json_fwd.hpp>
+
 #include <string>
 #include <vector>
 
@@ -18,5 +20,9 @@ std::vector<std::string> realtime_warnings(const RealtimeRecord& clock);
 
 /// For people: rates, loads and lateness over the floor.
 std::string realtime_text(const std::vector<RealtimeRecord>& clocks);
+
+/// The same for programs: [{"label", "frames_skipped", "frames_lost", "floor_skipped", "stolen_s", "grants": [...], "lateness": {SERIES:
+/// [{"share", "value_s", "low_s", "high_s"}]}, "roles": [{"name", "core", "rate_hz", "load", ...}]}].
+nlohmann::ordered_json realtime_json(const std::vector<RealtimeRecord>& clocks);
 
 }  // namespace lmdbench

@@ -15,7 +15,7 @@ NLOHMANN_JSON_SERIALIZE_ENUM(Reduction,
 NLOHMANN_JSON_SERIALIZE_ENUM(TrackingOrder, {{TrackingOrder::NEAREST_FIRST, "nearest-first"},
                                              {TrackingOrder::TRIANGLE_INDEX, "triangle-index"}})
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(ImprovedOptions, visibility, reduction, tracking_order, leaf_cones,
-                                   second_tracking, plain_cache, literal_g3, clamped_sigma)
+                                   second_tracking, plain_cache, literal_g3, search_threads, clamped_sigma)
 
 const MethodDescription& improved_method() {
   using Counter = Improved::Counter;
@@ -49,6 +49,12 @@ const MethodDescription& improved_method() {
              {"description", "ablation: the result cache is a std::unordered_map; the same answers"}}},
            {"literal_g3",
             {{"type", "boolean"}, {"description", "ablation: read the inequality of G3 as printed"}}},
+           {"search_threads",
+            {{"type", "integer"},
+             {"minimum", 1},
+             {"maximum", 64},
+             {"description",
+              "threads of the global search, its first levels shared out; the same sets in the same order"}}},
            {"clamped_sigma",
             {{"type", "boolean"},
              {"description",

@@ -8,6 +8,8 @@
 #include <lmdbench/methods/improved/visibility.h>
 
 #include <algorithm>
+#include <atomic>
+#include <cstddef>
 #include <tuple>
 #include <utility>
 
@@ -56,6 +58,10 @@ Improved::Improved(Scene scene, const ImprovedOptions& options)
       hierarchy_moving_(prepared_hierarchy(*scene_.moving, options.leaf_cones)) {
   for (const auto& body : scene_.fixed)
     hierarchies_fixed_.push_back(&prepared_hierarchy(*body, options.leaf_cones));
+  if (options.search_threads > 1) {
+    team_ = std::make_unique<WorkerTeam>(static_cast<std::size_t>(options.search_threads));
+    traversals_.resize(team_->size());
+  }
 }
 
 void Improved::search(const Pose& X_WM, LmdSet& lmds, WorkCounters& counters) {
@@ -66,37 +72,84 @@ void Improved::search(const Pose& X_WM, LmdSet& lmds, WorkCounters& counters) {
   std::sort(lmds.begin(), lmds.end(), lmd_less);
 }
 
-void Improved::search_body(const RigidTransform& X_WM, std::int32_t fixed_body, LmdSet& lmds,
-                           WorkCounters& counters) {
+void Improved::visit_leaves(const RigidTransform& X_WM, std::int32_t fixed_body, std::int32_t t_moving,
+                            std::int32_t t_fixed, LmdSet& lmds, WorkCounters& counters) const {
   const Surface& moving = scene_.moving->surface();
   const Surface& fixed = scene_.fixed[static_cast<std::size_t>(fixed_body)]->surface();
-  const auto visit_leaves = [&](std::int32_t t_moving, std::int32_t t_fixed) {
-    const ShadedTriangle a = to_world(shaded_triangle(moving, t_moving), X_WM);
-    const ShadedTriangle b = shaded_triangle(fixed, t_fixed);
-    if (!see_each_other(a, b, options_.visibility)) {
-      ++counters[Counter::REJECTED_VISIBILITY];
-      return;
-    }
-    ++counters[Counter::TRIANGLE_DISTANCES];
-    Lmd lmd = exact_pair(moving, fixed, fixed_body, t_moving, t_fixed, a.corners, b.corners);
-    if (!(lmd.distance <= scene_.cutoff)) {
-      ++counters[Counter::REJECTED_CUTOFF];
-      return;
-    }
-    set_direction(lmd, lmd.direction);
-    lmds.push_back(lmd);
-  };
-  const Hierarchy& hierarchy_fixed = *hierarchies_fixed_[static_cast<std::size_t>(fixed_body)];
-  const auto run = [&]<DirectionTest TEST>() {
-    return traversal_.run<TEST>(hierarchy_moving_, hierarchy_fixed, X_WM, scene_.cutoff, visit_leaves);
-  };
-  if (options_.literal_g3) {
-    add_traversal<Counter>(counters, run.operator()<DirectionTest::LITERAL>());
-  } else if (options_.clamped_sigma) {
-    add_traversal<Counter>(counters, run.operator()<DirectionTest::CLAMPED>());
-  } else {
-    add_traversal<Counter>(counters, run.operator()<DirectionTest::RAY>());
+  const ShadedTriangle a = to_world(shaded_triangle(moving, t_moving), X_WM);
+  const ShadedTriangle b = shaded_triangle(fixed, t_fixed);
+  if (!see_each_other(a, b, options_.visibility)) {
+    ++counters[Counter::REJECTED_VISIBILITY];
+    return;
   }
+  ++counters[Counter::TRIANGLE_DISTANCES];
+  Lmd lmd = exact_pair(moving, fixed, fixed_body, t_moving, t_fixed, a.corners, b.corners);
+  if (!(lmd.distance <= scene_.cutoff)) {
+    ++counters[Counter::REJECTED_CUTOFF];
+    return;
+  }
+  set_direction(lmd, lmd.direction);
+  lmds.push_back(lmd);
+}
+
+template <DirectionTest TEST>
+void Improved::search_alone(const RigidTransform& X_WM, std::int32_t fixed_body, LmdSet& lmds,
+                            WorkCounters& counters) {
+  const auto visit = [&](std::int32_t t_moving, std::int32_t t_fixed) {
+    visit_leaves(X_WM, fixed_body, t_moving, t_fixed, lmds, counters);
+  };
+  add_traversal<Counter>(
+      counters,
+      traversal_.run<TEST>(hierarchy_moving_, *hierarchies_fixed_[static_cast<std::size_t>(fixed_body)], X_WM,
+                           scene_.cutoff, visit));
+}
+
+template <DirectionTest TEST>
+void Improved::search_in_team(const RigidTransform& X_WM, std::int32_t fixed_body, LmdSet& lmds,
+                              WorkCounters& counters) {
+  // So many that threads which find little take more of them.
+  constexpr std::size_t PLACES_A_THREAD = 16;
+  const Hierarchy& hierarchy_fixed = *hierarchies_fixed_[static_cast<std::size_t>(fixed_body)];
+  TraversalCounters work = traversal_.split<TEST>(hierarchy_moving_, hierarchy_fixed, X_WM, scene_.cutoff,
+                                                  PLACES_A_THREAD * team_->size(), places_);
+  if (found_.size() < places_.size()) found_.resize(places_.size());
+  std::vector<TraversalCounters> works(team_->size());
+  std::vector<WorkCounters> counted(team_->size());
+  std::atomic<std::size_t> next{0};
+  team_->run([&](std::size_t member) {
+    for (std::size_t i = next++; i < places_.size(); i = next++) {
+      found_[i].clear();
+      const auto visit = [&](std::int32_t t_moving, std::int32_t t_fixed) {
+        visit_leaves(X_WM, fixed_body, t_moving, t_fixed, found_[i], counted[member]);
+      };
+      works[member] += traversals_[member].run_below<TEST>(places_[i], hierarchy_moving_, hierarchy_fixed,
+                                                           X_WM, scene_.cutoff, visit);
+    }
+  });
+  // In the order in which one thread would have found them, so that ties are sorted alike.
+  for (std::size_t i = 0; i < places_.size(); ++i)
+    lmds.insert(lmds.end(), found_[i].begin(), found_[i].end());
+  for (std::size_t member = 0; member < team_->size(); ++member) {
+    work += works[member];
+    counters += counted[member];
+  }
+  add_traversal<Counter>(counters, work);
+}
+
+void Improved::search_body(const RigidTransform& X_WM, std::int32_t fixed_body, LmdSet& lmds,
+                           WorkCounters& counters) {
+  const auto run = [&]<DirectionTest TEST>() {
+    if (team_)
+      search_in_team<TEST>(X_WM, fixed_body, lmds, counters);
+    else
+      search_alone<TEST>(X_WM, fixed_body, lmds, counters);
+  };
+  if (options_.literal_g3)
+    run.operator()<DirectionTest::LITERAL>();
+  else if (options_.clamped_sigma)
+    run.operator()<DirectionTest::CLAMPED>();
+  else
+    run.operator()<DirectionTest::RAY>();
 }
 
 void Improved::track(const Pose& X_WM, LmdSet& lmds, WorkCounters& counters) {

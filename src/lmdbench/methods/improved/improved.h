@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <lmdbench/base/worker_team.h>
 #include <lmdbench/lmd/method.h>
 #include <lmdbench/lmd/scene.h>
 #include <lmdbench/methods/improved/crowd_memo.h>
@@ -11,6 +12,7 @@
 #include <lmdbench/snch/traversal.h>
 
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 namespace lmdbench {
@@ -58,6 +60,15 @@ class Improved : public Method {
  private:
   void search_body(const RigidTransform& X_WM, std::int32_t fixed_body, LmdSet& lmds, WorkCounters& counters);
 
+  /// The search's share of one triangle pair.
+  void visit_leaves(const RigidTransform& X_WM, std::int32_t fixed_body, std::int32_t t_moving,
+                    std::int32_t t_fixed, LmdSet& lmds, WorkCounters& counters) const;
+  template <DirectionTest TEST>
+  void search_alone(const RigidTransform& X_WM, std::int32_t fixed_body, LmdSet& lmds,
+                    WorkCounters& counters);
+  template <DirectionTest TEST>
+  void search_in_team(const RigidTransform& X_WM, std::int32_t fixed_body, LmdSet& lmds,
+                      WorkCounters& counters);
   template <class Cache>
   void track_with(Cache& cache, const Pose& X_WM, LmdSet& lmds, WorkCounters& counters);
 
@@ -66,6 +77,11 @@ class Improved : public Method {
   const Hierarchy& hierarchy_moving_;
   std::vector<const Hierarchy*> hierarchies_fixed_;  ///< One a fixed body.
   DualTraversal traversal_;
+  // With several threads: who they are, where each place's search goes on, and what it found.
+  std::unique_ptr<WorkerTeam> team_;
+  std::vector<DualTraversal> traversals_;
+  std::vector<DualTraversal::Place> places_;
+  std::vector<LmdSet> found_;
   ResultCache cache_;
   PlainCache plain_cache_;  ///< In use instead where the option says so.
   CrowdMemo crowds_;

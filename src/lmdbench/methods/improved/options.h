@@ -38,7 +38,8 @@ struct ImprovedOptions {
   bool second_tracking = true;  ///< Decision E11; false: a search's set is tracked once before it is used.
   bool plain_cache = false;     ///< Ablation: the result cache is a std::unordered_map; same answers.
   bool literal_g3 = false;      ///< Ablation of decision E2: keep what the printed inequality keeps.
-  bool clamped_sigma = false;   ///< Ablation of decision E3: a right angle where spheres overlap.
+  std::int32_t search_threads = 1;  ///< Of the global search (the paper's future work); same sets, same bits.
+  bool clamped_sigma = false;       ///< Ablation of decision E3: a right angle where spheres overlap.
 };
 
 }  // namespace lmdbench
