@@ -377,30 +377,43 @@ class Joining {
   /// Joins points and segments apart from each other between which the distance stays the same: next to touch, where the ends of
   /// one chain over another one may both seem to be minima.
   void join_over_level_ways() {
-    std::vector<OnCarriers> entries;
+    std::vector<OnCarriers> entries, parts;
     for (const std::size_t i : company_) {
-      if (contacts_[i].dimension == 2) continue;
+      if (contacts_[i].dimension == 2) {
+        parts.push_back({contacts_[i].moving.index, contacts_[i].fixed.index, i});
+        continue;
+      }
       const auto of_moving = carriers(i, true), of_fixed = carriers(i, false);
       if (of_moving.size() * of_fixed.size() > MOST_CARRIER_PAIRS) continue;
       for (const std::int32_t f : of_moving)
         for (const std::int32_t g : of_fixed) entries.push_back({f, g, i});
     }
     std::ranges::sort(entries);
+    std::ranges::sort(parts);
+    const auto carriers_of = [](const OnCarriers& entry) { return std::pair(entry.moving, entry.fixed); };
     for (std::size_t begin = 0; begin < entries.size();) {
       std::size_t end = begin;
       while (end < entries.size() && entries[end].moving == entries[begin].moving &&
              entries[end].fixed == entries[begin].fixed)
         ++end;
-      join_in_bucket(std::span(entries).subspan(begin, end - begin));
+      const auto own_parts = std::ranges::equal_range(parts, carriers_of(entries[begin]), {}, carriers_of);
+      join_in_bucket(std::span(entries).subspan(begin, end - begin), own_parts);
       begin = end;
     }
   }
 
   /// Of contacts on one pair of features nearly all are one already, those of a face that lies on another one by the thousand:
   /// only the others look for a way.
-  void join_in_bucket(std::span<const OnCarriers> bucket) {
-    std::vector<std::size_t> roots;
+  /// Those that belong to parts of what a pair of regions shares are apart as the parts are.
+  /// @param parts  polygons of that pair
+  void join_in_bucket(std::span<const OnCarriers> bucket, std::span<const OnCarriers> parts) {
+    std::vector<std::size_t> roots, roots_of_parts;
     for (const OnCarriers& entry : bucket) roots.push_back(sets_.find_set(entry.contact));
+    for (const OnCarriers& part : parts) roots_of_parts.push_back(sets_.find_set(part.contact));
+    std::ranges::sort(roots_of_parts);
+    const auto is_of_part = [&](std::size_t k) {
+      return std::ranges::binary_search(roots_of_parts, roots[k]);
+    };
     std::vector<std::size_t> sorted = roots;
     std::ranges::sort(sorted);
     std::size_t most = sorted.front(), count = 0;
@@ -414,7 +427,10 @@ class Joining {
     for (std::size_t k = 0; k < bucket.size(); ++k) {
       if (roots[k] == most) continue;
       const std::size_t i = bucket[k].contact;
-      for (const OnCarriers& other : bucket) {
+      const bool of_part = is_of_part(k);
+      for (std::size_t m = 0; m < bucket.size(); ++m) {
+        if (of_part && is_of_part(m)) continue;
+        const OnCarriers& other = bucket[m];
         const Contact &a = contacts_[i], &b = contacts_[other.contact];
         if (sets_.find_set(i) == sets_.find_set(other.contact) ||
             std::abs(a.distance - b.distance) > granted(a, b))
