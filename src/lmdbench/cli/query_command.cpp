@@ -40,6 +40,7 @@ struct QueryOptions {
   std::string unit = "m";
   std::string orient = "keep";
   std::string folder = DEFAULT_MESH_FOLDER;
+  bool critical = false;
   bool json = false;
 };
 
@@ -86,13 +87,17 @@ void run_query(const QueryOptions& options) {
         "give metres, for example --cutoff 0.005");
   // First, because a misspelt name or option should not wait for the meshes.
   const nlohmann::json method_options = chosen_options(options);
+  if (options.critical && !method_description(options.method).finds_critical_pairs)
+    throw UsageError("", "--critical", fmt::format("the method \"{}\" finds LMDs alone", options.method),
+                     "take certified or exhaustive");
   const Path poses = poses_of(options);
   const auto [of_moving, of_fixed] = metres_of_units(options.unit, "--unit");
   const Scene scene{
       load(options.moving, options, of_moving), {load(options.fixed, options, of_fixed)}, options.cutoff};
   const std::unique_ptr<Method> method = make_method(options.method, scene, method_options);
   for (const TimedPose& pose : poses) {
-    const QueryAnswer answer = query(*method, pose.pose, options.cutoff, pose.time);
+    const QueryAnswer answer = options.critical ? query_critical(*method, pose.pose, pose.time)
+                                                : query(*method, pose.pose, options.cutoff, pose.time);
     fmt::print("{}{}", options.json ? query_json(answer) : query_text(answer), options.json ? "\n" : "");
   }
 }
@@ -133,6 +138,10 @@ void add_query_command(CLI::App& app) {
       ->capture_default_str();
   command->add_option("--dir", options->folder, "folder of manifest.json and of the built meshes")
       ->capture_default_str();
+  command->add_flag(
+      "--critical", options->critical,
+      "saddles too: all critical pairs of the distance, each with its index; over disjoint solids and an "
+      "unlimited cutoff the indices add up to the product of their Euler characteristics");
   command->add_flag("--json", options->json, "one JSON object a pose, a line each");
   command->callback([options] { run_query(*options); });
 }
