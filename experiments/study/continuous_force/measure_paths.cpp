@@ -15,7 +15,7 @@ namespace {
 
 /// Rounding of a force that is a sum of pushes.
 constexpr double CONE_ROUNDING = 1e-9;
-constexpr int DIVISION = 10, DIVISIONS = 3;
+constexpr int DIVISION = 10, DIVISIONS = 4;
 
 /// Whether a force is a sum of pushes along -direction of minima: of at most three of them, if of any (Caratheodory).
 bool lies_in_cone(const Vec3& force, const CriticalSet& critical) {
