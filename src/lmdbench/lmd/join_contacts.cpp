@@ -238,15 +238,20 @@ class Joining {
     join_over_level_ways();
   }
 
-  /// First the minima alone, so that they become the same LMDs as without the other critical pairs; those then join a minimum or each
-  /// other, and never two minima.
+  /// First the minima alone, so that they become the same LMDs as without the other critical pairs. Of these those that lie on an
+  /// extended LMD are of it, and a lowest pair in the place of an LMD is it, under another name at the pose at which indices are taken.
+  /// A saddle beside an LMD of points stays what it is, however near: it tells which minima meet there.
   void join_signed_company() {
     const std::vector<std::size_t> all = company_;
     std::erase_if(company_, [&](std::size_t i) { return !contacts_[i].is_minimum; });
     join_company();
     has_minimum_.resize(contacts_.size());
-    for (std::size_t i = 0; i < contacts_.size(); ++i)
-      if (contacts_[i].is_minimum) has_minimum_[sets_.find_set(i)] = true;
+    is_extended_.resize(contacts_.size());
+    for (std::size_t i = 0; i < contacts_.size(); ++i) {
+      if (!contacts_[i].is_minimum) continue;
+      has_minimum_[sets_.find_set(i)] = true;
+      if (contacts_[i].dimension > 0) is_extended_[sets_.find_set(i)] = true;
+    }
     company_ = all;
     join_company();
   }
@@ -254,10 +259,14 @@ class Joining {
   void join(std::size_t i, std::size_t j) {
     const std::size_t a = sets_.find_set(i), b = sets_.find_set(j);
     if (has_minimum_.empty()) return sets_.link(a, b);
-    if (has_minimum_[a] && has_minimum_[b]) return;
-    const bool has_one = has_minimum_[a] || has_minimum_[b];
+    if (has_minimum_[a] == has_minimum_[b]) return;
+    const std::size_t minimum = has_minimum_[a] ? a : b, other = minimum == a ? b : a;
+    if (!is_extended_[minimum] && !contacts_[other].is_basin) return;
+    const bool is_extended = is_extended_[minimum];
     sets_.link(a, b);
-    has_minimum_[sets_.find_set(a)] = has_one;
+    const std::size_t both = sets_.find_set(a);
+    has_minimum_[both] = true;
+    is_extended_[both] = is_extended;
   }
 
   Eigen::AlignedBox3d box_of(const Contact& contact, double reach) const {
@@ -694,7 +703,8 @@ class Joining {
   ContactSet& set_;
   std::vector<Contact>& contacts_;
   Signs* signs_;
-  std::vector<bool> has_minimum_;  ///< Of the roots, while critical pairs that are no minima are joined.
+  /// Of the roots, while critical pairs that are no minima are joined.
+  std::vector<bool> has_minimum_, is_extended_;
   double last_granted_ = 0.0;
   std::vector<std::size_t> company_;
   boost::disjoint_sets_with_storage<> sets_;
@@ -726,7 +736,8 @@ void decide_critical(const ShapePair& pair, const SignedPair& signs, const Featu
   decide(pair, on_moving, on_fixed, found);
   const std::size_t between = found.contacts.size();
   signs.append(on_moving, on_fixed, found);
-  if (found.contacts.size() == between || between != before + 1 || found.contacts[before].dimension != 0)
+  if (found.contacts.size() == between || between != before + 1 || found.contacts[before].dimension != 0 ||
+      !found.contacts.back().is_basin)
     return;
   found.contacts[before].index = found.contacts.back().index;
   found.contacts[before].is_basin = found.contacts.back().is_basin;

@@ -31,13 +31,13 @@ namespace lmdbench {
 void join_contacts(const ShapePair& pair, std::int32_t fixed_body, ContactSet& contacts,
                    std::span<const Intersection> intersections, LmdSet& lmds);
 
-/// The same with the critical pairs among the contacts: an LMD's index is the sum over its contacts; what is joined and has no minimum
-/// is a critical pair at its nearest contact where the sum is not 0. The minima are the set that `join_contacts` makes.
+/// The same with the critical pairs among the contacts: an LMD's index is the sum over its contacts, and pairs that are of
+/// no LMD are listed by themselves. The minima are the set that `join_contacts` makes.
 void join_critical(const ShapePair& pair, const SignedFeatures& moving, const SignedFeatures& fixed,
                    std::int32_t fixed_body, ContactSet& contacts, std::span<const Intersection> intersections,
                    CriticalSet& critical);
 
-/// Asks two features for their contacts and for their critical pair; where both are one pair of points the contact takes the index.
+/// Asks two features for their contacts and for their critical pair; a contact of points that is the lowest pair too takes its index.
 void decide_critical(const ShapePair& pair, const SignedPair& signs, const FeatureId& on_moving,
                      const FeatureId& on_fixed, ContactSet& found);
 

@@ -28,6 +28,20 @@ double largest_coordinate_of(const Surface& surface) {
   return largest;
 }
 
+bool holds(const TriangleList& triangles, std::int32_t triangle) {
+  return std::ranges::find(triangles, triangle) != triangles.end();
+}
+
+/// Whether a triangle reaches farther along a direction than a point of it.
+bool reaches(const Triangle& triangle, const Vec3& point, const Vec3& direction) {
+  // Corners of the saddle's own feature are square to it: rounding.
+  const double rounding = 64.0 * std::numeric_limits<double>::epsilon() * direction.norm();
+  return std::ranges::any_of(triangle, [&](const Vec3& corner) {
+    return (corner - point).dot(direction) >
+           rounding * (point.cwiseAbs().maxCoeff() + corner.cwiseAbs().maxCoeff());
+  });
+}
+
 }  // namespace
 
 std::size_t MergeFinder::descend(const RigidTransform& X_WM, const CriticalSet& critical, std::int32_t body,
@@ -47,6 +61,14 @@ std::size_t MergeFinder::descend(const RigidTransform& X_WM, const CriticalSet& 
       end = known->second;
       break;
     }
+    // On a pair of triangles the distance is convex: a minimum on it is its least. By names, since next to a birth a minimum is nearer to its
+    // saddle than the kernel tells a face from its edge.
+    for (std::size_t i = 0; i < critical.size() && end == NO_MINIMUM; ++i)
+      if (critical[i].is_basin && critical[i].pair.fixed_body == body &&
+          holds(moving.incident_triangles(critical[i].pair.feature_moving), a) &&
+          holds(fixed.incident_triangles(critical[i].pair.feature_fixed), b))
+        end = i;
+    if (end != NO_MINIMUM) break;
     const FeatureId f = moving.feature_of(a, here.feature_a), g = fixed.feature_of(b, here.feature_b);
     std::pair<std::int32_t, std::int32_t> next{-1, -1};
     TrianglePairDistance there = here;
@@ -100,26 +122,18 @@ void MergeFinder::find(const Pose& pose, const CriticalSet& critical, std::vecto
     for (std::size_t i = 0; i < critical.size(); ++i) {
       const Lmd& saddle = critical[i].pair;
       if (critical[i].index > -1 || critical[i].is_minimum || saddle.fixed_body != body) continue;
-      // Where two triangles meet the saddle's features they are at most as far apart as it: nearer, or there is no way down between.
-      std::vector<std::pair<std::pair<std::int32_t, std::int32_t>, double>> around;
+      // A pair of triangles holds the saddle, and the distance is convex on it: it leads down where one of them reaches farther along the
+      // saddle's direction. By directions and not by distances, which next to a birth differ by the square of what is between.
+      const Vec3 d = saddle.distance * saddle.direction;
+      ends.clear();
       for (const std::int32_t s : moving.incident_triangles(saddle.feature_moving))
         for (const std::int32_t t : fixed.incident_triangles(saddle.feature_fixed)) {
-          ++triangle_distances_;
-          const double d =
-              std::sqrt(triangle_distance(X_WM.triangle(moving.mesh.triangle(s)), fixed.mesh.triangle(t))
-                            .squared_distance);
-          around.push_back({{s, t}, d});
+          if (!reaches(X_WM.triangle(moving.mesh.triangle(s)), saddle.point_moving, d) &&
+              !reaches(fixed.mesh.triangle(t), saddle.point_fixed, -d))
+            continue;
+          const std::size_t end = descend(X_WM, critical, body, s, t);
+          if (end != NO_MINIMUM && std::ranges::find(ends, end) == ends.end()) ends.push_back(end);
         }
-      const double level = saddle.distance;
-      const double rounding =
-          64.0 * std::numeric_limits<double>::epsilon() *
-          (saddle.point_fixed.cwiseAbs().maxCoeff() + saddle.point_moving.cwiseAbs().maxCoeff());
-      ends.clear();
-      for (const auto& [pair, d] : around) {
-        if (!(d < level - rounding)) continue;
-        const std::size_t end = descend(X_WM, critical, body, pair.first, pair.second);
-        if (end != NO_MINIMUM && std::ranges::find(ends, end) == ends.end()) ends.push_back(end);
-      }
       for (std::size_t k = 1; k < ends.size(); ++k) merges.push_back({i, ends[0], ends[k]});
     }
   }
