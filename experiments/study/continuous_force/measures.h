@@ -24,7 +24,8 @@ struct PathRow {
   std::size_t frames = 0, in_contact = 0, separated = 0;
   double minima = 0.0, pairs = 0.0, merges = 0.0;  ///< Mean a pose in contact.
   struct Law {
-    std::vector<double> largest;    ///< At the frames, and with the worst steps divided by 10, 100, 1000, 10000.
+    std::vector<double>
+        largest;  ///< At the frames, and with the worst steps divided by 10, 100, 1000, 10000.
     std::size_t above_quarter = 0;  ///< Steps of more than 0.25.
     double separated_difference = 0.0, rms_from_sum = 0.0;
     std::size_t outside_cone = 0;  ///< Forces that are no sum of pushes along LMDs.
