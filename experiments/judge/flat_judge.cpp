@@ -168,16 +168,18 @@ FlatCounts FlatTruth::judge(const LmdSet& lmds, std::string& objections) const {
   };
   std::vector<std::size_t> held(places_.size(), 0);
   for (const Lmd& lmd : lmds) {
-    // A contact's area may be seen from a place that is not on it (the hole of a ring), so it is asked first.
-    std::size_t place = 0;
-    while (place < places_.size() && !at_centroid(places_[place].area, lmd)) ++place;
-    const bool centred = place < places_.size();
-    // A basin left by a small climb holds what is lower beyond it too.
-    for (std::size_t other = 0; !centred && other < places_.size(); ++other) {
+    // A basin left by a small climb holds what is lower beyond it too: the one at the LMD's own distance.
+    const auto nearest_place = [&](auto&& fits) {
+      std::size_t nearest = places_.size();
       const auto off = [&](std::size_t i) { return std::abs(places_[i].basin.least - lmd.distance); };
-      if ((place == places_.size() || off(other) < off(place)) && holds(places_[other].basin.pairs, lmd))
-        place = other;
-    }
+      for (std::size_t i = 0; i < places_.size(); ++i)
+        if ((nearest == places_.size() || off(i) < off(nearest)) && fits(places_[i])) nearest = i;
+      return nearest;
+    };
+    // A contact's area may be seen from a place that is not on it (the hole of a ring), so it is asked first.
+    std::size_t place = nearest_place([&](const Place& p) { return at_centroid(p.area, lmd); });
+    const bool centred = place < places_.size();
+    if (!centred) place = nearest_place([&](const Place& p) { return holds(p.basin.pairs, lmd); });
     if (place < places_.size()) {
       ++held[place];
       const ContactArea& area = places_[place].area;

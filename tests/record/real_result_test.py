@@ -127,6 +127,14 @@ class RealResultTest(unittest.TestCase):
                         "/probes/truth/stride_frames=5"], check=True, capture_output=True, stdin=subprocess.DEVNULL)
         return result
 
+    def on_the_clock(self):
+        """A run in real time: so does it."""
+        result = self.path("clock.h5")
+        shapes = os.path.join(os.path.dirname(check_format.README), "..", "experiments", "shapes.json")
+        subprocess.run([PROGRAM, "run", shapes, "--out", result, "--driver", "realtime", "--set", "/frames=100"], check=True,
+                       capture_output=True, stdin=subprocess.DEVNULL)
+        return result
+
     def printed(self, main, *arguments):
         stream = io.StringIO()
         with contextlib.redirect_stdout(stream):
@@ -134,14 +142,14 @@ class RealResultTest(unittest.TestCase):
         return stream.getvalue()
 
     def test_results_have_the_described_format(self):
-        text = self.printed(check_format.main, self.hard, self.soft, self.both, self.closed())
+        text = self.printed(check_format.main, self.hard, self.soft, self.both, self.closed(), self.on_the_clock())
         self.assertIn(" 0 differences", text)
 
     def test_everything_described_is_there(self):
         with open(check_format.README, encoding="utf-8") as stream:
             described = set(check_format.described(stream.read()))
         found = set()
-        for file in (self.hard, self.both, self.closed()):
+        for file in (self.hard, self.both, self.closed(), self.on_the_clock()):
             Result(file).h5.visit(lambda name: found.add(check_format.documented_path("/" + name)))
         self.assertEqual(described - found, set())
 

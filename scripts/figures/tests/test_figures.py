@@ -316,7 +316,7 @@ class FigureTest(ScriptsTest):
                 for left, right in zip(boxes, boxes[1:]):
                     self.assertLessEqual(left.x1, right.x0, error)
             figure_style.plt.close(figure)
-        exact = shift(3e-14)
+        exact = shift(2e-14)
         self.assertEqual(work_precision.Point(exact, exact.method("certified")).force_error, 0.0)
         self.assertEqual(figure_style.labelled_decades(-14.0, 0.5), [1e-12, 1e-9, 1e-6, 1e-3, 1.0])
 
