@@ -124,7 +124,7 @@ def lateness_table(named):
 
 
 def excess_table(named):
-    lines = ["| run | woken over empty, p99 [us] | force over empty, p50 [us] | p99 [us] | periods without a tick, a million | of the empty loop | stolen [s] |",
+    lines = ["| run | woken over empty, p99 [us] | force over empty, p50 [us] | force over empty, p99 [us] | periods without a tick, a million | of the empty loop | stolen [s] |",
              "|---|---|---|---|---|---|---|"]
     for name, clock in named:
         excess, force = clock.quantiles("excess"), clock.quantiles("response_excess")
