@@ -92,7 +92,8 @@ TEST(LoadExperiment, EveryMethodOptionIsRead) {
   const Experiment experiment = parse(
       MINIMAL,
       {"/methods/0/literal_g3=true", "/methods/1/visibility=orthogonal", "/methods/1/reduction=loss-free",
-       "/methods/1/tracking_order=triangle-index", "/methods/1/literal_g3=true", "/methods/1/search_threads=2",
+       "/methods/1/tracking_order=triangle-index", "/methods/1/literal_g3=true",
+       "/methods/1/search_threads=2",
        R"(/methods/-={"name":"certified","force_law":"linear","frame_coherence":false,"kernel":"sse4"})"});
   EXPECT_EQ(experiment.methods[0].options["literal_g3"], true);
   // What the file leaves out has its default.
