@@ -5,50 +5,19 @@
 #include <dlfcn.h>
 #include <pthread.h>
 #include <realtime/counted_calls.h>
+#include <support/noted_allocations.h>
 
 #include <atomic>
-#include <cstddef>
-#include <cstdlib>
-#include <new>
+#include <cstdint>
 
 namespace {
 
 std::atomic<std::int64_t> allocations_in_ticks{0}, locks_in_ticks{0};
 
-void* counted_in_ticks(std::size_t size, std::size_t alignment) {
-  if (lmdbench::in_servo_tick) ++allocations_in_ticks;
-  const std::size_t rounded = (size + alignment - 1) / alignment * alignment;
-  void* const memory = std::aligned_alloc(alignment, rounded == 0 ? alignment : rounded);
-  if (memory == nullptr) throw std::bad_alloc();
-  return memory;
-}
-
 }  // namespace
 
-void* operator new(std::size_t size) {
-  return counted_in_ticks(size, alignof(std::max_align_t));
-}
-void* operator new(std::size_t size, std::align_val_t alignment) {
-  return counted_in_ticks(size, static_cast<std::size_t>(alignment));
-}
-void* operator new(std::size_t size, const std::nothrow_t&) noexcept {
-  try {
-    return counted_in_ticks(size, alignof(std::max_align_t));
-  } catch (const std::bad_alloc&) {
-    return nullptr;
-  }
-}
-void operator delete(void* memory) noexcept {
-  std::free(memory);
-}
-void operator delete(void* memory, std::size_t) noexcept {
-  std::free(memory);
-}
-void operator delete(void* memory, std::align_val_t) noexcept {
-  std::free(memory);
-}
-void operator delete(void* memory, std::size_t, std::align_val_t) noexcept {
-  std::free(memory);
+void lmdbench::testing::note_allocation() {
+  if (in_servo_tick) ++allocations_in_ticks;
 }
 
 #ifndef __SANITIZE_THREAD__

@@ -14,7 +14,6 @@ import tempfile
 import time
 import unittest
 
-import h5py
 import numpy as np
 
 ROOT = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..")
@@ -22,6 +21,7 @@ sys.path.insert(0, os.path.join(ROOT, "scripts", "figures"))
 
 from clock_results import clocks  # noqa: E402  (the figures' folder must be found first)
 from lmdbench_results import Result  # noqa: E402
+from realtime import measured  # noqa: E402
 
 PROGRAM = None
 FRAMES = 600
@@ -172,15 +172,6 @@ class Clock(unittest.TestCase):
         done = call(command(out, *NO_PROBES), preexec_fn=full_disk)
         self.assertEqual(done.returncode, 4, done.stderr)
         self.assertFalse(os.path.exists(out))
-
-
-def measured(part):
-    """Frames in the part of a run that goes on."""
-    try:
-        with h5py.File(part, "r", locking=False) as h5:
-            return int(h5["/frames_measured"][0])
-    except (OSError, KeyError):
-        return 0
 
 
 if __name__ == "__main__":

@@ -50,9 +50,25 @@ ClearGap gap_to(const Plane& plane, const ShapeSide& side, const RegionShape& sh
   return least >= -greatest ? ClearGap{least, -plane.normal} : ClearGap{-greatest, plane.normal};
 }
 
+/// Of a face that is the lead of a region of several.
+const RegionShape* shape_of(const ShapeSide& side, const FeatureId& face) {
+  const std::int32_t region = side.shape.region_of(face.index);
+  return region < 0 ? nullptr : side.shape.shapes.of_region(region);
+}
+
+/// The bar that holds a region, in the world.
+struct Bar {
+  Vec3 centre, half;
+  double radius;
+
+  Bar(const ShapeSide& side, const RegionShape& shape)
+      : centre(side.is_moving ? side.X_WS.point(shape.bar_centre) : shape.bar_centre),
+        half(side.direction(shape.bar_half)),
+        radius(shape.bar_radius) {}
+};
+
 /// Gap of two bars, square to the longer one: walls of a peg and of its bore stand side by side, and a disc round a wall meets half
 /// of the others.
-template <class Bar>
 ClearGap gap_of_bars(const Bar& a, const Bar& b) {
   const bool a_is_longer = a.half.squaredNorm() > b.half.squaredNorm();
   const Vec3 &longer = a_is_longer ? a.half : b.half, &shorter = a_is_longer ? b.half : a.half;
@@ -142,25 +158,21 @@ std::span<const Certificate> TouchingPairs::decide(Frame& frame, std::span<const
   const ShapeSide &moving = frame.pair.moving, &fixed = frame.pair.fixed;
   const bool is_joined = moving.shape.is_joined || fixed.shape.is_joined;
   const double margin = MARGIN_IN_TOUCHES * frame.touch;
-  if (is_joined && !pairs.empty()) {
-    place_bars(moving, bars_moving_);
-    place_bars(fixed, bars_fixed_);
-  }
   certificates_.assign(pairs.size(), Certificate{});
   Batch batch, not_crossing;
   for (std::size_t k = 0; k < pairs.size(); ++k) {
     const FeatureId on_moving = pairs[k].a.feature_id(), on_fixed = pairs[k].b.feature_id();
     ++frame.triangle_pairs;
-    const Bar* const bar_moving = bar_of(moving, bars_moving_, on_moving);
-    const Bar* const bar_fixed = bar_of(fixed, bars_fixed_, on_fixed);
-    if (bar_moving != nullptr && bar_fixed != nullptr) {
-      const ClearGap gap = gap_of_bars(*bar_moving, *bar_fixed);
+    const RegionShape* const shape_moving = is_joined ? shape_of(moving, on_moving) : nullptr;
+    const RegionShape* const shape_fixed = is_joined ? shape_of(fixed, on_fixed) : nullptr;
+    if (shape_moving != nullptr && shape_fixed != nullptr) {
+      const ClearGap gap = gap_of_bars(Bar(moving, *shape_moving), Bar(fixed, *shape_fixed));
       if (gap.gap > margin) {
         certificates_[k] = {gap.gap - margin, gap.axis};
         continue;
       }
     }
-    if (bar_moving != nullptr || bar_fixed != nullptr) {
+    if (shape_moving != nullptr || shape_fixed != nullptr) {
       certificates_[k] = decide_regions(frame, pairs[k]);
       continue;
     }
@@ -171,23 +183,6 @@ std::span<const Certificate> TouchingPairs::decide(Frame& frame, std::span<const
   decide_batch(frame, batch, not_crossing);
   decide_not_crossing(frame, not_crossing);
   return certificates_;
-}
-
-void TouchingPairs::place_bars(const ShapeSide& side, std::vector<Bar>& bars) const {
-  bars.clear();
-  for (const RegionShape& shape : side.shape.shapes.shapes)
-    bars.push_back({side.is_moving ? side.X_WS.point(shape.bar_centre) : shape.bar_centre,
-                    side.direction(shape.bar_half), shape.bar_radius});
-}
-
-/// Nothing for a region of one face.
-const TouchingPairs::Bar* TouchingPairs::bar_of(const ShapeSide& side, const std::vector<Bar>& bars,
-                                                const FeatureId& face) const {
-  if (bars.empty()) return nullptr;
-  const std::int32_t region = side.shape.region_of(face.index);
-  const std::int32_t shape =
-      region < 0 ? -1 : side.shape.shapes.shape_of_region[static_cast<std::size_t>(region)];
-  return shape < 0 ? nullptr : &bars[static_cast<std::size_t>(shape)];
 }
 
 void TouchingPairs::decide_batch(Frame& frame, Batch& batch, Batch& not_crossing) {
@@ -274,8 +269,8 @@ Certificate TouchingPairs::decide_regions(Frame& frame, const WidePair& pair) {
   const auto clear = [&](const ClearGap& gap, double sign) {
     return Certificate{gap.gap - margin, sign * gap.axis};
   };
-  const RegionShape* const shape_m = region_m >= 0 ? moving.shape.shapes.of_region(region_m) : nullptr;
-  const RegionShape* const shape_f = region_f >= 0 ? fixed.shape.shapes.of_region(region_f) : nullptr;
+  const RegionShape* const shape_m = shape_of(moving, on_moving);
+  const RegionShape* const shape_f = shape_of(fixed, on_fixed);
   const auto collect = [](const ShapeSide& side, const FeatureId& lead, std::vector<std::int32_t>& corners,
                           std::vector<Vec3>& points) {
     corners.clear();

@@ -44,19 +44,10 @@ class TouchingPairs {
   void decide_not_crossing(Frame& frame, Batch& batch);
   Certificate decide_triangles(Frame& frame, std::int32_t t_moving, std::int32_t t_fixed);
   Certificate decide_regions(Frame& frame, const WidePair& pair);
-  /// The bar that holds a region of several faces, in the world.
-  struct Bar {
-    Vec3 centre, half;
-    double radius;
-  };
-  void place_bars(const ShapeSide& side, std::vector<Bar>& bars) const;
-  const Bar* bar_of(const ShapeSide& side, const std::vector<Bar>& bars, const FeatureId& face) const;
-
   void find_faces_near(const ShapeSide& side, std::int32_t region, std::span<const Vec3> points_W,
                        double reach, std::vector<std::int32_t>& faces) const;
 
   std::vector<Certificate> certificates_;
-  std::vector<Bar> bars_moving_, bars_fixed_;  ///< A region of several faces.
   std::vector<std::int32_t> corners_moving_, corners_fixed_, faces_of_large_, faces_of_small_;
   std::vector<Vec3> points_moving_, points_fixed_;
 };
