@@ -291,6 +291,14 @@ class Interpreter(unittest.TestCase):
             search(poses)
         timer.join()
 
+    def test_everything_public_says_what_it_is(self):
+        for name in lmdbench.__all__:
+            thing = getattr(lmdbench, name)
+            if name != "LMD_DTYPE":
+                self.assertTrue(thing.__doc__ and len(thing.__doc__) > 20, name)
+
+
+class Memory(unittest.TestCase):
     def test_a_million_sets_leave_nothing_behind(self):
         search = lmdbench.Search((CORNERS, SIDES), (CORNERS, SIDES), 0.05)
         poses = np.stack([at(1.0 + 0.0001 * k) for k in range(1, 1001)])
@@ -315,12 +323,6 @@ class Interpreter(unittest.TestCase):
         grown = resident() - before
         print(f"resident memory after 1e6 sets: {grown / 1e6:+.2f} MB", file=sys.stderr)
         self.assertLess(grown, 4e6)  # 4 bytes a set
-
-    def test_everything_public_says_what_it_is(self):
-        for name in lmdbench.__all__:
-            thing = getattr(lmdbench, name)
-            if name != "LMD_DTYPE":
-                self.assertTrue(thing.__doc__ and len(thing.__doc__) > 20, name)
 
 
 class Results(Files):
@@ -400,6 +402,11 @@ class Types(unittest.TestCase):
             self.assertIn("user.py:5", done.stdout + done.stderr)
             self.assertNotIn("user.py:3", done.stdout)
             self.assertNotIn("user.py:4", done.stdout)
+
+
+def load_tests(_loader, tests, _pattern):
+    """Without names on the command line: all but Memory, which takes longest."""
+    return unittest.TestSuite(suite for suite in tests if not any(isinstance(test, Memory) for test in suite))
 
 
 if __name__ == "__main__":
