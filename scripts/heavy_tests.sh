@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-FileCopyrightText: The lmdbench authors
 # SPDX-License-Identifier: BSD-3-Clause
-# The long tests (ctest label "heavy"), which scripts/test.sh leaves out. Arguments go to ctest, e.g. -R triangle.
+# What scripts/test.sh leaves out for time, for a nightly run: the long tests (ctest label "heavy") and, without arguments, the build
+# without the optional parts. Arguments go to ctest, e.g. -R triangle.
 set -euo pipefail
 # shellcheck source=scripts/lib.sh
 source "$(dirname "${BASH_SOURCE[0]}")/lib.sh"
@@ -10,3 +11,4 @@ source "$(dirname "${BASH_SOURCE[0]}")/lib.sh"
 build_preset release
 cd "$ROOT"
 ctest --preset release --label-regex heavy --parallel "$JOBS" --no-tests=error "$@" </dev/null
+if (($# == 0)); then python3 "$ROOT/scripts/smallest_build.py" >&2; fi

@@ -3,7 +3,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # Everything that a change must pass: style, build without warnings, tests, experiment files, a run end to end. Goes on
 # after a failure, so that one run shows all of them; the last line is 'N passed, N failed' (each other check counts as
-# one), with ', N skipped' where tests were: those proved nothing. Exit code 0 only when nothing failed. Left out for time: scripts/sanitizer_tests.sh, scripts/heavy_tests.sh.
+# one), with ', N skipped' where tests were: those proved nothing. Exit code 0 only when nothing failed. Left out for time: scripts/sanitizer_tests.sh, scripts/heavy_tests.sh,
+# which builds the program without its optional parts, too.
 set -uo pipefail
 # shellcheck source=scripts/lib.sh
 source "$(dirname "${BASH_SOURCE[0]}")/lib.sh"
@@ -85,11 +86,6 @@ end_to_end() {
     [[ -s $folder/figure7.png ]]
 }
 
-# Without the optional parts, about a minute.
-smallest_build() {
-  python3 "$ROOT/scripts/smallest_build.py" >&2
-}
-
 if ! step "Set-up" "$ROOT/scripts/setup.sh"; then
   die "$EXIT_ENVIRONMENT" "set-up failed, see above"
 fi
@@ -99,7 +95,6 @@ if check "Build (release, warnings are errors)" build_preset release -DLMDBENCH_
   tests "Tests (release)" release
   check "Experiment files" experiment_files
   check "Run, result format and figure" end_to_end
-  check "Smallest build" smallest_build
   # All of it takes minutes: ./scripts/lint.sh
   check "Static analysis of what changed" "$ROOT/scripts/lint.sh" --tidy-changed
 fi
