@@ -32,7 +32,7 @@ constexpr std::int64_t LEAST_LISTED = MS / 2;       // between turns of a free l
 constexpr std::int64_t START_AHEAD = 20 * MS;       // of the servo's first tick
 constexpr std::int64_t NEIGHBOUR_PERIOD = 50 * MS;  // of a planted busy neighbour
 constexpr int TRACKING_BELOW_SERVO = 10;            // in priority
-constexpr std::size_t PRIMING_POSES = 2000;         // of the path, before the run
+constexpr std::size_t PRIMING_POSES = 20'000;       // of the path, before the run: the recorded ones whole
 constexpr std::size_t LIST_ROWS = 1U << 16U;        // of LMD lists on their way to the recorder
 
 /// Cores of the roles.
@@ -163,11 +163,11 @@ class MethodOnClock {
     LmdSet lmds;
     WorkCounters ignored;
     if (!tracks_) {
-      const std::size_t stride = std::max<std::size_t>(input_.poses.size() / PRIMING_POSES, 1);
+      const std::size_t poses = std::min(input_.poses.size(), PRIMING_POSES);
+      // One after the other as on the clock: what is kept from frame to frame grows along the way, not at poses apart.
       // Twice, because the way back to the first pose is a jump, after which what is kept is laid out anew.
       for (int round = 0; round < 2; ++round)
-        for (std::size_t i = 0; i < input_.poses.size(); i += stride)
-          first_->search(input_.poses[i], lmds, ignored);
+        for (std::size_t i = 0; i < poses; ++i) first_->search(input_.poses[i], lmds, ignored);
       first_->search(input_.poses.front(), lmds, ignored);
       return;
     }
