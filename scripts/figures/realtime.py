@@ -30,7 +30,7 @@ PREDICTIONS = ("none", "linear")
 AGE_PATH_M = 0.01  # way of the recorded path that the speeds share
 AGE_SECONDS = 10.0
 STOPPED_S = 0.3
-WALL_SHARES = (0.8, 0.85, 0.9, 0.95, 1.0, 1.05)  # of the lockstep's boundary
+WALL_SHARES = (0.6, 0.65, 0.7, 0.75, 0.8, 0.85, 0.9, 0.95, 1.0, 1.05)  # of the lockstep's boundary
 WALL_STEPS = 100  # of the simulated ball in a servo period: 10 us
 WALL_WINDOW = 150  # frames
 PARTS = ("clock", "free", "age", "overload", "closed")
@@ -217,7 +217,7 @@ def age_part(study):
 
 def draw_age(points):
     style.use_style()
-    figure, axes = plt.subplots(figsize=(0.6 * style.TWO_COLUMNS_IN, 2.8))
+    figure, axes = plt.subplots(figsize=(0.75 * style.TWO_COLUMNS_IN, 2.6))
     for order, method in enumerate(METHODS):
         for prediction in PREDICTIONS:
             values = [points.get((method, prediction, speed)) for speed in SPEEDS_MM_S]
@@ -227,8 +227,8 @@ def draw_age(points):
             label = f"{method}, one loop" if method == "certified" else f"{method}{', predicted' if prediction == 'linear' else ''}"
             axes.plot(speeds, np.maximum([value for value in values if value is not None], 1e-7), color=style.METHOD_COLOURS[order], linestyle="--" if prediction == "linear" else "-",
                       marker="o", markersize=3, label=label)
-    axes.set(xscale="log", yscale="log", xlabel="mean speed [mm/s]", ylabel="force error caused by age, RMS [N]\n(at the foot: 1e-7 and less)")
-    axes.legend(loc="upper left")
+    axes.set(xscale="log", yscale="log", xlabel="mean speed [mm/s]", ylabel="force error caused by age, RMS [N]")
+    axes.legend(loc="center left", bbox_to_anchor=(1.02, 0.5))
     figure.tight_layout()
     return figure
 

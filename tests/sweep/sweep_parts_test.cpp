@@ -139,6 +139,18 @@ TEST_F(SweepParts, NamesWhatWasBegunAgain) {
   EXPECT_EQ(result.points[1].begun, 3);
 }
 
+TEST_F(SweepParts, AWholeSweepCountsItsOwnBeginningsOnce) {
+  const Sweep all = sweep();
+  const auto stop_at_truth = [](const std::string& phase, std::int64_t, std::int64_t) {
+    return phase != "truth";
+  };
+  EXPECT_THROW(run_sweep_to_file(all, out_, {"lmdbench"}, stop_at_truth), Interrupted);
+  std::int64_t begun = 0;
+  for (const auto& point : run_sweep_to_file(all, out_, {"lmdbench"}).points) begun += point.begun;
+  EXPECT_EQ(begun, 4 * 2 + 1) << "two repetitions of four points, one of which was interrupted";
+  EXPECT_EQ(done_again(all, out_).size(), 1u);
+}
+
 TEST_F(SweepParts, OfOneNameWaitForEachOther) {
   const Sweep all = sweep();
   measure_part(all, {1}, out_);
