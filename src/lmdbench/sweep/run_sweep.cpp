@@ -260,7 +260,7 @@ SweepWork run_points(const Sweep& sweep, const std::vector<std::size_t>& points,
           throw;
         } catch (const Error& error) {
           work.failures[point] = error.what();
-          
+          journal.fail(keys[point], error.what());
         }
       }
     }
