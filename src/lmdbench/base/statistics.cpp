@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/base/contract.h>
 #include <lmdbench/base/statistics.h>
 
 #include <algorithm>
@@ -21,6 +22,7 @@ std::vector<double> set_values(std::vector<double> values) {
 }  // namespace
 
 double quantile(std::vector<double> values, double share) {
+  LMDBENCH_EXPECTS(share >= 0.0 && share <= 1.0, "per cent in place of a share");
   values = set_values(std::move(values));
   if (values.empty()) return std::numeric_limits<double>::quiet_NaN();
   std::sort(values.begin(), values.end());

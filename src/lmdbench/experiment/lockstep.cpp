@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/base/contract.h>
 #include <lmdbench/base/error.h>
 #include <lmdbench/experiment/direction_memory.h>
 #include <lmdbench/experiment/lockstep.h>
@@ -139,6 +140,8 @@ class MethodRun {
 
   /// From the working set to force, record and hash; not timed.
   void finish_frame(std::int64_t frame, const LmdSet& working, FrameRecord result) {
+    LMDBENCH_ALWAYS(frame == static_cast<std::int64_t>(record_.frames.size()),
+                    "a frame left out: every later row would be of another frame");
     LmdSet lmds = within_cutoff(working, profile_.cutoff);
     std::stable_sort(lmds.begin(), lmds.end(),
                      lmd_less);  // summation in an order that the scene alone decides
@@ -168,6 +171,7 @@ class MethodRun {
     if (input_.keep_lmds && input_.keep_lmds(frame)) record_.lmds.emplace(frame, std::move(lmds));
     const Pose X_WM = poses_->pose();
     if (const std::optional<LoopFrame> moved = poses_->render(rendered)) {
+      LMDBENCH_EXPECTS(record_.poses.size() == record_.loop.size(), "a loop that moved in some frames only");
       record_.poses.push_back(X_WM);
       record_.loop.push_back(*moved);
     }

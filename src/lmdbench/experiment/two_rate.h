@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <lmdbench/base/contract.h>
 #include <lmdbench/experiment/experiment.h>
 #include <lmdbench/geometry/pose.h>
 #include <lmdbench/lmd/method.h>
@@ -45,6 +46,8 @@ class TwoRate {
   /// One haptic frame; frames come in ascending order.
   template <typename Observer>
   void step(std::int64_t frame, const Pose& X_WM, Observer& observer) {
+    LMDBENCH_EXPECTS(frame >= 0 && (!pending_ || frame <= pending_->search.frame + latency_),
+                     "frames out of order: the search under way would never arrive");
     if (pending_ && frame == pending_->search.frame + latency_) receive(X_WM, observer);
     if (frame % every_ == 0) {
       const bool ahead = predicts_ && last_pose_;

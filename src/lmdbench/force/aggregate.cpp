@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/base/contract.h>
 #include <lmdbench/force/aggregate.h>
 #include <lmdbench/force/wrench_sum.h>
 
@@ -25,6 +26,8 @@ Wrench WrenchSum::wrench() const {
 }
 
 Wrench sum_forces(const LmdSet& lmds, const ForceProfile& profile, const Vec3& reference_W) {
+  LMDBENCH_EXPECTS(profile.maximum_force > 0.0 && profile.cutoff > 0.0,
+                   "a profile that was not validated (validate_force_profile)");
   WrenchSum sum(reference_W);
   for (const Lmd& lmd : lmds) {
     if (!WrenchSum::acts(lmd, profile)) continue;

@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/base/contract.h>
 #include <lmdbench/base/error.h>
 #include <lmdbench/force/force_law.h>
 
@@ -41,6 +42,8 @@ bool is_linear(const ForceProfile& profile) {
 
 /// s of decision E9: 1 at the saturation distance, 0 at the cutoff.
 double closeness(const ForceProfile& profile, double distance) {
+  LMDBENCH_EXPECTS(profile.saturation_distance < profile.cutoff,
+                   "a profile that was not validated (validate_force_profile)");
   return (profile.cutoff - distance) / (profile.cutoff - profile.saturation_distance);
 }
 

@@ -1,7 +1,9 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/base/contract.h>
 #include <lmdbench/geometry/cone.h>
 #include <lmdbench/geometry/sphere.h>
+#include <lmdbench/geometry/unit_vector.h>
 
 #include <Eigen/Geometry>
 
@@ -18,6 +20,8 @@ namespace {
 constexpr double CONE_WIDENING = 8.0 * std::numeric_limits<double>::epsilon();
 
 Cone cone_of_angle(const Vec3& axis, double half_angle) {
+  LMDBENCH_EXPECTS(is_unit(axis), "an axis that was not normalised");
+  LMDBENCH_EXPECTS(half_angle >= 0.0, "an angle of two directions is none below zero, or not a number");
   const double widened = half_angle + CONE_WIDENING;
   if (!(widened < std::numbers::pi)) return {};
   return {axis, std::cos(widened), std::sin(widened)};
@@ -34,14 +38,18 @@ double Cone::half_angle() const {
 }
 
 bool Cone::contains(const Vec3& unit_direction) const {
+  LMDBENCH_EXPECTS(is_unit(unit_direction), "a direction that was not normalised");
   return is_all_directions() || angle_between(axis, unit_direction) <= half_angle();
 }
 
 Cone cone_of_direction(const Vec3& unit_direction) {
+  LMDBENCH_EXPECTS(is_unit_or_zero(unit_direction), "a direction that was not normalised");
   return unit_direction.isZero(0.0) ? Cone{} : cone_of_angle(unit_direction, 0.0);
 }
 
 Cone cone_of_directions(std::span<const Vec3> unit_directions) {
+  LMDBENCH_EXPECTS(std::ranges::all_of(unit_directions, is_unit_or_zero),
+                   "a direction that was not normalised");
   std::vector<Vec3> tips;
   tips.reserve(unit_directions.size());
   for (const Vec3& direction : unit_directions) {
@@ -66,6 +74,8 @@ Cone convex_cone_of_directions(std::span<const Vec3> unit_directions) {
 }
 
 Cone merge_cones(const Cone& a, const Cone& b) {
+  LMDBENCH_EXPECTS(a.sine >= 0.0 && b.sine >= 0.0,
+                   "a cone that was not made by these functions: sine and cosine belong to one half angle");
   if (a.is_all_directions() || b.is_all_directions()) return {};
   const double phi_a = a.half_angle();
   const double phi_b = b.half_angle();

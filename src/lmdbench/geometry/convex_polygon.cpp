@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/base/contract.h>
 #include <lmdbench/geometry/convex_polygon.h>
 
 #include <algorithm>
@@ -53,6 +54,7 @@ Box2 ConvexPolygon::box() const {
 }
 
 bool ConvexPolygon::holds(const Vec2& x, double reach) const {
+  LMDBENCH_EXPECTS(reach >= 0.0, "a tolerance that is negative or not a number");
   for (std::size_t k = 0; k < corners.size(); ++k) {
     const Vec2 side = corners[(k + 1) % corners.size()] - corners[k];
     if (cross(side, x - corners[k]) < -reach * side.norm()) return false;
@@ -77,6 +79,7 @@ bool side_separates(const ConvexPolygon& a, const ConvexPolygon& b, double reach
 }  // namespace
 
 bool ConvexPolygon::touches(const ConvexPolygon& other, double reach) const {
+  LMDBENCH_EXPECTS(reach >= 0.0, "a tolerance that is negative or not a number");
   return !side_separates(*this, other, reach) && !side_separates(other, *this, reach);
 }
 

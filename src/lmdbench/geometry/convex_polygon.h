@@ -2,7 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <lmdbench/base/contract.h>
 #include <lmdbench/geometry/types.h>
+#include <lmdbench/geometry/unit_vector.h>
 
 #include <limits>
 #include <span>
@@ -37,7 +39,9 @@ struct PlanarFrame {
   Vec3 origin, u, v;
 
   /// @param n unit vector; seen against it u turns to v counter-clockwise
-  PlanarFrame(const Vec3& point, const Vec3& n) : origin(point), u(n.unitOrthogonal()), v(n.cross(u)) {}
+  PlanarFrame(const Vec3& point, const Vec3& n) : origin(point), u(n.unitOrthogonal()), v(n.cross(u)) {
+    LMDBENCH_EXPECTS(is_unit(n), "a normal of a region without area, or not normalised");
+  }
 
   Vec2 flat(const Vec3& x) const { return {u.dot(x - origin), v.dot(x - origin)}; }
   Vec3 lifted(const Vec2& x) const { return origin + x[0] * u + x[1] * v; }

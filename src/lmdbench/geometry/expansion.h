@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <lmdbench/base/contract.h>
+
 #include <array>
 #include <cmath>
 
@@ -19,6 +21,8 @@ struct Expansion {
 
   /// Adds one double: Shewchuk's GROW-EXPANSION with elimination of zero terms.
   void add(double value) {
+    LMDBENCH_EXPECTS(size < Capacity || value == 0.0,
+                     "more terms than the type of the result was given room for");
     double carry = value;
     int kept = 0;
     for (int i = 0; i < size; ++i) {

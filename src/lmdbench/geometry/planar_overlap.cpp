@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/base/contract.h>
 #include <lmdbench/geometry/convex_polygon.h>
 #include <lmdbench/geometry/planar_overlap.h>
 
@@ -44,6 +45,7 @@ FaceFrame::Weights planar_weights(const std::array<Vec2, 3>& t, const Vec2& x) {
 }  // namespace
 
 EdgeOverFace edge_over_face(const Vec3& x0, const Vec3& x1, const FaceFrame& face, double tolerance) {
+  LMDBENCH_EXPECTS(face.has_face, "a triangle without area: the caller asks only for faces");
   EdgeOverFace result;
   const FaceFrame::Weights w0 = face.weights(x0);
   const FaceFrame::Weights w1 = face.weights(x1);
@@ -68,6 +70,8 @@ EdgeOverFace edge_over_face(const Vec3& x0, const Vec3& x1, const FaceFrame& fac
 }
 
 FaceOverFace face_over_face(const FaceFrame& first, const FaceFrame& second, double tolerance) {
+  LMDBENCH_EXPECTS(first.has_face && second.has_face,
+                   "a triangle without area: the caller asks only for faces");
   FaceOverFace result;
   // Coordinates along e and h of the first face, metres.
   const double length_e = std::sqrt(first.squared_e);

@@ -2,7 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <lmdbench/base/contract.h>
 #include <lmdbench/geometry/types.h>
+#include <lmdbench/geometry/unit_vector.h>
 
 #include <Eigen/Geometry>
 
@@ -31,7 +33,10 @@ struct RigidTransform {
 
   RigidTransform() = default;
   explicit RigidTransform(const Pose& pose)
-      : rotation(pose.rotation.toRotationMatrix()), translation(pose.translation) {}
+      : rotation(pose.rotation.toRotationMatrix()), translation(pose.translation) {
+    LMDBENCH_EXPECTS(std::abs(pose.rotation.squaredNorm() - 1.0) <= UNIT_TOLERANCE,
+                     "a quaternion that was read or extrapolated and not normalised");
+  }
 
   Vec3 point(const Vec3& p) const { return rotation * p + translation; }
   Vec3 direction(const Vec3& d) const { return rotation * d; }

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <lmdbench/base/contract.h>
 #include <lmdbench/geometry/segment_distance.h>
 #include <lmdbench/geometry/tolerance.h>
 
@@ -191,6 +192,8 @@ inline void ordered_segment_distance(const Vec3& p0, const Vec3& p1, const Vec3&
 inline bool segment_pair(const Vec3& a0, const Vec3& a1, double squared_length_a, const Vec3& b0,
                          const Vec3& b1, double squared_length_b, double tolerance,
                          PointsOnSegments& result) {
+  LMDBENCH_EXPECTS(!lexicographic_less(a1, a0) && !lexicographic_less(b1, b0),
+                   "ends that the caller did not order: the same segments would give other bits");
   bool a_first = squared_length_a > squared_length_b;
   if (squared_length_a == squared_length_b) {
     a_first = a0 != b0 ? lexicographic_less(a0, b0) : lexicographic_less(a1, b1);

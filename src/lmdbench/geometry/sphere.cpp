@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/base/contract.h>
 #include <lmdbench/geometry/sphere.h>
 
 #include <Eigen/LU>
@@ -140,10 +141,14 @@ Sphere bounding_sphere(std::span<const Vec3> points) {
     if (!smallest_sphere_of_support(support, sphere)) break;
   }
   best.radius = std::sqrt(best_squared_radius) * OUTWARD;
+  LMDBENCH_ENSURES(
+      std::ranges::all_of(points, [&](const Vec3& p) { return (p - best.centre).norm() <= best.radius; }),
+      "rounding beyond OUTWARD, or a point that is not a number");
   return best;
 }
 
 Sphere merge_spheres(const Sphere& a, const Sphere& b) {
+  LMDBENCH_EXPECTS(a.radius >= 0.0 && b.radius >= 0.0, "a sphere of no radius");
   const Vec3 between = b.centre - a.centre;
   const double distance = between.norm();
   if (distance + b.radius <= a.radius) return a;

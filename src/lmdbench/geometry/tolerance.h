@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <lmdbench/base/contract.h>
 #include <lmdbench/geometry/types.h>
 
 #include <algorithm>
@@ -54,6 +55,7 @@ inline bool all_finite(std::span<const Vec3> points) {
 /// share features but not all corners nearly always decide by the same length.
 /// @param magnitude not negative; a denormal one gives 0
 inline double coincidence_length(double magnitude) {
+  LMDBENCH_EXPECTS(!(magnitude < 0.0), "a coordinate in place of its magnitude");
   constexpr std::uint64_t EXPONENT_BITS = 0x7FF0000000000000U;
   return COINCIDENCE_TOLERANCE *
          std::bit_cast<double>(std::bit_cast<std::uint64_t>(magnitude) & EXPONENT_BITS);

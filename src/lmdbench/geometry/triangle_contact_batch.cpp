@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/base/contract.h>
 #include <lmdbench/geometry/triangle_contact_batch.h>
 
 #include <algorithm>
@@ -50,6 +51,7 @@ void for_each_block(std::span<const Triangle> a, std::span<const Triangle> b, Vi
 
 void find_clear_crossings(std::span<const Triangle> a, std::span<const Triangle> b,
                           std::span<ClearCrossing> results) {
+  LMDBENCH_ALWAYS(a.size() == b.size() && a.size() == results.size(), "parallel arrays of unlike lengths");
   LaneResult lanes;
   for_each_block(a, b, [&](std::size_t begin, std::size_t count, const LaneBlock& block) {
     const std::uint32_t crosses = HWY_DYNAMIC_DISPATCH(crossing)(block, lanes);
@@ -62,6 +64,7 @@ void find_clear_crossings(std::span<const Triangle> a, std::span<const Triangle>
 }
 
 void find_clear_gaps(std::span<const Triangle> a, std::span<const Triangle> b, std::span<ClearGap> results) {
+  LMDBENCH_ALWAYS(a.size() == b.size() && a.size() == results.size(), "parallel arrays of unlike lengths");
   LaneGap lanes;
   for_each_block(a, b, [&](std::size_t begin, std::size_t count, const LaneBlock& block) {
     HWY_DYNAMIC_DISPATCH(clear_gap)(block, lanes);

@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/base/contract.h>
 #include <lmdbench/lmd/agreement.h>
 
 #include <algorithm>
@@ -28,6 +29,8 @@ bool share_a_triangle(const Surface& surface, const FeatureId& a, const FeatureI
 }
 
 bool neighbours(const Lmd& a, const Lmd& b, const Scene& scene) {
+  LMDBENCH_EXPECTS(a.fixed_body >= 0 && static_cast<std::size_t>(a.fixed_body) < scene.fixed.size(),
+                   "a set of another scene");
   if (a.fixed_body != b.fixed_body) return false;
   const Surface& fixed = scene.fixed.at(static_cast<std::size_t>(a.fixed_body))->surface();
   return share_a_triangle(scene.moving->surface(), a.feature_moving, b.feature_moving) &&
@@ -58,10 +61,12 @@ std::size_t count_with_neighbour(const LmdSet& these, const LmdSet& those, const
 }  // namespace
 
 double Agreement::recall() const {
+  LMDBENCH_EXPECTS(found <= true_lmds, "one LMD counted for two true ones");
   return share(found, true_lmds);
 }
 
 double Agreement::precision() const {
+  LMDBENCH_EXPECTS(right <= reported, "one true LMD counted for two reported ones");
   return share(right, reported);
 }
 

@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/base/contract.h>
 #include <lmdbench/lmd/contact_tolerance.h>
 
 #include <cmath>
@@ -14,6 +15,7 @@ ContactTolerance ContactTolerance::of(const Surface& moving, const ShapeComplex&
     return std::max(surface.mesh.planar_tolerance, LEAST_TOLERANCE * shape.regions.extent);
   };
   ContactTolerance tolerance;
+  LMDBENCH_EXPECTS(cutoff >= 0.0, "a cutoff that is negative or not a number");
   const double extents = moving_shape.regions.extent + fixed_shape.regions.extent;
   tolerance.known = known_to(moving, moving_shape) + known_to(fixed, fixed_shape);
   tolerance.coordinates =

@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/base/contract.h>
 #include <lmdbench/lmd/critical_pair.h>
 
 #include <algorithm>
@@ -7,6 +8,8 @@
 namespace lmdbench {
 
 LmdSet minima_of(const CriticalSet& set) {
+  LMDBENCH_EXPECTS(std::ranges::is_sorted(set, lmd_less, &CriticalPair::pair),
+                   "a set that was not sorted (sort_critical)");
   LmdSet minima;
   for (const CriticalPair& critical : set)
     if (critical.is_minimum) minima.push_back(critical.pair);

@@ -1,7 +1,9 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/base/contract.h>
 #include <lmdbench/geometry/extent.h>
 #include <lmdbench/geometry/segment_distance.h>
+#include <lmdbench/geometry/unit_vector.h>
 #include <lmdbench/lmd/decide.h>
 #include <lmdbench/lmd/overlap.h>
 #include <lmdbench/lmd/polar_condition.h>
@@ -44,6 +46,8 @@ double foot_on(const Line& line, const Vec3& x) {
 
 /// Place of a plane along the direction n over the point x.
 double height_to(const Plane& plane, const Vec3& n, const Vec3& x) {
+  LMDBENCH_EXPECTS(std::abs(plane.normal.dot(n)) > 0.5,
+                   "a direction that is not near to the normal: only parallel features are asked");
   return plane.normal.dot(plane.point - x) / plane.normal.dot(n);
 }
 
@@ -319,6 +323,8 @@ class Decision {
   }
 
   void set_middle(Contact& contact, const Vec3& u) {
+    LMDBENCH_EXPECTS(is_unit(u), "a direction that was not normalised");
+    LMDBENCH_EXPECTS(contact.measure >= 0.0, "ends of a segment in the wrong order");
     contact.point_moving = 0.5 * (contact.ends_moving[0] + contact.ends_moving[1]);
     contact.point_fixed = 0.5 * (contact.ends_fixed[0] + contact.ends_fixed[1]);
     contact.distance = (contact.point_fixed - contact.point_moving).norm();
@@ -327,6 +333,8 @@ class Decision {
 
   void add_points(const FeatureId& moving, const FeatureId& fixed, const Vec3& p, const Vec3& q,
                   const Vec3& u, double gap) {
+    LMDBENCH_EXPECTS(is_unit(u), "points at one place: their direction is asked for where there is none");
+    LMDBENCH_EXPECTS(gap <= tolerance_.reach, "a condition that lets pairs beyond the cutoff through");
     Contact& contact = found_.contacts.emplace_back();
     contact.moving = moving;
     contact.fixed = fixed;
@@ -370,6 +378,8 @@ FeatureId shape_feature(const ShapeSide& side, const FeatureId& lead) {
 }  // namespace
 
 void decide(const ShapePair& pair, const FeatureId& on_moving, const FeatureId& on_fixed, ContactSet& found) {
+  LMDBENCH_EXPECTS(pair.moving.is_moving && !pair.fixed.is_moving, "sides the wrong way round");
+  LMDBENCH_EXPECTS(on_moving.index >= 0 && on_fixed.index >= 0, "a pair of an empty lane");
   const FeatureId f = shape_feature(pair.moving, on_moving), g = shape_feature(pair.fixed, on_fixed);
   if (f.index < 0 || g.index < 0) return;
   Decision decision(pair, found);

@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/base/contract.h>
 #include <lmdbench/lmd/corner_groups.h>
 #include <lmdbench/lmd/intersections.h>
 #include <lmdbench/lmd/nearer_piece.h>
@@ -107,6 +108,9 @@ void append_contacts(const Scene& scene, std::vector<Intersection>& intersection
     contacts[contact_of[i]].add(intersections[i]);
   }
   for (CrossingContact& contact : contacts) contact.centroid /= contact.measure;
+  LMDBENCH_ENSURES(
+      std::ranges::all_of(contacts, [](const CrossingContact& c) { return c.centroid.allFinite(); }),
+      "pieces without a measure");
   for (std::size_t i = 0; i < intersections.size(); ++i) contacts[contact_of[i]].name(intersections[i]);
 
   for (const CrossingContact& contact : contacts) {

@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/base/contract.h>
 #include <lmdbench/lmd/lmd.h>
 
 #include <tuple>
@@ -18,6 +19,8 @@ bool same_feature_pair(const Lmd& a, const Lmd& b) {
 }
 
 double minimum_distance(const LmdSet& lmds) {
+  LMDBENCH_EXPECTS(std::ranges::none_of(lmds, [](const Lmd& lmd) { return lmd.distance < 0.0; }),
+                   "a signed gap in place of a distance");
   double minimum = std::numeric_limits<double>::quiet_NaN();
   for (const Lmd& lmd : lmds)
     if (!(lmd.distance >= minimum)) minimum = lmd.distance;

@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/base/contract.h>
 #include <lmdbench/geometry/point_triangle.h>
 #include <lmdbench/geometry/segment_distance.h>
 #include <lmdbench/geometry/triangle_distance.h>
@@ -109,6 +110,8 @@ std::size_t MergeFinder::descend(const RigidTransform& X_WM, const CriticalSet& 
 }
 
 void MergeFinder::find(const Pose& pose, const CriticalSet& critical, std::vector<Merge>& merges) {
+  LMDBENCH_EXPECTS(std::ranges::is_sorted(critical, lmd_less, &CriticalPair::pair),
+                   "a set that was not sorted (sort_critical)");
   merges.clear();
   const auto minima = std::ranges::count_if(critical, [](const CriticalPair& c) { return c.is_basin; });
   if (minima < 2) return;

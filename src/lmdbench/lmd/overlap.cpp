@@ -1,6 +1,8 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/base/contract.h>
 #include <lmdbench/geometry/point_triangle.h>
+#include <lmdbench/geometry/unit_vector.h>
 #include <lmdbench/lmd/overlap.h>
 
 #include <Eigen/LU>
@@ -90,6 +92,7 @@ constexpr std::size_t FEW_PIECES = 16;
 std::vector<OverlapPart> overlap_of_regions(const ShapeSide& moving, std::int32_t region_moving,
                                             const ShapeSide& fixed, std::int32_t region_fixed,
                                             const PlanarFrame& frame_W, double rounding) {
+  LMDBENCH_EXPECTS(rounding >= 0.0, "a tolerance that is negative or not a number");
   const PlacedRegion a(moving, region_moving, frame_W), b(fixed, region_fixed, frame_W);
   const PlacedRegion &few = a.size() <= b.size() ? a : b, &many = a.size() <= b.size() ? b : a;
   std::vector<PolygonSide> of_few, of_many;
@@ -114,6 +117,7 @@ std::vector<OverlapPart> overlap_of_regions(const ShapeSide& moving, std::int32_
     }
     if (!(part.area > 0.0)) continue;
     part.centroid /= part.area;
+    LMDBENCH_ENSURES(part.centroid.allFinite(), "an area below the smallest number that has an inverse");
     part.pieces = std::move(shared);
     parts.push_back(std::move(part));
   }
@@ -122,6 +126,7 @@ std::vector<OverlapPart> overlap_of_regions(const ShapeSide& moving, std::int32_
 
 PlanarFrame frame_of_overlap(const ShapeSide& moving, std::int32_t region_moving, const ShapeSide& fixed,
                              std::int32_t region_fixed, const Vec3& point, const Vec3& n) {
+  LMDBENCH_EXPECTS(is_unit(n), "a direction that was not normalised");
   const auto pieces = [](const ShapeSide& side, std::int32_t region) {
     const RegionShape* shape = side.shape.shapes.of_region(region);
     return shape == nullptr ? std::size_t{0} : shape->pieces.size();

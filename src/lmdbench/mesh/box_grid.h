@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <lmdbench/base/contract.h>
 #include <lmdbench/geometry/convex_polygon.h>
 #include <lmdbench/mesh/csr_rows.h>
 
@@ -25,6 +26,7 @@ class BoxGrid {
   /// @return whether visit never returned false
   template <class Visit>
   bool for_each_near(const Box2& box, double reach, Visit&& visit) const {
+    LMDBENCH_EXPECTS(reach >= 0.0, "a tolerance that is negative or not a number");
     const auto [x0, y0] = cell_of(box.low - Vec2::Constant(reach));
     const auto [x1, y1] = cell_of(box.high + Vec2::Constant(reach));
     for (int y = y0; y <= y1; ++y)
@@ -44,6 +46,7 @@ class BoxGrid {
   /// and for some more than once.
   template <class Visit>
   void for_each_near(const Vec2& a, const Vec2& b, double reach, Visit&& visit) const {
+    LMDBENCH_EXPECTS(reach >= 0.0, "a tolerance that is negative or not a number");
     Box2 all;
     all.add(a);
     all.add(b);

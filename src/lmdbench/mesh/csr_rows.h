@@ -2,6 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <lmdbench/base/contract.h>
+
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <numeric>
@@ -18,7 +21,11 @@ class CsrRows {
 
   /// @param offsets one more than rows, ascending, from 0 to the number of items
   CsrRows(std::vector<std::int32_t> offsets, std::vector<std::int32_t> items)
-      : offsets_(std::move(offsets)), items_(std::move(items)) {}
+      : offsets_(std::move(offsets)), items_(std::move(items)) {
+    LMDBENCH_EXPECTS(!offsets_.empty() && offsets_.front() == 0 && std::ranges::is_sorted(offsets_) &&
+                         static_cast<std::size_t>(offsets_.back()) == items_.size(),
+                     "offsets that were not summed up, or are one short");
+  }
 
   /// Groups `pairs` of (row, item) into `row_count` rows; within a row items keep the order of `pairs`.
   CsrRows(std::int32_t row_count, std::span<const std::pair<std::int32_t, std::int32_t>> pairs)
@@ -31,6 +38,8 @@ class CsrRows {
   }
 
   std::span<const std::int32_t> operator[](std::int32_t row) const {
+    LMDBENCH_EXPECTS(row >= 0 && row < row_count(),
+                     "an index of another kind of feature, or of another mesh");
     const auto begin = static_cast<std::size_t>(offsets_[static_cast<std::size_t>(row)]);
     const auto end = static_cast<std::size_t>(offsets_[static_cast<std::size_t>(row) + 1]);
     return {items_.data() + begin, end - begin};

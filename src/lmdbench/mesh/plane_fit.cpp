@@ -1,5 +1,7 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/base/contract.h>
+#include <lmdbench/geometry/unit_vector.h>
 #include <lmdbench/mesh/plane_fit.h>
 
 #include <Eigen/Eigenvalues>
@@ -10,6 +12,7 @@
 namespace lmdbench {
 
 FittedPlane fit_plane(std::span<const Vec3> points, const Vec3& towards) {
+  LMDBENCH_ALWAYS(!points.empty(), "a region without triangles");
   const double count = static_cast<double>(points.size());
   // From the first point, so that far coordinates cost no digits.
   Vec3 sum = Vec3::Zero();
@@ -36,6 +39,7 @@ FittedPlane fit_plane(std::span<const Vec3> points, const Vec3& towards) {
   fit.plane.normal.normalize();
   if (fit.plane.normal.dot(towards) < 0.0) fit.plane.normal = -fit.plane.normal;
   fit.breadth = std::sqrt(squared_narrow / count);
+  LMDBENCH_ENSURES(is_unit(fit.plane.normal), "points whose spread under- or overflows");
   return fit;
 }
 

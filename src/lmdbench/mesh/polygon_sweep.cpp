@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/base/contract.h>
 #include <lmdbench/mesh/polygon_sweep.h>
 
 #include <boost/pending/disjoint_sets.hpp>
@@ -49,6 +50,7 @@ class Sweep {
  public:
   Sweep(std::array<std::span<const PolygonSide>, 2> polygons, double tolerance)
       : owners_(polygons[1].empty() ? 1 : 2), tolerance_(tolerance) {
+    LMDBENCH_EXPECTS(tolerance >= 0.0, "a tolerance that is negative or not a number");
     for (std::size_t owner = 0; owner < owners_; ++owner)
       for (const PolygonSide& side : polygons[owner]) {
         heights_.push_back(side.from[1]);

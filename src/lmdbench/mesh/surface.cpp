@@ -1,6 +1,8 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/base/contract.h>
 #include <lmdbench/base/parallel.h>
+#include <lmdbench/geometry/unit_vector.h>
 #include <lmdbench/mesh/surface.h>
 #include <lmdbench/mesh/triangle_normal.h>
 
@@ -29,6 +31,7 @@ void derive_normals(Surface& surface) {
   for_each_index(mesh.triangles.size(), [&](std::size_t t) {
     const Triangle corners = mesh.triangle(static_cast<std::int32_t>(t));
     surface.face_normals[t] = triangle_normal(corners);
+    LMDBENCH_ENSURES(is_unit_or_zero(surface.face_normals[t]), "coordinates beyond what import lets through");
     angles[t] = corner_angles(corners);
   });
   surface.vertex_pseudo_normals.resize(mesh.vertices.size());
@@ -42,6 +45,8 @@ void derive_normals(Surface& surface) {
         if (mesh.triangles[t][k] == vertex) sum += angles[t][k] * surface.face_normals[t];
     }
     surface.vertex_pseudo_normals[v] = sum.stableNormalized();
+    LMDBENCH_ENSURES(is_unit_or_zero(surface.vertex_pseudo_normals[v]),
+                     "a corner angle that is not a number");
   });
 }
 
@@ -92,6 +97,8 @@ std::size_t bytes_of(const std::vector<bool>& flags) {
 }  // namespace
 
 FeatureId Surface::feature_of(std::int32_t triangle, TriangleFeature part) const {
+  LMDBENCH_EXPECTS(triangle >= 0 && static_cast<std::size_t>(triangle) < mesh.triangles.size(),
+                   "a triangle of the other mesh");
   const auto t = static_cast<std::size_t>(triangle);
   const auto k = static_cast<std::size_t>(local_index(part));
   if (is_vertex(part)) return {FeatureKind::VERTEX, mesh.triangles[t][k]};
@@ -100,6 +107,7 @@ FeatureId Surface::feature_of(std::int32_t triangle, TriangleFeature part) const
 }
 
 TriangleList Surface::incident_triangles(const FeatureId& feature) const {
+  LMDBENCH_EXPECTS(feature.index >= 0, "a feature that was never set");
   switch (feature.kind) {
     case FeatureKind::VERTEX:
       return TriangleList(adjacency.vertex_triangles[feature.index]);

@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/base/contract.h>
 #include <lmdbench/base/error.h>
 #include <lmdbench/base/limits.h>
 #include <lmdbench/motion/interpolate.h>
@@ -20,6 +21,7 @@ namespace {
 /// its two neighbours; at the ends, that of the outermost such parabola.
 std::vector<Vec3> parabola_slopes(const std::vector<double>& steps, const std::vector<Vec3>& secants) {
   const std::size_t count = secants.size() + 1;
+  LMDBENCH_EXPECTS(steps.size() == secants.size() || secants.empty(), "parallel arrays of unlike lengths");
   if (secants.size() < 2)
     return std::vector<Vec3>(count, secants.empty() ? Vec3(Vec3::Zero()) : secants.front());
   std::vector<Vec3> slopes(count);

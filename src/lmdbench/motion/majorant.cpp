@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/base/contract.h>
 #include <lmdbench/motion/majorant.h>
 
 #include <algorithm>
@@ -22,6 +23,8 @@ constexpr std::array<Share, 3> PASSES = {{{0.6, 0.4}, {0.2, 0.3}, {0.2, 0.3}}};
 /// Drop below a sample after `time`: braking parabola up to full speed, then a straight line; its curvature
 /// is at most the acceleration.
 double cap_drop(double time, const MotionLimits& limits) {
+  LMDBENCH_EXPECTS(time >= 0.0 && limits.speed > 0.0 && limits.acceleration > 0.0,
+                   "limits that were not checked (path_spec.h)");
   const double time_to_full_speed = limits.speed / limits.acceleration;
   if (time <= time_to_full_speed) return 0.5 * limits.acceleration * time * time;
   return limits.speed * (time - 0.5 * time_to_full_speed);

@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/base/contract.h>
 #include <lmdbench/force/aggregation.h>
 #include <lmdbench/force/wrench_sum.h>
 
@@ -29,6 +30,9 @@ class Sharing {
 
   Wrench run() {
     const CriticalSet& critical = input_.critical;
+    LMDBENCH_EXPECTS(std::ranges::is_sorted(input_.merges, {},
+                                            [&](const Merge& m) { return critical[m.saddle].pair.distance; }),
+                     "merges that are not sorted by the distance of their saddles");
     component_of_.assign(critical.size(), NONE);
     share_.assign(critical.size(), 1.0);
     for (std::size_t i = 0; i < critical.size(); ++i) {
@@ -70,6 +74,7 @@ class Sharing {
     advance(first, saddle.distance);
     advance(second, saddle.distance);
     const double mass = first.mass + second.mass;
+    LMDBENCH_EXPECTS(mass >= 0.0, "merges that are not sorted by the distance of their saddles");
     // Of two that are born at the saddle itself neither is longer.
     const double part = mass > 0.0 ? first.mass / mass : 0.5;
     const Vec3 before = direction_of(first) + direction_of(second);

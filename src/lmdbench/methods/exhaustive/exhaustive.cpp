@@ -1,8 +1,10 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/base/contract.h>
 #include <lmdbench/geometry/triangle_distance.h>
 #include <lmdbench/lmd/join_contacts.h>
 #include <lmdbench/lmd/search_counters.h>
+#include <lmdbench/lmd/well_formed.h>
 #include <lmdbench/mesh/feature_corners.h>
 #include <lmdbench/methods/exhaustive/exhaustive.h>
 
@@ -132,6 +134,7 @@ void Exhaustive::search(const Pose& X_WM, LmdSet& lmds, WorkCounters& counters) 
       });
   append_contacts(scene_, intersections_, lmds);
   std::sort(lmds.begin(), lmds.end(), lmd_less);
+  LMDBENCH_ENSURES(is_well_formed(lmds, scene_), "a contact whose point or name is of another place");
 }
 
 void Exhaustive::find_critical(const Pose& X_WM, CriticalSet& critical, WorkCounters& counters) {

@@ -1,9 +1,11 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/base/contract.h>
 #include <lmdbench/geometry/triangle_distance.h>
 #include <lmdbench/lmd/local_tracking.h>
 #include <lmdbench/lmd/search_counters.h>
 #include <lmdbench/lmd/triangle_pair.h>
+#include <lmdbench/lmd/well_formed.h>
 #include <lmdbench/methods/improved/improved.h>
 #include <lmdbench/methods/improved/visibility.h>
 
@@ -70,6 +72,7 @@ void Improved::search(const Pose& X_WM, LmdSet& lmds, WorkCounters& counters) {
   for (std::size_t body = 0; body < scene_.fixed.size(); ++body)
     search_body(transform, static_cast<std::int32_t>(body), lmds, counters);
   std::sort(lmds.begin(), lmds.end(), lmd_less);
+  LMDBENCH_ENSURES(is_well_formed(lmds, scene_), "a pair of triangles named after features of others");
 }
 
 void Improved::visit_leaves(const RigidTransform& X_WM, std::int32_t fixed_body, std::int32_t t_moving,

@@ -1,7 +1,9 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/base/contract.h>
 #include <lmdbench/lmd/local_tracking.h>
 #include <lmdbench/lmd/search_counters.h>
+#include <lmdbench/lmd/well_formed.h>
 #include <lmdbench/methods/original/feature_points.h>
 #include <lmdbench/methods/original/original.h>
 
@@ -84,6 +86,7 @@ void Original::search(const Pose& X_WM, LmdSet& lmds, WorkCounters& counters) {
   for (std::size_t body = 0; body < scene_.fixed.size(); ++body)
     search_body(transform, static_cast<std::int32_t>(body), lmds, counters);
   drop_duplicates(lmds, options_.merge_duplicates, counters);
+  LMDBENCH_ENSURES(is_well_formed(lmds, scene_), "a pair of triangles named after features of others");
 }
 
 void Original::search_body(const RigidTransform& X_WM, std::int32_t fixed_body, LmdSet& lmds,

@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/base/contract.h>
 #include <lmdbench/methods/certified/coherence/certificate_queue.h>
 
 #include <algorithm>
@@ -42,6 +43,7 @@ std::uint32_t CertificateQueue::add() {
 }
 
 void CertificateQueue::drop(std::uint32_t index) {
+  LMDBENCH_EXPECTS(index < budgets_.size() && count() > 0, "a thing dropped twice");
   by_frame_.remove(index);
   by_epoch_.remove(index);
   if (place_in_next_[index] != NONE) next_[place_in_next_[index]] = NONE;
@@ -51,6 +53,9 @@ void CertificateQueue::drop(std::uint32_t index) {
 
 void CertificateQueue::plan(std::uint32_t index, double frames, double deviation_budget,
                             const MotionForecast& forecast) {
+  LMDBENCH_EXPECTS(index < budgets_.size(), "a thing of another queue");
+  LMDBENCH_EXPECTS(!std::isnan(frames) && !std::isnan(deviation_budget),
+                   "a certificate whose slack or gradient is not a number");
   const double whole = std::clamp(frames * (1.0 - FRAME_ROUNDING), 0.0, forecast.longest_plan());
   if (whole < 1.0) {
     plan_next(index);

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <lmdbench/base/contract.h>
 #include <lmdbench/methods/certified/coherence/index_lists.h>
 #include <lmdbench/methods/certified/coherence/motion_forecast.h>
 
@@ -29,12 +30,14 @@ class CertificateQueue {
   /// @param deviation_budget deviation that it stands [m]
   void plan(std::uint32_t index, double frames, double deviation_budget, const MotionForecast& forecast);
   void plan_now(std::uint32_t index, const MotionForecast& forecast) {
+    LMDBENCH_EXPECTS(index < budgets_.size(), "a thing of another queue");
     by_frame_.move_to(index, forecast.frame() % FRAMES);
   }
 
   /// In the next frame, whatever the motion.
   /// @pre not planned yet, or collected or dropped since
   void plan_next(std::uint32_t index) {
+    LMDBENCH_EXPECTS(place_in_next_[index] == NONE, "planned twice: it would be decided twice");
     place_in_next_[index] = static_cast<std::uint32_t>(next_.size());
     next_.push_back(index);
   }

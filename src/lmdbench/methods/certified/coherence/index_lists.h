@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <lmdbench/base/contract.h>
+
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -26,6 +28,8 @@ class IndexLists {
   }
   /// Moves an index to the front of a list.
   void move_to(std::uint32_t index, std::uint32_t list) {
+    LMDBENCH_EXPECTS(list < list_count_ && index + list_count_ < links_.size(),
+                     "an index that was never added");
     remove(index);
     const std::uint32_t link = index + list_count_, after = links_[list].next;
     links_[link] = {after, list};
@@ -33,6 +37,7 @@ class IndexLists {
     links_[list].next = link;
   }
   void remove(std::uint32_t index) {
+    LMDBENCH_EXPECTS(index + list_count_ < links_.size(), "an index that was never added");
     const std::uint32_t link = index + list_count_;
     const Link old = links_[link];
     links_[old.next].previous = old.previous;

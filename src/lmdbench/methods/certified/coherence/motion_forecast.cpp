@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/base/contract.h>
 #include <lmdbench/methods/certified/coherence/motion_forecast.h>
 
 #include <algorithm>
@@ -41,6 +42,7 @@ constexpr double SINGLE_ROUNDING = 1e-5;
 }  // namespace
 
 void MotionForecast::reset(const RigidTransform& X_WH, double radius, double cutoff) {
+  LMDBENCH_EXPECTS(radius >= 0.0 && cutoff > 0.0, "a mesh without extent is searched from scratch");
   radius_ = radius;
   cutoff_ = cutoff;
   reach_ = 2.0 * (radius + cutoff);
@@ -55,6 +57,7 @@ void MotionForecast::reset(const RigidTransform& X_WH, double radius, double cut
 }
 
 double MotionForecast::deviation_of(const Epoch& epoch, const RigidTransform& X_WH) const {
+  LMDBENCH_EXPECTS(frame_ >= epoch.start, "an epoch of before the last reset");
   const double tau = frame_ - epoch.start;
   const Mat3 turned = X_WH.rotation - epoch.X_WH.rotation;
   const double rest = (turned - tau * (epoch.turn + 0.5 * tau * epoch.curve)).norm();
@@ -107,9 +110,11 @@ void MotionForecast::start_epoch(const RigidTransform& X_WH) {
   spin_ = ANGLE_ROUNDING / std::numbers::sqrt2 * (turn + frames * curve) * (1.0 + SINGLE_ROUNDING);
   horizon_ = std::min({LARGEST_HORIZON, HORIZON_CUTOFFS * cutoff_ / std::max(speed, LEAST),
                        HORIZON_TURN / std::max(spin_, LEAST)});
+  LMDBENCH_ENSURES(longest_plan_ >= 0.0 && creep_ >= 0.0 && spin_ >= 0.0, "a pose that is not a rotation");
 }
 
 void MotionForecast::advance(const RigidTransform& X_WH, double rounding) {
+  LMDBENCH_EXPECTS(rounding >= 0.0, "a rounding that is negative or not a number");
   ++frame_;
   started_ = false;
   early_ *= MEMORY;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <utility>
 
 namespace lmdbench {
 
@@ -38,7 +39,7 @@ std::uint32_t TraversalFront::add_record(const Work& work, std::uint32_t slot_a,
     pairs_[index] = pair;
     records_[index] = Record{};
   }
-  records_[index].in_use = true;
+  records_[index].in_use = records_[index].is_requested = true;
   requested_.push_back(index);
   return index;
 }
@@ -158,13 +159,16 @@ void TraversalFront::apply(const Work& work, const WideKeptTest& test) {
 
 void TraversalFront::make_requested_tests(const Work& work) {
   while (!requested_.empty()) {
+    // A place that was dropped and given to another pair while it waited is in the list twice.
+    std::erase_if(requested_, [&](std::uint32_t index) {
+      return !records_[index].in_use || !std::exchange(records_[index].is_requested, false);
+    });
     test_batch(work.a, work.b, work.query, work.forecast, pairs_, requested_, tests_);
     requested_.clear();
     for (const WideKeptTest& test : tests_) {
-      // An earlier test of this batch may have dropped the pair, and given its place to another.
-      const WideKeptPair& pair = pairs_[test.pair];
-      if (records_[test.pair].in_use && pair.slot_a == test.slot_a && pair.slot_b == test.slot_b)
-        apply(work, test);
+      // An earlier test of this batch may have dropped the pair, and given its place to another, whose test comes in the next batch.
+      const Record& record = records_[test.pair];
+      if (record.in_use && !record.is_requested) apply(work, test);
     }
   }
 }
@@ -182,6 +186,7 @@ void TraversalFront::advance(const WideHierarchy& a, const WideHierarchy& b, con
                              const MotionForecast& motion, const RigidTransform& X_BA, double cutoff,
                              WideCounters& counters) {
   test_queue_.collect(motion, requested_);
+  for (const std::uint32_t index : requested_) records_[index].is_requested = true;
   make_requested_tests({a, b, query, motion, WideForecast(motion, X_BA, cutoff), counters});
 }
 

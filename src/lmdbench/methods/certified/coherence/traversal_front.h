@@ -77,6 +77,7 @@ class TraversalFront {
   /// What a test let through.
   struct Record {
     bool in_use = false;
+    bool is_requested = false;       ///< Its test is to be made in this frame.
     std::uint32_t opened_lanes = 0;  ///< Lanes that have a record in `below`.
     std::uint32_t lmd_lanes = 0;     ///< Lanes that have a leaf in `below`.
     std::uint32_t touch_lanes = 0;   ///< Lanes that have a leaf in `touching`.

@@ -198,8 +198,6 @@ void batch_on_target(const WideHierarchy& a, const WideHierarchy& b, const WideQ
     const WideLifetimes result = test_lifetime<VectorLanes>(node, probe, query.limits, forecast, lifetime);
     const std::uint32_t final_lanes = pair.child.ref.is_feature() ? kinds.features : 0u;
     tests[i] = {due[i],
-                pair.slot_a,
-                pair.slot_b,
                 result.used,
                 (result.lmd | result.touch) & ~final_lanes,
                 result.lmd & final_lanes,

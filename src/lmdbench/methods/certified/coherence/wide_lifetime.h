@@ -107,7 +107,6 @@ struct alignas(64) WideKeptPair {
 /// Result of such a test. Lanes with final pairs are those where both children are features.
 struct WideKeptTest {
   std::uint32_t pair;  ///< Index of the kept pair.
-  std::uint32_t slot_a, slot_b;
   std::uint32_t used, opened, lmd, touch;
   float frames, deviation_budget;
 };

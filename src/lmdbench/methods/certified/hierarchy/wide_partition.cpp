@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/base/contract.h>
 #include <lmdbench/base/parallel.h>
 #include <lmdbench/mesh/feature_corners.h>
 #include <lmdbench/mesh/shape_complex.h>
@@ -64,6 +65,7 @@ class Partition {
   using Places = std::span<Place>;
 
   void divide(Places places) {
+    LMDBENCH_EXPECTS(!places.empty(), "a division that leaves a child empty");
     const WideDivision division(places.size(), options_);
     if (division.unit == 1) {
       std::sort(places.begin(), places.end(), [](const Place& a, const Place& b) { return a.item < b.item; });
@@ -80,6 +82,7 @@ class Partition {
     }
     const std::size_t left_units = (units + 1) / 2;
     const std::size_t middle = left_units * unit;
+    LMDBENCH_EXPECTS(middle < places.size(), "units that were not counted from this set");
     select(places, middle);
     const auto left = [&] { bisect(places.first(middle), unit, left_units); };
     const auto right = [&] { bisect(places.subspan(middle), unit, units - left_units); };

@@ -1,0 +1,48 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/geometry/unit_vector.h>
+#include <lmdbench/lmd/well_formed.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+
+namespace lmdbench {
+
+namespace {
+
+/// Relative to the coordinates: above what points far from the origin lose (near_frame.h), far below any distance that is reported.
+constexpr double DISTANCE_ROUNDING = 1e-9;
+
+bool holds_feature(const Surface& surface, std::int32_t triangle, const FeatureId& feature) {
+  if (triangle < 0 || static_cast<std::size_t>(triangle) >= surface.mesh.triangles.size() ||
+      feature.index < 0)
+    return false;
+  const auto& triangles = surface.incident_triangles(feature);
+  return std::ranges::find(triangles, triangle) != triangles.end();
+}
+
+bool is_well_formed(const Lmd& lmd, const Scene& scene) {
+  if (lmd.fixed_body < 0 || static_cast<std::size_t>(lmd.fixed_body) >= scene.fixed.size()) return false;
+  const Surface &moving = scene.moving->surface(),
+                &fixed = scene.fixed[static_cast<std::size_t>(lmd.fixed_body)]->surface();
+  if (!holds_feature(moving, lmd.triangle_moving, lmd.feature_moving) ||
+      !holds_feature(fixed, lmd.triangle_fixed, lmd.feature_fixed))
+    return false;
+  if (!(lmd.distance >= 0.0)) return false;
+  if (lmd.distance > 0.0 && !is_unit(lmd.direction)) return false;
+  const double coordinates =
+      std::max(lmd.point_moving.cwiseAbs().maxCoeff(), lmd.point_fixed.cwiseAbs().maxCoeff());
+  const double apart = (lmd.point_fixed - lmd.point_moving).norm();
+  return std::abs(apart - lmd.distance) <= DISTANCE_ROUNDING * (coordinates + lmd.distance);
+}
+
+}  // namespace
+
+bool is_well_formed(const LmdSet& lmds, const Scene& scene) {
+  return std::ranges::is_sorted(lmds, lmd_less) &&
+         std::ranges::all_of(lmds, [&](const Lmd& lmd) { return is_well_formed(lmd, scene); });
+}
+
+}  // namespace lmdbench
