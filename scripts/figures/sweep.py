@@ -21,7 +21,7 @@ from matplotlib.lines import Line2D
 from matplotlib.ticker import FixedLocator, FuncFormatter, NullFormatter
 
 MARKERS = ("o", "s", "D", "^", "v", "P", "X", "<")
-BUDGETS_MS = (3.0, 5.0, 10.0, 20.0, 50.0, 100.0, 200.0, 500.0)  # processor time of a second of haptics
+BUDGETS_MS = (3.0, 5.0, 10.0, 20.0, 50.0, 100.0, 200.0, 500.0)  # run time of a second of haptics
 MOST_COLUMNS = 3  # problems beside each other; more stand below
 MOST_PANELS = 24  # problems in one figure; the tables hold all
 LANE = 0.35  # height of the lanes for errors of 0 and for failures, in decades
@@ -180,11 +180,11 @@ def draw(sweep):
                     axes.set_ylabel(label)
             if problem is not None:
                 grid[0][column].set_title(panel_titles[problem], loc="left", fontsize=8)
-                grid[-1][column].set_xlabel("processor time [ms/s]")
+                grid[-1][column].set_xlabel("run time [ms/s]")
     keys = [Line2D([], [], color=colours[series], marker=markers[series], ms=4.2, mec="white", mew=0.4, lw=0.8, label=series)
             for series in sweep.series]
     keys.append(Line2D([], [], color=style.PALE_GREY, lw=3, label="Pareto front"))
-    figure.text(0.085, 1 - 0.18 / height, "Error against processor time of a second in contact" + (f"; labels: {', '.join(axis_names(sweep))}" if axis_names(sweep) else ""), fontsize=7.5, fontweight="bold")
+    figure.text(0.085, 1 - 0.18 / height, "Error against run time of a second in contact" + (f"; labels: {', '.join(axis_names(sweep))}" if axis_names(sweep) else ""), fontsize=7.5, fontweight="bold")
     style.note_failures(figure, {f"{point.text()} in {point.problem}": point.trouble for point in sweep.points if point.trouble})
     figure.legend(handles=keys, loc="upper left", bbox_to_anchor=(0.075, 1 - 0.23 / height), ncol=6, handlelength=1.8, columnspacing=1.4,
                   borderpad=0.1)
@@ -213,7 +213,7 @@ def budget_table(sweep):
 
 
 def crossings(sweep, cheaper="improved", reference="certified"):
-    rows = ["| problem | processor time: every ... frames | median frame: every ... frames | force error there [% of F_max] "
+    rows = ["| problem | run time: every ... frames | median frame: every ... frames | force error there [% of F_max] "
             "| recall there [%] |", "|---|---|---|---|---|"]
     for problem in sweep.problems:
         exact = next((point for point in sweep.of(problem=problem, series=reference) if not point.trouble), None)
@@ -235,7 +235,7 @@ def a_second(point, *names):
 
 
 COLUMNS = (
-    ("processor time [ms/s]", cost),
+    ("run time [ms/s]", cost),
     ("frame, median [us]", lambda p: 1e6 * p.number("frame_time_median_s")),
     ("99 % [us]", lambda p: 1e6 * p.number("frame_time_p99_s")),
     ("largest [us]", lambda p: 1e6 * p.number("frame_time_maximum_s")),
@@ -279,7 +279,7 @@ def load(sweep):
     if not average > processors:
         return ""
     return (f" The machine was under load (average {average:.1f} on {processors:g} processors): errors and counts do not "
-            "depend on it, medians little; processor times, 99th percentiles and largest times hold some of it.")
+            "depend on it, medians little; run times, 99th percentiles and largest times hold some of it.")
 
 
 MEAN_EDGES = {"bunny-16k": 0.0128, "armadillo": 0.0068}  # of the diagonal: `lmdbench mesh info`
@@ -310,7 +310,7 @@ def markdown(sweep, picture):
     if picture:
         text += [f"![Error against run time]({picture})", ""]
     text += ["## Which method at which budget", "",
-              "Least RMS force error [% of F_max of one LMD] within so much processor time of a second in contact, searches included:", "",
+              "Least RMS force error [% of F_max of one LMD] within so much run time of a second in contact, searches included:", "",
               *budget_table(sweep), ""]
     table = crossings(sweep)
     if len(table) > 2:
@@ -318,7 +318,7 @@ def markdown(sweep, picture):
                   "The rarer its searches, the cheaper `improved` is and the older its sets. It costs less than `certified` where it "
                   "searches more rarely than every", "", *table, ""]
     for problem in sweep.problems:
-        text += [f"## {problem}", "", f"{cutoff_text(sweep.of(problem=problem)[0])} Bold: on the Pareto front of force error and processor time.", "", *point_table(sweep, problem), ""]
+        text += [f"## {problem}", "", f"{cutoff_text(sweep.of(problem=problem)[0])} Bold: on the Pareto front of force error and run time.", "", *point_table(sweep, problem), ""]
     return "\n".join(text)
 
 

@@ -50,7 +50,7 @@ def entry(figure, folder, name, title, text, table=""):
 
 def sweep_entry(sweep, folder):
     """Figure and answer of a sweep: which method at which budget, and where one gets cheaper than the other."""
-    tables = ["Least RMS force error [% of F_max of one LMD] within so much processor time of a second in contact, searches included:",
+    tables = ["Least RMS force error [% of F_max of one LMD] within so much run time of a second in contact, searches included:",
               "", *sweep_figure.budget_table(sweep), ""]
     crossing = sweep_figure.crossings(sweep)
     if len(crossing) > 2:

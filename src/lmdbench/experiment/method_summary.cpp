@@ -114,7 +114,7 @@ constexpr std::array NUMBERS = {
                   "global search in contact with its first reduction, 99th percentile",
                   &M::search_with_reduction_p99_s},
     SummaryNumber{"frame_time_median_s", "s",
-                  "processor time of a frame in contact, its share of the searches in it, median",
+                  "run time of a frame in contact, its share of the searches in it, median",
                   &M::frame_time_median_s},
     SummaryNumber{"frame_time_p99_s", "s", "the same, 99th percentile", &M::frame_time_p99_s},
     SummaryNumber{"frame_time_maximum_s", "s", "the same, longest", &M::frame_time_maximum_s},

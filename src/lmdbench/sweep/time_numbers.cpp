@@ -16,7 +16,7 @@ using T = TimeNumbers;
 
 constexpr std::array TIME_NUMBERS = {
     TimeNumber{"processor_share", "1",
-               "processor time of a second in contact, local updates and searches [s/s]",
+               "run time of a second in contact, local updates and searches [s/s]",
                &T::processor_share},
     TimeNumber{"local_update_mean_s", "s", "local update of a frame in contact, mean",
                &T::local_update_mean_s},
@@ -28,7 +28,7 @@ constexpr std::array TIME_NUMBERS = {
                &T::local_update_filled_mean_s},
     TimeNumber{"local_update_per_tracked_s", "s",
                "local updates of all frames that carry LMDs / LMDs carried", &T::local_update_per_tracked_s},
-    TimeNumber{"search_share", "1", "share of searches and the trackings after them in the processor time",
+    TimeNumber{"search_share", "1", "share of searches and the trackings after them in the run time",
                &T::search_share},
 };
 

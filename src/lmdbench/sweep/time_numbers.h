@@ -15,13 +15,13 @@ namespace lmdbench {
 /// NaN for what was not measured. Over the frames that count, and the searches that start in one; a frame or search has
 /// the median of its measured repetitions.
 struct TimeNumbers {
-  double processor_share = UNSET;  ///< Processor time / time in contact.
+  double processor_share = UNSET;  ///< Run time (wall clock) / time in contact.
   double local_update_mean_s = UNSET;
   double local_update_empty_median_s = UNSET;   ///< Frames whose set is empty.
   double local_update_filled_median_s = UNSET;  ///< The others.
   double local_update_filled_mean_s = UNSET;
   double local_update_per_tracked_s = UNSET;  ///< Time of all filled frames / LMDs that they carry.
-  double search_share = UNSET;  ///< Of the processor time, in searches and the trackings after them.
+  double search_share = UNSET;  ///< Of the run time, in searches and the trackings after them.
 };
 
 struct TimeNumber {

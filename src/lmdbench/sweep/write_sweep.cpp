@@ -122,7 +122,7 @@ void write_sweep(ResultWriter& writer, const Sweep& sweep, const SweepResult& re
   for (std::size_t i = 0; i < result.points.size(); ++i)
     fronts.push_back(on_front(sweep, result, i) ? 1.0 : 0.0);
   writer.write({"/points/on_front", "1",
-                "1 where no point of the problem has both less force error and less processor time"},
+                "1 where no point of the problem has both less force error and less run time"},
                std::span<const double>(fronts), {fronts.size()});
   column("/points/maximum_force_n", "N", "F_max of one LMD, the scale of force errors",
          [&](const PointResult& point) {
@@ -170,7 +170,7 @@ std::string sweep_text(const Sweep& sweep, const SweepResult& result) {
     if (point.problem != problem) {
       problem = point.problem;
       text += fmt::format(
-          "{}{}: * on the front of force error and processor time; force error in % of F_max\n"
+          "{}{}: * on the front of force error and run time; force error in % of F_max\n"
           "{:<2}{:>9} {:>9} {:>9} {:>5} {:>8} {:>8} {:>7} {:>7}  {}\n",
           text.empty() ? "" : "\n", problem, "", "ms/s", "med us", "99% us", ">1ms", "F rms", "F 99%",
           "recall", "precis", "point");

@@ -15,7 +15,7 @@ namespace lmdbench {
 /// /scenes; the samples that numbers are made from under /samples/INDEX where the sweep keeps them.
 void write_sweep(ResultWriter& writer, const Sweep& sweep, const SweepResult& result);
 
-/// For people: a line a point, scene by scene, by processor time; failed ones last.
+/// For people: a line a point, scene by scene, by run time; failed ones last.
 std::string sweep_text(const Sweep& sweep, const SweepResult& result);
 
 /// JSON array of {"scene", "series", "method", "axes": {place: value}, "failure": text or null, NUMBER: value or null}.
@@ -24,7 +24,7 @@ std::string sweep_json(const Sweep& sweep, const SweepResult& result);
 /// The values of a point's axes: JSON object {place in the experiment: value}.
 nlohmann::ordered_json axes_json(const SweepPoint& point);
 
-/// Whether a point is on the Pareto front of its scene: no other one has both less force error and less processor time.
+/// Whether a point is on the Pareto front of its scene: no other one has both less force error and less run time.
 bool on_front(const Sweep& sweep, const SweepResult& result, std::size_t point);
 
 }  // namespace lmdbench
