@@ -21,7 +21,7 @@ struct TimeNumbers {
   double local_update_filled_median_s = UNSET;  ///< The others.
   double local_update_filled_mean_s = UNSET;
   double local_update_per_tracked_s = UNSET;  ///< Time of all filled frames / LMDs that they carry.
-  double search_share = UNSET;  ///< Of the run time, in searches and the trackings after them.
+  double search_share = UNSET;                ///< Of the run time, in searches and the trackings after them.
 };
 
 struct TimeNumber {
