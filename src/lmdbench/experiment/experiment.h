@@ -45,6 +45,7 @@ struct ForceChoice {
   std::optional<double> saturation_cutoff;  ///< Share of the cutoff.
   double maximum_force_n = 0.0;
   double sharpness = 0.0;
+  std::string aggregation = "sum";  ///< A law of force/aggregation.h.
   bool clip_at_maximum =
       false;  ///< The sum is clipped to F_max of one LMD, where that is below the device's limit.
 

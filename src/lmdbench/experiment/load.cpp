@@ -7,6 +7,7 @@
 #include <lmdbench/experiment/experiment.h>
 #include <lmdbench/experiment/fcl_probe.h>
 #include <lmdbench/experiment/schema.h>
+#include <lmdbench/force/aggregation.h>
 #include <lmdbench/methods/registry.h>
 #include <lmdbench/motion/tum_file.h>
 #include <lmdbench/phantom/device.h>
@@ -62,6 +63,8 @@ ForceChoice force_choice(const Json& entry, const std::string& place, const std:
   force.saturation_cutoff = optional_value<double>(entry, "saturation_cutoff");
   force.maximum_force_n = entry["maximum_force_n"].get<double>();
   force.sharpness = entry["sharpness"].get<double>();
+  force.aggregation =
+      aggregation_named(entry["aggregation"].get<std::string>(), file, place + "/aggregation").name;
   force.clip_at_maximum = entry["clip"] == "maximum";
   if (force.cutoff_m && force.cutoff_diagonal)
     throw UsageError(file, place, "two cutoffs", "give at most one of cutoff_m and cutoff_diagonal");
@@ -101,7 +104,7 @@ MethodChoice method_choice(const Json& entry) {
   MethodChoice choice;
   choice.name = entry["name"].get<std::string>();
   choice.entry = choice.label = entry["label"].get<std::string>();
-  choice.force_law = entry["force_law"] == "linear" ? ForceLaw::LINEAR : ForceLaw::EXPONENTIAL;
+  choice.force_law = force_law_named(entry["force_law"].get<std::string>());
   choice.options_json = entry.dump();
   for (const auto& option : method_description(choice.name).options.items())
     choice.options[option.key()] = entry[option.key()];

@@ -5,6 +5,7 @@
 #include <lmdbench/experiment/experiment.h>
 #include <lmdbench/experiment/pose_source.h>
 #include <lmdbench/experiment/records.h>
+#include <lmdbench/force/aggregation.h>
 #include <lmdbench/force/force_law.h>
 #include <lmdbench/geometry/pose.h>
 #include <lmdbench/lmd/method.h>
@@ -35,6 +36,9 @@ struct LockstepMethod {
   std::string label;
   std::function<std::unique_ptr<Method>()> make;
   ForceProfile profile;
+  /// What becomes of its LMDs; needs a method that finds critical pairs where it is not their sum.
+  const Aggregation* aggregation = &sum_law();
+  Scene scene = {};  ///< For laws that need merges.
 };
 
 /// All that the driver needs to know of the scene.

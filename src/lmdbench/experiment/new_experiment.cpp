@@ -205,8 +205,7 @@ NewExperiment new_experiment(const std::string& moving, const std::string& fixed
   json["methods"] = OrderedJson::array();
   for (const MethodChoice& method : open.methods)
     json["methods"].push_back(
-        {{"name", method.name},
-         {"force_law", method.force_law == ForceLaw::LINEAR ? "linear" : "exponential"}});
+        {{"name", method.name}, {"force_law", std::string(to_string(method.force_law))}});
   json["driver"] = {{"search_every_frames", open.driver.search_every_frames},
                     {"search_latency_frames", open.driver.search_latency_frames},
                     {"repetitions", open.driver.repetitions}};

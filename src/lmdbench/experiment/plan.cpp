@@ -23,9 +23,8 @@ std::string join_labels(const std::vector<std::string>& labels) {
 /// A method of the experiment with its options, with the default beside a value that is another.
 std::string choice_text(const MethodChoice& choice) {
   const MethodDescription& method = method_description(choice.name);
-  std::string text =
-      fmt::format("  {}: {} ({}, force law {})\n", choice.label, method.summary, to_string(method.promise),
-                  choice.force_law == ForceLaw::LINEAR ? "linear" : "exponential");
+  std::string text = fmt::format("  {}: {} ({}, force law {})\n", choice.label, method.summary,
+                                 to_string(method.promise), to_string(choice.force_law));
   for (const auto& [key, value] : choice.options.items()) {
     const Json& standard = method.options[key]["default"];
     text += fmt::format("    {:<34} {}{}\n", key, value.dump(),

@@ -293,6 +293,13 @@ PreparedRun prepare(const Experiment& experiment, const Progress& progress) {
                                  reference_M = prepared.input.reference_M] {
       return std::make_unique<DevicePoses>(loop, path, period, reference_M);
     };
+  for (const MethodChoice& method : experiment.methods) {
+    const std::string& wanted = experiment.profiles[method.profile].aggregation;
+    if (aggregation_of(experiment, method).name != wanted)
+      prepared.warnings.emplace_back(fmt::format(
+          "method {} finds no critical pairs, which the aggregation \"{}\" needs: its LMDs are summed",
+          method.label, wanted));
+  }
   prepare_hierarchies(prepared.scene());
   prepared.starts_touching = touches(prepared.scene(), prepared.input.poses.front());
   if (prepared.starts_touching)
@@ -321,6 +328,13 @@ std::vector<std::filesystem::path> input_files(const Experiment& experiment) {
   return files;
 }
 
+const Aggregation& aggregation_of(const Experiment& experiment, const MethodChoice& method) {
+  const Aggregation& wanted = aggregation_named(experiment.profiles[method.profile].aggregation);
+  const bool can =
+      wanted.needs == AggregationNeeds::MINIMA || method_description(method.name).finds_critical_pairs;
+  return can ? wanted : sum_law();
+}
+
 std::vector<LockstepMethod> lockstep_methods(const Experiment& experiment, const PreparedRun& prepared) {
   std::vector<LockstepMethod> methods;
   for (const MethodChoice& choice : experiment.methods) {
@@ -331,7 +345,7 @@ std::vector<LockstepMethod> lockstep_methods(const Experiment& experiment, const
                        [name = choice.name, options = choice.options, scene = profile.scene] {
                          return make_method(name, scene, options);
                        },
-                       force});
+                       force, &aggregation_of(experiment, choice), profile.scene});
   }
   return methods;
 }

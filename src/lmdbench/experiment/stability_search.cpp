@@ -281,7 +281,7 @@ std::vector<StabilityRow> find_critical_stiffness(const Experiment& experiment, 
     const std::string& name = experiment.profiles[experiment.methods[i].profile].name;
     StabilityRow row = common;
     row.method = experiment.methods[i].entry;
-    row.profile = !name.empty() ? name : method.profile.law == ForceLaw::LINEAR ? "linear" : "exponential";
+    row.profile = !name.empty() ? name : std::string(to_string(method.profile.law));
     Search(experiment, prepared, std::move(method), progress, budget).run(sampled, row);
     rows.push_back(std::move(row));
   }

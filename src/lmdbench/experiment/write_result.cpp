@@ -235,8 +235,7 @@ void write_method(ResultWriter& writer, const Experiment& experiment, const RunR
   writer.attribute(group, "promise", std::string(to_string(method.promise)));
   writer.attribute(group, "tracks_locally", std::int64_t{method.tracks_locally});
   writer.attribute(group, "trackings_after_search", std::int64_t{method.trackings_after_search});
-  writer.attribute(group, "force_law",
-                   std::string(choice.force_law == ForceLaw::LINEAR ? "linear" : "exponential"));
+  writer.attribute(group, "force_law", std::string(to_string(choice.force_law)));
   writer.attribute(group, "options", choice.options_json);
   writer.attribute(group, "result_hash", fmt::format("{:016x}", record.result_hash));
   const Track& track = result.track_of(index);

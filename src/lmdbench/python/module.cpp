@@ -79,12 +79,6 @@ class Search {
   Scene scene_;
 };
 
-ForceLaw force_law(const std::string& name) {
-  if (name == "linear") return ForceLaw::LINEAR;
-  if (name == "exponential") return ForceLaw::EXPONENTIAL;
-  throw UsageError("", "law", fmt::format("'{}' is no force law", name), "choose linear or exponential");
-}
-
 py::tuple forces(const Sets& sets, const ForceProfile& profile, const Points& references) {
   validate_force_profile(profile);
   const std::size_t count = sets.sets.size();
@@ -209,7 +203,7 @@ PYBIND11_MODULE(_lmdbench, module) {
       [](const Sets& sets, const std::string& law, double cutoff, double saturation, double maximum,
          double sharpness, const py::array& references) {
         return forces(sets,
-                      {.law = force_law(law),
+                      {.law = force_law_named(law, "", "law"),
                        .cutoff = cutoff,
                        .saturation_distance = saturation,
                        .maximum_force = maximum,

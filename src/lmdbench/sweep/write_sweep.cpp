@@ -92,9 +92,8 @@ void write_sweep(ResultWriter& writer, const Sweep& sweep, const SweepResult& re
               [](Point p) { return p.problem; });
   write_texts(writer, "series", "label of the series", sweep, [](Point p) { return p.series; });
   write_texts(writer, "method", "method", sweep, [](Point p) { return p.experiment.methods.front().name; });
-  write_texts(writer, "force_law", "force law", sweep, [](Point p) {
-    return std::string(p.experiment.methods.front().force_law == ForceLaw::LINEAR ? "linear" : "exponential");
-  });
+  write_texts(writer, "force_law", "force law", sweep,
+              [](Point p) { return std::string(to_string(p.experiment.methods.front().force_law)); });
   write_texts(writer, "axes", "values of the axes: JSON object {place in the experiment: value}", sweep,
               [](Point p) { return axes_json(p).dump(); });
   write_texts(writer, "experiment", "the point's experiment, resolved: JSON", sweep,
