@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <support/closed_solids.h>
+#include <support/convex_bodies.h>
 #include <support/scenes.h>
 
 #include <cstdlib>
@@ -94,6 +95,76 @@ TEST(CriticalPairs, IndicesAddUpToTheEulerCharacteristics) {
         }
       }
     }
+}
+
+TEST(CriticalPairs, OfConvexBodiesOnEachOtherAreTheOneLmd) {
+  int asked = 0;
+  for (std::uint64_t seed = 0; seed < 40; ++seed) {
+    std::mt19937_64 random(seed);
+    const testing::ConvexBody moving = testing::random_convex_body(random),
+                              fixed = testing::random_convex_body(random);
+    const Scene scene =
+        testing::make_scene(moving.mesh(random() % 2 == 0), fixed.mesh(random() % 2 == 0), 1e3);
+    for (const std::string& name : methods_with_critical_pairs()) {
+      const auto method = make_method(name, scene);
+      std::mt19937_64 poses(seed);
+      for (int k = 0; k < 10; ++k) {
+        const Pose pose = testing::flush_pose(moving, fixed, poses);
+        CriticalSet critical;
+        WorkCounters counters;
+        method->find_critical(pose, critical, counters);
+        // Nearer than the turn at which indices are taken says something they may intersect there.
+        if (critical.empty() || critical.front().pair.distance < 1e-7) continue;
+        ++asked;
+        EXPECT_TRUE(critical.size() == 1 && critical.front().index == 1 && critical.front().is_basin)
+            << name << ", scene " << seed << " pose " << k << "\n"
+            << text(critical);
+      }
+    }
+  }
+  EXPECT_GT(asked, 300);
+}
+
+TEST(CriticalPairs, BordersHaveNoIndex) {
+  const Scene scene = testing::make_scene(make_sphere(0.2, 1), make_patch(1.0, 4, 0.1), 1.0);
+  for (const std::string& name : methods_with_critical_pairs()) {
+    const auto method = make_method(name, scene);
+    CriticalSet critical;
+    LmdSet lmds;
+    WorkCounters counters;
+    for (const Pose& pose :
+         {testing::moved(0.9, 0.05, 0.0), testing::moved(0.7, 0.7, 0.1), testing::moved(0.0, 0.0, 0.5)}) {
+      method->find_critical(pose, critical, counters);
+      method->search(pose, lmds, counters);
+      EXPECT_TRUE(same_bits(minima_of(critical), lmds));
+      ASSERT_FALSE(critical.empty());
+      for (const CriticalPair& pair : critical) {
+        const bool on_border = scene.fixed[0]->surface().is_boundary(pair.pair.feature_fixed);
+        EXPECT_EQ(pair.has_index, !on_border) << name;
+        EXPECT_TRUE(pair.is_minimum || pair.has_index);
+      }
+    }
+  }
+}
+
+TEST(CriticalPairs, OfASphereInACavityOfABoxAddUp) {
+  // The block has a cavity: its solid's characteristic is 2. What is inside sees the cavity alone, as what is outside does not.
+  TriangleMesh cavity = make_sphere(1.0, 1);
+  for (auto& t : cavity.triangles) std::swap(t[1], t[2]);
+  const Scene scene =
+      testing::make_scene(make_blob(0.3, 0.1, 1), merged(cavity, make_box(Vec3::Constant(4.0), 1)), 1e3);
+  for (const std::string& name : methods_with_critical_pairs()) {
+    const auto method = make_method(name, scene);
+    std::mt19937_64 random(3);
+    for (int k = 0; k < 20; ++k) {
+      Pose pose{0.3 * testing::uniform(random) * testing::random_direction(random),
+                testing::random_rotation(random)};
+      CriticalSet critical;
+      WorkCounters counters;
+      method->find_critical(pose, critical, counters);
+      EXPECT_EQ(sum_of_indices(critical), 2) << name << "\n" << text(critical);
+    }
+  }
 }
 
 }  // namespace
