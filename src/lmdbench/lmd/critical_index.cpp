@@ -21,11 +21,37 @@ double beyond_corner(const Vec3& x, const Vec3& v, const Vec3& o) {
   return (x - v).dot(o - v);
 }
 
+using LongVec3 = Eigen::Matrix<long double, 3, 1>;
+
+/// Of edges that are parallel but for GENERIC_TURN what is asked for is the turn times the gap: for a gap of some 1e-6 of the edges that is
+/// the rounding of products of lengths. Where a product in double may have lost its sign it is made again with longer numbers.
+constexpr double LOST_SIGN = 0x1p-44;
+
+template <class Vector>
+auto along_chain_of(const Vector& r, const Vector& a, const Vector& b) {
+  return r.dot(a) * b.squaredNorm() - r.dot(b) * a.dot(b);
+}
+
 /// > 0: d, from v to its foot on a line of another mesh, has a component along the chain from v to o. Also the place of the
 /// common perpendicular's foot beyond v on that chain.
 double along_chain(const Vec3& v, const Vec3& o, const std::array<Vec3, 2>& line) {
   const Vec3 r = line[0] - v, a = o - v, b = line[1] - line[0];
-  return r.dot(a) * b.squaredNorm() - r.dot(b) * a.dot(b);
+  const double value = along_chain_of(r, a, b), size = LOST_SIGN * b.squaredNorm();
+  if (value * value > size * size * r.squaredNorm() * a.squaredNorm()) return value;
+  const LongVec3 from = v.cast<long double>(), start = line[0].cast<long double>();
+  return static_cast<double>(along_chain_of<LongVec3>(start - from, o.cast<long double>() - from,
+                                                      line[1].cast<long double>() - start));
+}
+
+/// Volume that two lines span, > 0 where the second one lies on the side of a x b; r leads from the first line to the second one.
+double orientation_of(const std::array<Vec3, 2>& first, const std::array<Vec3, 2>& second) {
+  const Vec3 a = first[1] - first[0], b = second[1] - second[0], r = second[0] - first[0];
+  const double value = r.dot(a.cross(b)), size = LOST_SIGN * LOST_SIGN * r.squaredNorm();
+  if (value * value > size * a.squaredNorm() * b.squaredNorm()) return value;
+  const LongVec3 start = first[0].cast<long double>(), other = second[0].cast<long double>();
+  const LongVec3 a_long = first[1].cast<long double>() - start,
+                 b_long = second[1].cast<long double>() - other;
+  return static_cast<double>((other - start).dot(a_long.cross(b_long)));
 }
 
 /// > 0: the point x lies on a region's side of one of its chains.
@@ -231,9 +257,8 @@ void SignedPair::chain_chain(std::int32_t c_moving, std::int32_t c_fixed, Contac
   if (!f.has_index || !g.has_index) return;
   const std::array<Vec3, 2> on_moving = ends_of(moving_.shape, c_moving),
                             on_fixed = ends_of(fixed_.shape, c_fixed);
-  const Vec3 a = on_moving[1] - on_moving[0], b = on_fixed[1] - on_fixed[0], r = on_fixed[0] - on_moving[0],
-             product = a.cross(b);
-  const double orientation = r.dot(product), squared = product.squaredNorm();
+  const Vec3 a = on_moving[1] - on_moving[0], b = on_fixed[1] - on_fixed[0], product = a.cross(b);
+  const double orientation = orientation_of(on_moving, on_fixed), squared = product.squaredNorm();
   // First what rejects most: the distance of the lines.
   if (!(orientation * orientation <= reach_ * reach_ * squared) || !(squared > 0.0)) return;
   const double s = along_chain(on_moving[0], on_moving[1], on_fixed),
