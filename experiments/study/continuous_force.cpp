@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <optional>
 
 /// What becomes of the summed force where contacts are born and die, under every law: indices, jumps, work, tessellation, cost.
 /// Exit code 1 where sums of indices or minima are wrong, a continuous law jumps, or differs from the sum where nothing is near a saddle.
@@ -21,11 +22,15 @@ namespace {
 using namespace continuous_force;
 
 struct ForceStudy {
-  std::vector<std::string> parts{"sums",       "paths", "events",  "loops", "cuts",
-                                 "decimation", "cups",  "notches", "cost"};
+  std::vector<std::string> parts{"sums", "paths",   "events", "loops", "cuts", "decimation",
+                                 "cups", "notches", "bores",  "drag",  "cost"};
   std::vector<std::string> scenes{"shapes", "bunny-hard", "bunny-soft"};
   std::filesystem::path meshes = "meshes", paths = "paths";
-  std::size_t poses = 1000, frames = 6000, refined = 20, events = 100, loops = 20, cost_poses = 300;
+  std::filesystem::path device = "experiments/bunny-closed.json";
+  std::size_t poses = 1000, frames = 6000, refined = 20, events = 100, loops = 20, cost_poses = 300,
+              rolls = 8, spots = 8, slope_steps = 80;
+  LayeredChoice layered;
+  bool layered_too = false;
   std::uint64_t seed = 1;
   bool exhaustive = true;
   std::string json;
@@ -36,8 +41,11 @@ struct ForceStudy {
 /// Bars of results/reference/continuous-force.md.
 /// Of the path of that name.
 constexpr std::size_t SHAPES_FRAMES = 800;
-constexpr double LARGEST_SEPARATED_DIFFERENCE = 1e-12, LARGEST_EVENT = 1e-6, LARGEST_DECAY = 0.22,
+constexpr double LARGEST_SEPARATED_DIFFERENCE = 1e-12, LARGEST_EVENT = 1e-6, LARGEST_DECAY = 0.12,
                  SHORTEST_STEP = 1e-9;
+
+/// Pairs of a step that are printed.
+constexpr std::size_t MOST_CHANGES = 8;
 
 std::string laws_header(const std::string& before) {
   std::string head = before, rule = "|---";
@@ -52,7 +60,10 @@ std::string laws_header(const std::string& before) {
 template <class Value>
 std::string law_cells(Value&& value) {
   std::string cells;
-  for (std::size_t law = 0; law < LAWS; ++law) cells += fmt::format(" {:.2g} |", value(law));
+  for (std::size_t law = 0; law < LAWS; ++law) {
+    const double here = value(law);
+    cells += std::isnan(here) ? " - |" : fmt::format(" {:.2g} |", here);
+  }
   return cells + "\n";
 }
 
@@ -76,11 +87,17 @@ class Report {
     if (choice_.asks("decimation")) decimation();
     if (choice_.asks("cups")) cups();
     if (choice_.asks("notches")) notches();
+    if (choice_.asks("bores")) bores();
+    if (choice_.asks("drag")) drag();
     experiments::write_report(choice_.json, json_);
     return right_ ? 0 : 1;
   }
 
  private:
+  std::optional<LayeredChoice> layered() const {
+    return choice_.layered_too ? std::optional(choice_.layered) : std::nullopt;
+  }
+
   void sums() {
     fmt::print(
         "\n## Sums of indices\n\n| moving | fixed | method | poses | product of Euler characteristics | "
@@ -101,22 +118,22 @@ class Report {
   }
 
   void along(const PathScene& scene) {
-    if (choice_.asks("paths")) path(measure_path(scene, choice_.refined));
+    if (choice_.asks("paths")) path(measure_path(scene, choice_.refined, layered()));
     if (choice_.asks("events")) {
-      const EventRow row = measure_events(scene, choice_.events, SHORTEST_STEP);
+      const EventRow row = measure_events(scene, choice_.events, SHORTEST_STEP, layered());
       fmt::print(
           "\n{}: {} births and deaths bisected to {:g} of a frame; largest change left, in F_max:\n\n{}|",
           row.scene, row.events, SHORTEST_STEP, laws_header("|"));
-      fmt::print("{}", law_cells([&](std::size_t law) { return row.largest[law].x(); }));
-      right_ = right_ && row.largest[SIGNED].x() <= LARGEST_EVENT && row.largest[SHARED].x() <= LARGEST_EVENT;
+      fmt::print("{}", law_cells([&](std::size_t law) { return row.largest[law]; }));
+      right_ = right_ && row.largest[SIGNED] <= LARGEST_EVENT && row.largest[SHARED] <= LARGEST_EVENT;
       json_["events"][row.scene] = {{"events", row.events},
-                                    {"sum", row.largest[SUM].x()},
-                                    {"signed", row.largest[SIGNED].x()},
-                                    {"shared", row.largest[SHARED].x()}};
+                                    {"sum", row.largest[SUM]},
+                                    {"signed", row.largest[SIGNED]},
+                                    {"shared", row.largest[SHARED]}};
     }
     if (choice_.asks("loops"))
       for (const std::size_t steps : {400U, 800U, 1600U}) {
-        const LoopRow row = measure_loops(scene, choice_.loops, steps, choice_.seed);
+        const LoopRow row = measure_loops(scene, choice_.loops, steps, choice_.seed, layered());
         fmt::print(
             "\n{}: work of {} closed loops of {} steps, radius one cutoff, in F_max c; largest and "
             "mean\n\n{}| largest |",
@@ -150,12 +167,13 @@ class Report {
         "LMDs, {:.2f} critical pairs, {:.2f} merges\n\n{}",
         row.scene, row.frames, row.in_contact, row.separated, row.minima, row.pairs, row.merges,
         laws_header("| largest step [F_max] |"));
-    const std::array<const char*, 5> names{"at the frames", "x 10", "x 100", "x 1,000", "x 10,000"};
-    for (std::size_t k = 0; k < names.size(); ++k)
-      fmt::print("| {} |{}", names[k], law_cells([&](std::size_t law) { return row.laws[law].largest[k]; }));
+    for (std::size_t k = 0; k < row.laws[SUM].largest.size(); ++k)
+      fmt::print("| {} |{}", k == 0 ? "at the frames" : fmt::format("x 1e{}", k),
+                 law_cells([&](std::size_t law) { return row.laws[law].largest[k]; }));
     const auto line = [&](const char* name, auto value) {
-      fmt::print("| {} |{}", name,
-                 law_cells([&](std::size_t law) { return static_cast<double>(value(row.laws[law])); }));
+      fmt::print("| {} |{}", name, law_cells([&](std::size_t law) {
+                   return row.is_measured(law) ? static_cast<double>(value(row.laws[law])) : std::nan("");
+                 }));
     };
     line("steps above 0.25", [](const PathRow::Law& law) { return law.above_quarter; });
     line("difference from the sum where separated",
@@ -166,11 +184,21 @@ class Report {
     line("frames with a force against every LMD", [](const PathRow::Law& law) { return law.against_all; });
     for (const std::size_t law : {SIGNED, SHARED}) {
       const PathRow::Law& own = row.laws[law];
-      right_ = right_ && own.largest[4] <= LARGEST_DECAY * own.largest[3] &&
+      const std::size_t last = own.largest.size() - 1;
+      right_ = right_ && own.largest[last] <= LARGEST_DECAY * own.largest[last - 1] &&
                own.separated_difference <= LARGEST_SEPARATED_DIFFERENCE;
+      fmt::print(
+          "\nThe largest step of {} at x 1e3, pair by pair: index, d / c before and after, turn [rad], "
+          "change of index f(d) u\n",
+          aggregations()[law].name);
+      for (std::size_t k = 0; k < std::min(MOST_CHANGES, own.steepest.size()); ++k) {
+        const PairChange& pair = own.steepest[k];
+        fmt::print("{:+d}, {:.9f}, {:.9f}, {:.2g}, {:.2g}\n", pair.index, pair.before, pair.after, pair.turn,
+                   pair.change);
+      }
     }
     right_ = right_ && row.laws[SHARED].outside_cone == 0;
-    for (std::size_t law = 0; law < LAWS; ++law) {
+    for (std::size_t law = 0; law < LAWS && row.is_measured(law); ++law) {
       nlohmann::json& entry = json_["paths"][row.scene][std::string(aggregations()[law].name)];
       entry = {{"largest_step", row.laws[law].largest},
                {"steps_above_quarter", row.laws[law].above_quarter},
@@ -199,7 +227,7 @@ class Report {
                    load_path_scene("bunny-soft", choice_.meshes, choice_.paths, frames, stride, "bunny-16k"),
                coarse =
                    load_path_scene("bunny-soft", choice_.meshes, choice_.paths, frames, stride, "bunny-5k");
-    const auto apart = measure_decimation(fine, coarse);
+    const auto apart = measure_decimation(fine, coarse, layered());
     fmt::print(
         "\nbunny-5k in place of bunny-16k, every {}th frame of the soft path: RMS difference over RMS "
         "force\n\n{}|{}",
@@ -230,6 +258,53 @@ class Report {
     }
   }
 
+  void bores() {
+    fmt::print(
+        "\n## Rod in a bore\n\nMean force, its deviation over rolls, and the steepest slope across the "
+        "middle [F_max a "
+        "cutoff]\n\n{}",
+        laws_header("| facets of rod and bore | |"));
+    for (const BoreRow& row : measure_bores(choice_.rolls, choice_.slope_steps, choice_.layered)) {
+      const auto line = [&](const char* name, const std::array<double, LAWS>& values) {
+        fmt::print("| {}, {} | {} |", row.rod, row.bore, name);
+        for (const double value : values) fmt::print(" {:.3f} |", value);
+        fmt::print("\n");
+      };
+      line("mean", row.mean);
+      line("deviation", row.deviation);
+      line("slope", row.slope);
+      std::fflush(stdout);
+      json_["bores"].push_back({{"rod", row.rod},
+                                {"bore", row.bore},
+                                {"mean", row.mean},
+                                {"deviation", row.deviation},
+                                {"slope", row.slope}});
+    }
+  }
+
+  void drag() {
+    fmt::print(
+        "\n## Drag by a hand\n\n{}, pushed by 1 N, 30 mm/s along: force above 30 Hz (RMS), and the largest "
+        "change a "
+        "frame, over the mean force\n\n{}",
+        choice_.device.string(), laws_header("| K of one contact [N/m] | spots | |"));
+    for (const DragRow& row :
+         measure_drag(choice_.device, choice_.spots, choice_.seed, choice_.layered_too)) {
+      const auto line = [&](const char* name, const std::array<double, LAWS>& values) {
+        fmt::print("| {:g} | {} | {} |{}", row.stiffness_n_per_m, row.spots - row.through, name,
+                   law_cells([&](std::size_t law) { return values[law]; }));
+      };
+      line("above 30 Hz", row.above_30_hz);
+      line("largest change", row.largest_jump);
+      std::fflush(stdout);
+      json_["drag"].push_back({{"stiffness_n_per_m", row.stiffness_n_per_m},
+                               {"spots", row.spots},
+                               {"through", row.through},
+                               {"above_30_hz", row.above_30_hz},
+                               {"largest_jump", row.largest_jump}});
+    }
+  }
+
   const ForceStudy& choice_;
   nlohmann::json json_;
   bool right_ = true;
@@ -254,6 +329,22 @@ void add_continuous_force(CLI::App& app, Run& chosen) {
       ->capture_default_str();
   command->add_option("--loops", choice->loops, "Closed loops")->capture_default_str();
   command->add_option("--cost-poses", choice->cost_poses, "Poses that are timed")->capture_default_str();
+  command->add_option("--rolls", choice->rolls, "Rolls of the rod in its bore")->capture_default_str();
+  command->add_option("--slope-steps", choice->slope_steps, "Steps across the middle of the bore")
+      ->capture_default_str();
+  command
+      ->add_option("--patch", choice->layered.patch_cutoff,
+                   "Of layered: longest edge of a patch, over the cutoff")
+      ->capture_default_str();
+  command
+      ->add_option("--minimum-area", choice->layered.minimum_area_share,
+                   "Of layered: area of a minimum, over cutoff and diagonal")
+      ->capture_default_str();
+  command->add_flag("--layered", choice->layered_too,
+                    "Measure layered also along paths and in the drag: slow");
+  command->add_option("--spots", choice->spots, "Spots of the drag")->capture_default_str();
+  command->add_option("--device", choice->device, "Experiment whose scene, device and hand the drag takes")
+      ->capture_default_str();
   command->add_option("--seed", choice->seed, "Of poses and loops")->capture_default_str();
   command->add_flag("!--no-exhaustive", choice->exhaustive, "Sums of indices of certified alone");
   command->add_option("--json", choice->json, "Also write the tables to this file");

@@ -87,6 +87,7 @@ class Method:
         group = f"/methods/{label}"
         self.name = result.text_attribute(group, "method", label)
         self.force_law = result.text_attribute(group, "force_law", "exponential")
+        self.aggregation = result.text_attribute(group, "aggregation", "sum")
         attributes = result.h5[group].attrs
         self.promise = result.text_attribute(group, "promise")
         if result.format_version == 1:

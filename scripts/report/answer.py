@@ -12,7 +12,7 @@ class Row:
 
     def __init__(self, method):
         self.label = method.label
-        self.force_law = method.force_law
+        self.force_law = method.force_law if method.aggregation == "sum" else f"{method.force_law}, {method.aggregation}"
         self.number = method.number
         self.force_error = method.number("force_error_rms_n") / method.constant("maximum_force_n")
         self.largest_force_error = method.number("force_error_maximum_n") / method.constant("maximum_force_n")

@@ -83,6 +83,10 @@ OMISSIONS = (
     "A time is the median of the repetitions of its frame; the largest frame is the largest of these medians, not of all samples.",
     "In a run truth is probed at a stride: events between the probed frames are not seen by recall, precision and force error. True jumps are "
     "counted in every frame where a method that promises the complete set runs along. In a sweep truth stands in every frame.",
+    "Forces are plain sums of the LMDs' forces, as in the paper, and jump by up to F_max where an LMD is born or dies, unless the force law's column "
+    "names an aggregation: shared is continuous and never pulls (for rendering to a hand), signed is continuous and does no work in a closed loop "
+    "(where energy is accounted for), layered is for parts that conform, such as a rod in a bore. Errors are against the same aggregation of the "
+    "true set; methods without saddles (original, improved, nearest) are summed.",
     "The methods run in one thread and take turns, block by block, in random order; on the machine's clock each runs by itself.",
     "The methods of the paper are scalar code; where a method uses vector instructions, its times say so in the experiment's options or not at "
     "all: work counters in the result file are the fair comparison.",

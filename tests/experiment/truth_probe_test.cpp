@@ -61,7 +61,7 @@ TEST(ProbedFrames, StopBeforeTheLastFrame) {
 
 TEST(TruthProbe, TrueForceFollowsTheLawAndItsJumpTheNextFrame) {
   const LockstepInput input = approach({0.04, 0.02, 1.0});
-  const auto truth = probe_truth(facing_spheres(), input, PROFILE, {0, 1}, {});
+  const auto truth = probe_truth(facing_spheres(), input, PROFILE, sum_law(), {0, 1}, {});
   ASSERT_EQ(truth.size(), 2u);
   ASSERT_EQ(truth[0].lmds.size(), 1u);
   EXPECT_NEAR(truth[0].lmds[0].distance, 0.04, 1e-9);
@@ -76,7 +76,7 @@ TEST(TruthProbe, TrueForceFollowsTheLawAndItsJumpTheNextFrame) {
 TEST(TruthProbe, APerfectSetHasNoError) {
   const LockstepInput input = approach({0.04, 0.02, 0.02});
   const Scene scene = facing_spheres();
-  const auto truth = probe_truth(scene, input, PROFILE, {0, 1}, {});
+  const auto truth = probe_truth(scene, input, PROFILE, sum_law(), {0, 1}, {});
   const auto linear = static_cast<std::size_t>(ForceLaw::LINEAR);
   const MethodRecord record =
       record_of({truth[0].lmds, truth[1].lmds, truth[1].lmds},
@@ -97,7 +97,7 @@ TEST(TruthProbe, APerfectSetHasNoError) {
 TEST(TruthProbe, ErrorsAreSignedAndUnsetWhereNothingCompares) {
   const LockstepInput input = approach({0.04, 0.02});
   const Scene scene = facing_spheres();
-  const auto truth = probe_truth(scene, input, PROFILE, {0}, {});
+  const auto truth = probe_truth(scene, input, PROFILE, sum_law(), {0}, {});
   LmdSet late = truth[0].lmds;
   late[0].distance += 0.003;
   const Vec3 sideways(0.0, truth[0].force[static_cast<std::size_t>(ForceLaw::LINEAR)].x(), 0.0);
@@ -119,7 +119,7 @@ TEST(TruthProbe, ErrorsAreSignedAndUnsetWhereNothingCompares) {
 TEST(TruthProbe, StopsWhenAsked) {
   const LockstepInput input = approach({0.04, 0.02, 0.03});
   EXPECT_THROW(
-      probe_truth(facing_spheres(), input, PROFILE, {0, 1}, [](std::int64_t, std::int64_t) { return false; }),
+      probe_truth(facing_spheres(), input, PROFILE, sum_law(), {0, 1}, [](std::int64_t, std::int64_t) { return false; }),
       Interrupted);
 }
 
@@ -207,8 +207,8 @@ TEST(FclProbe, AFrameAtThePoseOfTheOneBeforeHasItsAnswers) {
 TEST(TruthProbe, AFrameAtThePoseOfTheOneBeforeHasItsSet) {
   const LockstepInput input =
       approach({0.04, 0.04, 0.02, 0.02, 0.04});  // Of the one before: not of the first.
-  const auto reused = probe_truth(facing_spheres(), input, PROFILE, {0, 1, 2, 3}, {});
-  const auto fresh = probe_truth(facing_spheres(), input, PROFILE, {0, 1, 2, 3}, {}, nullptr, false);
+  const auto reused = probe_truth(facing_spheres(), input, PROFILE, sum_law(), {0, 1, 2, 3}, {});
+  const auto fresh = probe_truth(facing_spheres(), input, PROFILE, sum_law(), {0, 1, 2, 3}, {}, nullptr, false);
   ASSERT_EQ(reused.size(), fresh.size());
   for (std::size_t k = 0; k < fresh.size(); ++k) {
     ASSERT_EQ(reused[k].lmds.size(), fresh[k].lmds.size()) << k;

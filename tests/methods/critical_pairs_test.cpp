@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/lmd/critical_pair.h>
+#include <lmdbench/lmd/merges.h>
 #include <lmdbench/lmd/method_description.h>
 #include <lmdbench/methods/registry.h>
 
@@ -10,7 +11,10 @@
 #include <support/convex_bodies.h>
 #include <support/scenes.h>
 
+#include <algorithm>
 #include <cstdlib>
+#include <numeric>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -163,6 +167,48 @@ TEST(CriticalPairs, OfASphereInACavityOfABoxAddUp) {
       WorkCounters counters;
       method->find_critical(pose, critical, counters);
       EXPECT_EQ(sum_of_indices(critical), 2) << name << "\n" << text(critical);
+    }
+  }
+}
+
+TEST(Merges, JoinTheMinimaRoundARing) {
+  // A ball over the hole of a facetted ring: minima and saddles take turns round it, and saddles lead down to both sides.
+  for (const int cells : {5, 8, 13}) {
+    const Scene scene = testing::make_scene(make_blob(0.3, 0.05, 2), make_torus(1.0, 0.3, cells, 8), 1e3);
+    const auto method = make_method("certified", scene);
+    MergeFinder finder(scene);
+    std::mt19937_64 random(11);
+    for (int k = 0; k < 20; ++k) {
+      const Pose pose{Vec3(0.02, 0.01, 0.5) + 0.05 * testing::random_direction(random),
+                      testing::random_rotation(random)};
+      CriticalSet critical;
+      std::vector<Merge> merges;
+      WorkCounters counters;
+      method->find_critical(pose, critical, counters);
+      finder.find(pose, critical, merges);
+      std::vector<std::size_t> group(critical.size());
+      std::iota(group.begin(), group.end(), std::size_t{0});
+      double level = 0.0;
+      for (const Merge& merge : merges) {
+        const double at = critical[merge.saddle].pair.distance;
+        EXPECT_GE(at, level) << "by level";
+        level = at;
+        for (const std::size_t minimum : {merge.first, merge.second}) {
+          EXPECT_TRUE(critical[minimum].is_basin);
+          EXPECT_LE(critical[minimum].pair.distance, at);
+        }
+        const std::size_t from = group[merge.second], to = group[merge.first];
+        std::ranges::replace(group, from, to);
+      }
+      std::set<std::size_t> components;
+      int minima = 0;
+      for (std::size_t i = 0; i < critical.size(); ++i)
+        if (critical[i].is_basin && critical[i].pair.distance < 0.9) {
+          ++minima;
+          components.insert(group[i]);
+        }
+      EXPECT_GE(minima, 2);
+      EXPECT_EQ(components.size(), 1u) << cells << " cells, pose " << k << "\n" << text(critical);
     }
   }
 }

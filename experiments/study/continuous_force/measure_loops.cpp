@@ -13,9 +13,10 @@
 
 namespace lmdbench::continuous_force {
 
-LoopRow measure_loops(const PathScene& scene, std::size_t loops, std::size_t steps, std::uint64_t seed) {
-  LoopRow row{scene.name, 0, steps, {}, {}};
-  Renderer renderer(scene.scene, scene.profile);
+LoopRow measure_loops(const PathScene& scene, std::size_t loops, std::size_t steps, std::uint64_t seed,
+                      std::optional<LayeredChoice> layered) {
+  LoopRow row{scene.name, 0, steps, zeros(layered.has_value()), zeros(layered.has_value())};
+  Renderer renderer(scene.scene, scene.profile, layered);
   experiments::Random random(seed);
   const double radius = scene.profile.cutoff;
   while (row.loops < loops) {

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 
 namespace lmdbench::continuous_force {
@@ -15,7 +16,10 @@ namespace {
 
 /// Rounding of a force that is a sum of pushes.
 constexpr double CONE_ROUNDING = 1e-9;
-constexpr int DIVISION = 10, DIVISIONS = 4;
+constexpr int DIVISION = 10, DIVISIONS = 6;
+/// Steps of a thousandth of a frame.
+constexpr std::size_t STEEP_DIVISION = 3;
+constexpr double UNSET = std::numeric_limits<double>::quiet_NaN();
 
 /// Whether a force is a sum of pushes along -direction of minima: of at most three of them, if of any (Caratheodory).
 bool lies_in_cone(const Vec3& force, const CriticalSet& critical) {
@@ -48,9 +52,38 @@ double step_of(const Forces& a, const Forces& b, std::size_t law) {
   return (b[law] - a[law]).norm();
 }
 
+/// What each critical pair adds to a step, largest first; those that are there at one end alone with what they have there.
+std::vector<PairChange> changes_of_pairs(const CriticalSet& before, const CriticalSet& after,
+                                         const ForceProfile& profile) {
+  const auto force_of = [&](const CriticalPair& c) -> Vec3 {
+    return c.index * force_magnitude(profile, c.pair.distance) / profile.maximum_force * c.pair.direction;
+  };
+  std::vector<PairChange> changes;
+  std::vector<bool> met(after.size(), false);
+  for (const CriticalPair& a : before) {
+    PairChange change{a.index, a.pair.distance / profile.cutoff, UNSET, UNSET, force_of(a).norm()};
+    for (std::size_t k = 0; k < after.size(); ++k) {
+      if (met[k] || !same_feature_pair(a.pair, after[k].pair) || a.index != after[k].index) continue;
+      met[k] = true;
+      change.after = after[k].pair.distance / profile.cutoff;
+      change.turn = std::atan2(a.pair.direction.cross(after[k].pair.direction).norm(),
+                               a.pair.direction.dot(after[k].pair.direction));
+      change.change = (force_of(after[k]) - force_of(a)).norm();
+      break;
+    }
+    changes.push_back(change);
+  }
+  for (std::size_t k = 0; k < after.size(); ++k)
+    if (!met[k])
+      changes.push_back(
+          {after[k].index, UNSET, after[k].pair.distance / profile.cutoff, UNSET, force_of(after[k]).norm()});
+  std::ranges::stable_sort(changes, std::greater{}, &PairChange::change);
+  return changes;
+}
+
 /// Divides a stretch of the path again and again at its largest step; notes the largest step of each division.
 void refine(Renderer& renderer, const Pose& from, const Pose& to, std::size_t law, int left,
-            std::vector<double>& largest) {
+            PathRow::Law& own) {
   if (left == 0) return;
   std::vector<Pose> poses;
   std::vector<Forces> forces;
@@ -65,17 +98,23 @@ void refine(Renderer& renderer, const Pose& from, const Pose& to, std::size_t la
       step = step_of(forces[k], forces[k + 1], law);
       worst = k;
     }
-  double& noted = largest[largest.size() - static_cast<std::size_t>(left)];
-  noted = std::max(noted, step);
-  refine(renderer, poses[worst], poses[worst + 1], law, left - 1, largest);
+  const std::size_t division = own.largest.size() - static_cast<std::size_t>(left);
+  if (step > own.largest[division]) {
+    own.largest[division] = step;
+    if (division == STEEP_DIVISION)
+      own.steepest = changes_of_pairs(renderer.at(poses[worst]).critical,
+                                      renderer.at(poses[worst + 1]).critical, renderer.profile());
+  }
+  refine(renderer, poses[worst], poses[worst + 1], law, left - 1, own);
 }
 
 }  // namespace
 
-PathRow measure_path(const PathScene& scene, std::size_t refined) {
+PathRow measure_path(const PathScene& scene, std::size_t refined, std::optional<LayeredChoice> layered) {
   PathRow row;
   row.scene = scene.name;
-  Renderer renderer(scene.scene, scene.profile);
+  const std::size_t laws = layered ? LAWS : LAYERED;
+  Renderer renderer(scene.scene, scene.profile, layered);
   std::vector<Forces>& forces = row.forces;
   for (const Pose& pose : scene.poses) {
     const Rendered here = renderer.at(pose);
@@ -87,7 +126,7 @@ PathRow measure_path(const PathScene& scene, std::size_t refined) {
     row.minima += static_cast<double>(minima_of(here.critical).size());
     row.pairs += static_cast<double>(here.critical.size());
     row.merges += static_cast<double>(here.merges);
-    for (std::size_t law = 0; law < LAWS; ++law) {
+    for (std::size_t law = 0; law < laws; ++law) {
       PathRow::Law& own = row.laws[law];
       const double apart = (here.force[law] - here.force[SUM]).norm();
       own.rms_from_sum += apart * apart;
@@ -100,7 +139,11 @@ PathRow measure_path(const PathScene& scene, std::size_t refined) {
   }
   const double count = std::max<double>(1.0, static_cast<double>(row.in_contact));
   row.minima /= count, row.pairs /= count, row.merges /= count;
-  for (std::size_t law = 0; law < LAWS; ++law) {
+  for (std::size_t law = laws; law < LAWS; ++law) {
+    row.laws[law].largest.assign(1 + DIVISIONS, UNSET);
+    row.laws[law].separated_difference = row.laws[law].rms_from_sum = UNSET;
+  }
+  for (std::size_t law = 0; law < laws; ++law) {
     PathRow::Law& own = row.laws[law];
     own.rms_from_sum = std::sqrt(own.rms_from_sum / count);
     std::vector<std::size_t> order(forces.size() - 1);
@@ -111,15 +154,15 @@ PathRow measure_path(const PathScene& scene, std::size_t refined) {
     own.largest[0] = step_of(forces[order[0]], forces[order[0] + 1], law);
     for (const std::size_t i : order) own.above_quarter += step_of(forces[i], forces[i + 1], law) > 0.25;
     for (std::size_t k = 0; k < std::min(refined, order.size()); ++k)
-      refine(renderer, scene.poses[order[k]], scene.poses[order[k] + 1], law, DIVISIONS, own.largest);
+      refine(renderer, scene.poses[order[k]], scene.poses[order[k] + 1], law, DIVISIONS, own);
   }
   return row;
 }
 
-EventRow measure_events(const PathScene& scene, std::size_t most, double shortest) {
-  EventRow row{scene.name, 0, {}};
-  for (Vec3& largest : row.largest) largest = Vec3::Zero();
-  Renderer renderer(scene.scene, scene.profile);
+EventRow measure_events(const PathScene& scene, std::size_t most, double shortest,
+                        std::optional<LayeredChoice> layered) {
+  EventRow row{scene.name, 0, zeros(layered.has_value())};
+  Renderer renderer(scene.scene, scene.profile, layered);
   Forces before = renderer.at(scene.poses.front()).force;
   for (std::size_t i = 0; i + 1 < scene.poses.size() && row.events < most; ++i) {
     const Forces after = renderer.at(scene.poses[i + 1]).force;
@@ -142,7 +185,7 @@ EventRow measure_events(const PathScene& scene, std::size_t most, double shortes
       }
       ++row.events;
       for (std::size_t law = 0; law < LAWS; ++law)
-        row.largest[law].x() = std::max(row.largest[law].x(), step_of(low, high, law));
+        row.largest[law] = std::max(row.largest[law], step_of(low, high, law));
     }
     before = after;
   }

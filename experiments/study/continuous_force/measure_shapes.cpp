@@ -92,7 +92,8 @@ std::vector<CutRow> measure_cuts(std::size_t poses, std::uint64_t seed) {
   std::vector<CutRow> rows;
   for (const auto& [name, scene] : changed) {
     CutRow row{name, poses, {}};
-    Renderer before(plain, profile_of(cutoff)), after(scene, profile_of(cutoff));
+    Renderer before(plain, profile_of(cutoff), LayeredChoice()),
+        after(scene, profile_of(cutoff), LayeredChoice());
     for (const Pose& pose : chosen) {
       const Forces a = before.at(pose).force, b = after.at(pose).force;
       for (std::size_t law = 0; law < LAWS; ++law)
@@ -103,8 +104,9 @@ std::vector<CutRow> measure_cuts(std::size_t poses, std::uint64_t seed) {
   return rows;
 }
 
-std::array<double, LAWS> measure_decimation(const PathScene& fine, const PathScene& coarse) {
-  Renderer a(fine.scene, fine.profile), b(coarse.scene, coarse.profile);
+std::array<double, LAWS> measure_decimation(const PathScene& fine, const PathScene& coarse,
+                                            std::optional<LayeredChoice> layered) {
+  Renderer a(fine.scene, fine.profile, layered), b(coarse.scene, coarse.profile, layered);
   std::array<double, LAWS> apart{}, whole{}, result{};
   for (const Pose& pose : fine.poses) {
     const Forces x = a.at(pose).force, y = b.at(pose).force;
@@ -129,7 +131,7 @@ std::vector<CupRow> measure_cups(std::uint64_t seed) {
                         {body_of(spherical_cavity(ratio * SPHERE, subdivisions))},
                         CUTOFF};
       CupRow row{ratio, scene.moving->surface().mesh.triangles.size(), {}};
-      Renderer renderer(scene, profile);
+      Renderer renderer(scene, profile, LayeredChoice());
       experiments::Random random(seed);
       for (int place = 0; place < PLACES; ++place) {
         const Pose pose{((ratio - 1.0) * SPHERE - GAP) * random.direction(), random.rotation()};
@@ -175,7 +177,7 @@ std::vector<NotchRow> measure_notches() {
       return translated(std::move(mesh), {0.0, 0.0, -lowest});
     }();
     const Scene scene{body_of(spindle), {body_of(block)}, CUTOFF};
-    Renderer renderer(scene, profile);
+    Renderer renderer(scene, profile, LayeredChoice());
     Pose pose;
     pose.translation = Vec3(1e-5, 0.013, APART / std::sin(angle));
     const Forces force = renderer.at(pose).force;

@@ -7,16 +7,23 @@
 #include <support/poses.h>
 
 #include <algorithm>
+#include <limits>
 #include <stdexcept>
 
 namespace lmdbench::continuous_force {
+
+std::array<double, LAWS> zeros(bool layered) {
+  return {0.0, 0.0, 0.0, layered ? 0.0 : std::numeric_limits<double>::quiet_NaN()};
+}
 
 bool Rendered::is_separated() const {
   return std::ranges::all_of(critical, [](const CriticalPair& c) { return c.is_minimum && c.index == 1; });
 }
 
-Renderer::Renderer(const Scene& scene, const ForceProfile& profile, const std::string& method)
-    : profile_(profile), method_(make_method(method, scene)), merges_(scene) {}
+Renderer::Renderer(const Scene& scene, const ForceProfile& profile, std::optional<LayeredChoice> layered)
+    : profile_(profile), method_(make_method("certified", scene)), merges_(scene) {
+  if (layered) layered_.emplace(layered_law(), scene, *layered);
+}
 
 Rendered Renderer::at(const Pose& X_WM) {
   Rendered rendered;
@@ -25,9 +32,13 @@ Rendered Renderer::at(const Pose& X_WM) {
   merges_.find(X_WM, rendered.critical, found_);
   rendered.merges = found_.size();
   const ForceInput input{rendered.critical, found_};
-  for (std::size_t law = 0; law < LAWS; ++law)
+  for (std::size_t law = 0; law < LAYERED; ++law)
     rendered.force[law] =
         aggregations()[law].combine(input, profile_, X_WM.translation).force / profile_.maximum_force;
+  rendered.force[LAYERED] = layered_
+                                ? Vec3(layered_->wrench_at(*method_, X_WM, profile_, X_WM.translation).force /
+                                       profile_.maximum_force)
+                                : Vec3::Constant(std::numeric_limits<double>::quiet_NaN());
   return rendered;
 }
 

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <lmdbench/force/aggregation.h>
+#include <lmdbench/force/contact_finder.h>
 #include <lmdbench/geometry/pose.h>
 #include <lmdbench/lmd/merges.h>
 #include <lmdbench/lmd/method.h>
@@ -12,6 +12,7 @@
 #include <cstddef>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -19,11 +20,13 @@
 namespace lmdbench::continuous_force {
 
 /// Laws, in the order of `aggregations()`.
-inline constexpr std::size_t SUM = 0, SIGNED = 1, SHARED = 2, LAWS = 3;
+inline constexpr std::size_t SUM = 0, SIGNED = 1, SHARED = 2, LAYERED = 3, LAWS = 4;
 using Forces = std::array<Vec3, LAWS>;
+/// Where numbers of the laws begin to be summed up: NaN for `layered` where it is not measured.
+std::array<double, LAWS> zeros(bool layered);
 
 struct Rendered {
-  Forces force;          ///< In units of one LMD's largest force.
+  Forces force;  ///< In units of one LMD's largest force; NaN for `layered` where it was not asked for.
   CriticalSet critical;  ///< Within the cutoff.
   std::size_t merges = 0;
 
@@ -32,10 +35,11 @@ struct Rendered {
   bool is_separated() const;
 };
 
-/// Renders a scene at poses with all laws.
+/// Renders a scene at poses with all laws, `layered` only where asked for: it takes much longer than the others.
 class Renderer {
  public:
-  Renderer(const Scene& scene, const ForceProfile& profile, const std::string& method = "certified");
+  Renderer(const Scene& scene, const ForceProfile& profile,
+           std::optional<LayeredChoice> layered = std::nullopt);
 
   Rendered at(const Pose& X_WM);
   const ForceProfile& profile() const { return profile_; }
@@ -45,6 +49,7 @@ class Renderer {
   std::unique_ptr<Method> method_;
   MergeFinder merges_;
   std::vector<Merge> found_;
+  std::optional<ContactFinder> layered_;
 };
 
 /// A scene with a path along which it is looked at.

@@ -67,6 +67,16 @@ class Answer(unittest.TestCase):
         self.assertIn("recall, neighbouring features count [%]", shown["headings"])
 
 
+    def test_names_an_aggregation_that_is_not_the_sum(self):
+        with tempfile.TemporaryDirectory() as folder:
+            file = os.path.join(folder, "hard.h5")
+            write_result(file)
+            with h5py.File(file, "a") as h5:
+                h5["/methods/improved"].attrs["aggregation"] = "shared"
+            rows = answer(Result(file))["rows"]
+        self.assertEqual([line[1] for line in rows], ["linear", "exponential, shared"])
+
+
 class Series(unittest.TestCase):
     def test_holds_values_between_searches(self):
         class Frames:

@@ -21,7 +21,7 @@ void add_counters(std::vector<Column<Row>>& columns, const std::string& group,
 
 }  // namespace
 
-std::vector<Column<FrameRecord>> frame_columns(const MethodDescription& method, bool torque) {
+std::vector<Column<FrameRecord>> frame_columns(const MethodDescription& method, bool torque, bool indices) {
   using F = FrameRecord;
   std::vector<Column<F>> columns{
       column<F>("force", "N", "rendered force on the moving mesh, world frame",
@@ -53,6 +53,10 @@ std::vector<Column<FrameRecord>> frame_columns(const MethodDescription& method, 
   columns.push_back(column<F>("contact_without_direction", "1",
                               "LMDs at distance 0, which keep their last direction",
                               [](const F& f) { return f.contact_without_direction; }));
+  if (indices)
+    columns.push_back(column<F>("lmds_without_index", "1",
+                                "LMDs at a border or where a mesh is not manifold: the force may jump there",
+                                [](const F& f) { return f.lmds_without_index; }));
   add_counters(columns, "counters", method.local_counters(), "frame's local part");
   return columns;
 }

@@ -37,8 +37,9 @@ Column<Row> column(std::string name, std::string units, std::string long_name, V
           std::function<Type(const Row&)>(std::move(value))};
 }
 
-/// @param torque  whether the torque before clipping is among them
-std::vector<Column<FrameRecord>> frame_columns(const MethodDescription& method, bool torque);
+/// @param torque   whether the torque before clipping is among them
+/// @param indices  whether LMDs without an index are counted
+std::vector<Column<FrameRecord>> frame_columns(const MethodDescription& method, bool torque, bool indices);
 /// Empty for a method without searches at a rate of their own.
 std::vector<Column<SearchRecord>> search_columns(const MethodDescription& method);
 /// Whether a column of those two is a work counter.

@@ -26,6 +26,9 @@
 /// An experiment file after checking, with every default filled in (schema: experiments/schema).
 namespace lmdbench {
 
+struct Aggregation;
+const Aggregation& sum_law();
+
 /// A mesh of the scene.
 struct MeshChoice {
   std::string mesh;                  ///< Name in the manifest, generated shape or file.
@@ -45,7 +48,7 @@ struct ForceChoice {
   std::optional<double> saturation_cutoff;  ///< Share of the cutoff.
   double maximum_force_n = 0.0;
   double sharpness = 0.0;
-  std::string aggregation = "sum";  ///< A law of force/aggregation.h.
+  const Aggregation* aggregation = &sum_law();  ///< What becomes of a set of contacts.
   bool clip_at_maximum =
       false;  ///< The sum is clipped to F_max of one LMD, where that is below the device's limit.
 
@@ -62,9 +65,14 @@ struct MethodChoice {
   std::string label;  ///< Unique; group of the result.
   std::string entry;  ///< Label of its entry in the file: `label` without the profile.
   ForceLaw force_law = ForceLaw::EXPONENTIAL;
-  std::size_t profile = 0;                            ///< Index in the experiment's profiles.
+  std::size_t profile = 0;  ///< Index in the experiment's profiles.
+  /// The profile's, or the sum where the method does not find what that needs.
+  const Aggregation* aggregation = &sum_law();
   nlohmann::json options = nlohmann::json::object();  ///< Every option of the method.
   std::string options_json;                           ///< The method's entry of the resolved experiment.
+
+  /// Whether LMDs without an index are counted: of an aggregation that needs indices.
+  bool counts_indices() const;
 };
 
 /// How searches and frames share the clock, see `lockstep.h`.
@@ -121,5 +129,9 @@ Experiment load_experiment(const std::filesystem::path& file, const std::vector<
 /// The same from text; `file` serves messages and relative names.
 Experiment parse_experiment(const std::string& text, const std::filesystem::path& file,
                             const std::vector<Override>& overrides = {});
+
+/// @throws UsageError naming the profile, where one has an aggregation that needs critical pairs
+void refuse_critical_pairs(const Experiment& experiment, const std::string& file, const std::string& problem,
+                           const std::string& remedy);
 
 }  // namespace lmdbench

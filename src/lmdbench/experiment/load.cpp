@@ -64,7 +64,7 @@ ForceChoice force_choice(const Json& entry, const std::string& place, const std:
   force.maximum_force_n = entry["maximum_force_n"].get<double>();
   force.sharpness = entry["sharpness"].get<double>();
   force.aggregation =
-      aggregation_named(entry["aggregation"].get<std::string>(), file, place + "/aggregation").name;
+      &aggregation_named(entry["aggregation"].get<std::string>(), file, place + "/aggregation");
   force.clip_at_maximum = entry["clip"] == "maximum";
   if (force.cutoff_m && force.cutoff_diagonal)
     throw UsageError(file, place, "two cutoffs", "give at most one of cutoff_m and cutoff_diagonal");
@@ -164,6 +164,10 @@ Experiment from_json(Json document, const std::filesystem::path& path) {
     for (const Json& method : document["methods"]) {
       MethodChoice choice = method_choice(method);
       choice.profile = profile;
+      choice.aggregation = experiment.profiles[profile].aggregation;
+      if (choice.aggregation->needs != AggregationNeeds::MINIMA &&
+          !method_description(choice.name).finds_critical_pairs)
+        choice.aggregation = &sum_law();
       if (document["force"].is_array()) choice.label += "-" + experiment.profiles[profile].name;
       experiment.methods.push_back(std::move(choice));
     }
@@ -182,6 +186,9 @@ Experiment from_json(Json document, const std::filesystem::path& path) {
         "one thread searches: let the latency be at most search_every_frames");
   if (driver["kind"] == "realtime") {
     experiment.realtime = realtime_choice(driver["realtime"]);
+    refuse_critical_pairs(experiment, file,
+                          "threads of the driver realtime hand each other LMDs, no critical pairs",
+                          "take sum, or the driver lockstep");
     // No second traversal is like the first, and when a search starts its thread decides.
     experiment.driver.repetitions = experiment.driver.search_every_frames = 1;
     experiment.driver.search_latency_frames = 0;
@@ -205,6 +212,21 @@ Experiment from_json(Json document, const std::filesystem::path& path) {
 }
 
 }  // namespace
+
+bool MethodChoice::counts_indices() const {
+  return aggregation->needs != AggregationNeeds::MINIMA;
+}
+
+void refuse_critical_pairs(const Experiment& experiment, const std::string& file, const std::string& problem,
+                           const std::string& remedy) {
+  for (std::size_t i = 0; i < experiment.profiles.size(); ++i) {
+    const ForceChoice& profile = experiment.profiles[i];
+    if (profile.aggregation->needs == AggregationNeeds::MINIMA) continue;
+    throw UsageError(file,
+                     profile.name.empty() ? "/force/aggregation" : fmt::format("/force/{}/aggregation", i),
+                     fmt::format("aggregation \"{}\": {}", profile.aggregation->name, problem), remedy);
+  }
+}
 
 std::optional<double> ForceChoice::cutoff(double moving_diagonal) const {
   if (cutoff_m) return cutoff_m;

@@ -7,7 +7,7 @@
 #include <lmdbench/experiment/planted_slowdown.h>
 #include <lmdbench/experiment/run_keeper.h>
 #include <lmdbench/experiment/two_rate.h>
-#include <lmdbench/force/aggregate.h>
+#include <lmdbench/force/contact_finder.h>
 #include <lmdbench/lmd/method_description.h>
 
 #include <fmt/format.h>
@@ -61,8 +61,7 @@ class MethodRun {
   MethodRun(const LockstepMethod& method, const LockstepInput& input, const DriverChoice& driver)
       : input_(input),
         profile_(method.profile),
-        aggregation_(*method.aggregation),
-        merge_finder_(method.scene),
+        contacts_(*method.aggregation, method.scene),
         poses_(input.make_poses ? input.make_poses() : std::make_unique<PathPoses>(input.poses)),
         memory_(method.profile.cutoff),
         planted_(method.label) {
@@ -84,7 +83,8 @@ class MethodRun {
     frame_counters_ = &result.counters;
     if (every_frame_) {
       found_.clear();
-      run(Stage::LOCAL_UPDATE, [&](WorkCounters& counters) { search_every_frame(counters); });
+      run(Stage::LOCAL_UPDATE,
+          [&](WorkCounters& counters) { contacts_.search(*every_frame_, pose(), found_, counters); });
       result.lmd_count_before_reduction = static_cast<double>(found_.size());
       result.lmd_age = 0.0;
     } else {
@@ -139,27 +139,6 @@ class MethodRun {
   const Pose& pose() const { return poses_->pose(); }
   RepetitionTimes& times() { return record_.repetitions.front(); }
 
-  /// What the law needs.
-  void search_every_frame(WorkCounters& counters) {
-    if (aggregation_.needs == AggregationNeeds::MINIMA) {
-      every_frame_->search(pose(), found_, counters);
-      return;
-    }
-    every_frame_->find_critical(pose(), critical_, counters);
-    found_ = minima_of(critical_);
-    if (aggregation_.needs == AggregationNeeds::MERGES) merge_finder_.find(pose(), critical_, merges_);
-  }
-
-  /// @param lmds  within the cutoff, with their directions
-  Wrench combine(const LmdSet& lmds, const ForceProfile& profile, const Vec3& reference_W) {
-    if (aggregation_.needs == AggregationNeeds::MINIMA) return sum_forces(lmds, profile, reference_W);
-    // Where triangles touch the direction is remembered (E12).
-    auto lmd = lmds.begin();
-    for (CriticalPair& critical : critical_)
-      if (critical.is_minimum && lmd != lmds.end()) critical.pair = *lmd++;
-    return aggregation_.combine({critical_, merges_}, profile, reference_W);
-  }
-
   /// From the working set to force, record and hash; not timed.
   void finish_frame(std::int64_t frame, const LmdSet& working, FrameRecord result) {
     LMDBENCH_ALWAYS(frame == static_cast<std::int64_t>(record_.frames.size()),
@@ -169,7 +148,7 @@ class MethodRun {
                      lmd_less);  // summation in an order that the scene alone decides
     result.contact_without_direction = memory_.complete(lmds);
     const Vec3 reference_W = RigidTransform(pose()).point(input_.reference_M);
-    const Wrench wrench = combine(lmds, profile_, reference_W);
+    const Wrench wrench = contacts_.combine(lmds, profile_, reference_W);
     const RenderedForce rendered = input_.device.render(wrench, profile_.largest_sum);
     result.force = rendered.force;
     result.force_clipped = rendered.clipped;
@@ -179,6 +158,7 @@ class MethodRun {
     result.lmd_count = static_cast<std::int64_t>(lmds.size());
     result.tracked_count = static_cast<std::int64_t>(working.size());
     result.minimum_distance = minimum_distance(lmds);
+    result.lmds_without_index = contacts_.without_index(profile_.cutoff);
 
     for (int axis = 0; axis < 3; ++axis) result_hash_.add(result.force[axis]);
     result_hash_.add(result.lmd_count);
@@ -199,24 +179,21 @@ class MethodRun {
     }
   }
 
-  /// Plain sums, whatever the aggregation: the true forces that every method is compared with.
   void keep_both_laws(const LmdSet& lmds, const Vec3& reference_W, const RenderedForce& own) {
     for (const ForceLaw law : force_laws()) {
       ForceProfile profile = profile_;
       profile.law = law;
       record_.force_by_law[static_cast<std::size_t>(law)].push_back(
-          law == profile_.law && aggregation_.needs == AggregationNeeds::MINIMA
+          law == profile_.law
               ? own.force
-              : input_.device.render(sum_forces(lmds, profile, reference_W), profile.largest_sum).force);
+              : input_.device.render(contacts_.combine(lmds, profile, reference_W), profile.largest_sum)
+                    .force);
     }
   }
 
   const LockstepInput& input_;
   const ForceProfile profile_;
-  const Aggregation& aggregation_;
-  MergeFinder merge_finder_;
-  CriticalSet critical_;       ///< Of `every_frame_`, where the law needs it.
-  std::vector<Merge> merges_;  ///< Likewise.
+  ContactFinder contacts_;
   std::unique_ptr<PoseSource> poses_;
   std::optional<TwoRate> two_rate_;      ///< Unset for a method without local tracking, ...
   std::unique_ptr<Method> every_frame_;  ///< ... which searches in every frame instead.

@@ -38,7 +38,7 @@ struct LockstepMethod {
   ForceProfile profile;
   /// What becomes of its LMDs; needs a method that finds critical pairs where it is not their sum.
   const Aggregation* aggregation = &sum_law();
-  Scene scene = {};  ///< For laws that need merges.
+  Scene scene = {};  ///< For aggregations that need more than the method's set.
 };
 
 /// All that the driver needs to know of the scene.

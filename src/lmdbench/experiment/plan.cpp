@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/experiment/plan.h>
+#include <lmdbench/force/aggregation.h>
 #include <lmdbench/methods/registry.h>
 
 #include <fmt/format.h>
@@ -23,8 +24,9 @@ std::string join_labels(const std::vector<std::string>& labels) {
 /// A method of the experiment with its options, with the default beside a value that is another.
 std::string choice_text(const MethodChoice& choice) {
   const MethodDescription& method = method_description(choice.name);
-  std::string text = fmt::format("  {}: {} ({}, force law {})\n", choice.label, method.summary,
-                                 to_string(method.promise), to_string(choice.force_law));
+  std::string text =
+      fmt::format("  {}: {} ({}, force law {}, aggregation {})\n", choice.label, method.summary,
+                  to_string(method.promise), to_string(choice.force_law), choice.aggregation->name);
   for (const auto& [key, value] : choice.options.items()) {
     const Json& standard = method.options[key]["default"];
     text += fmt::format("    {:<34} {}{}\n", key, value.dump(),
@@ -40,6 +42,7 @@ nlohmann::ordered_json choice_json(const MethodChoice& choice) {
                               {"summary", method.summary},
                               {"promise", to_string(method.promise)},
                               {"tracks_locally", method.tracks_locally},
+                              {"aggregation", choice.aggregation->name},
                               {"options", nlohmann::ordered_json::array()},
                               {"counters", nlohmann::ordered_json::array()}};
   for (const auto& [key, value] : choice.options.items())
@@ -100,6 +103,20 @@ Plan make_plan(const Experiment& experiment) {
       fmt::format("{} clips the summed force; the loop is {}", experiment.device,
                   experiment.loop.closed ? "closed" : "open"),
       "");
+  std::vector<std::string> summed, combined;
+  for (const MethodChoice& choice : experiment.methods) {
+    const std::string_view wanted = experiment.profiles[choice.profile].aggregation->name;
+    if (choice.counts_indices())
+      combined.push_back(fmt::format("{} {}", choice.label, wanted));
+    else if (choice.aggregation->name != wanted)
+      summed.push_back(choice.label);
+  }
+  add(Part::CRITICAL_PAIRS, "saddles beside LMDs", !combined.empty(),
+      fmt::format(
+          "force/aggregation: {}{}", join_labels(combined),
+          summed.empty() ? "" : fmt::format("; {}: summed, no saddles are found", join_labels(summed))),
+      summed.empty() ? "force/aggregation is sum: every LMD pushes"
+                     : fmt::format("{}: summed, no saddles are found", join_labels(summed)));
   add(Part::SIMULATED_DEVICE, "simulated device", experiment.loop.closed, loop_text(experiment.loop),
       "loop/kind is open: poses come from the path");
   add(Part::TRUTH_PROBE, "truth probe", experiment.truth_stride_frames > 0,

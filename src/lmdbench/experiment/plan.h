@@ -17,6 +17,7 @@ enum class Part {
   FLATTENING,        ///< Vertices of rounded planes put back into them.
   LOCAL_TRACKING,    ///< Global searches on a clock of their own, with local tracking between them.
   SEARCH_PER_FRAME,  ///< Methods that find their set from scratch in every frame.
+  CRITICAL_PAIRS,    ///< Saddles beside LMDs, for an aggregation that needs them.
   DEVICE,            ///< The virtual device.
   SIMULATED_DEVICE,  ///< Its motion, in a closed loop.
   TRUTH_PROBE,       ///< Exhaustive LMD sets on a stride.

@@ -215,6 +215,33 @@ Scene load_scene(const Experiment& experiment, std::vector<MeshNote>& notes) {
   return scene;
 }
 
+namespace {
+
+/// What an aggregation other than the sum cannot keep to.
+void warn_of_aggregation(const Experiment& experiment, PreparedRun& prepared) {
+  bool asks_indices = false;
+  for (const MethodChoice& method : experiment.methods) {
+    const Aggregation& wanted = *experiment.profiles[method.profile].aggregation;
+    asks_indices = asks_indices || method.aggregation->needs != AggregationNeeds::MINIMA;
+    if (method.aggregation != &wanted)
+      prepared.warnings.push_back(
+          fmt::format("method {} finds no saddles, which the aggregation \"{}\" needs: its LMDs are summed, "
+                      "and its force errors "
+                      "are against the force that was asked for",
+                      method.label, wanted.name));
+  }
+  for (const MeshNote& note : prepared.meshes)
+    if (asks_indices && !(note.report.closed && note.report.manifold))
+      prepared.warnings.push_back(
+          fmt::format("{} mesh {}: LMDs at its {} boundary edges and {} edges and vertices that are not "
+                      "manifold have no index: "
+                      "where one is born or dies the force may jump",
+                      note.role, note.name, note.report.boundary_edges,
+                      note.report.non_manifold_edges + note.report.non_manifold_vertices));
+}
+
+}  // namespace
+
 PreparedRun prepare(const Experiment& experiment, const Progress& progress) {
   const Device& device = device_named(experiment.device, experiment.file.string(), "/device");
   std::vector<InputFile> files;
@@ -293,13 +320,7 @@ PreparedRun prepare(const Experiment& experiment, const Progress& progress) {
                                  reference_M = prepared.input.reference_M] {
       return std::make_unique<DevicePoses>(loop, path, period, reference_M);
     };
-  for (const MethodChoice& method : experiment.methods) {
-    const std::string& wanted = experiment.profiles[method.profile].aggregation;
-    if (aggregation_of(experiment, method).name != wanted)
-      prepared.warnings.emplace_back(fmt::format(
-          "method {} finds no critical pairs, which the aggregation \"{}\" needs: its LMDs are summed",
-          method.label, wanted));
-  }
+  warn_of_aggregation(experiment, prepared);
   prepare_hierarchies(prepared.scene());
   prepared.starts_touching = touches(prepared.scene(), prepared.input.poses.front());
   if (prepared.starts_touching)
@@ -328,13 +349,6 @@ std::vector<std::filesystem::path> input_files(const Experiment& experiment) {
   return files;
 }
 
-const Aggregation& aggregation_of(const Experiment& experiment, const MethodChoice& method) {
-  const Aggregation& wanted = aggregation_named(experiment.profiles[method.profile].aggregation);
-  const bool can =
-      wanted.needs == AggregationNeeds::MINIMA || method_description(method.name).finds_critical_pairs;
-  return can ? wanted : sum_law();
-}
-
 std::vector<LockstepMethod> lockstep_methods(const Experiment& experiment, const PreparedRun& prepared) {
   std::vector<LockstepMethod> methods;
   for (const MethodChoice& choice : experiment.methods) {
@@ -345,7 +359,7 @@ std::vector<LockstepMethod> lockstep_methods(const Experiment& experiment, const
                        [name = choice.name, options = choice.options, scene = profile.scene] {
                          return make_method(name, scene, options);
                        },
-                       force, &aggregation_of(experiment, choice), profile.scene});
+                       force, choice.aggregation, profile.scene});
   }
   return methods;
 }

@@ -73,9 +73,6 @@ std::vector<std::int64_t> truth_frames(const Experiment& experiment, const Prepa
 /// missing. For outputs, which must replace none of them.
 std::vector<std::filesystem::path> input_files(const Experiment& experiment);
 
-/// What becomes of a method's LMDs: what its profile names where the method finds what that needs, else their sum.
-const Aggregation& aggregation_of(const Experiment& experiment, const MethodChoice& method);
-
 /// The experiment's methods on the prepared scene.
 std::vector<LockstepMethod> lockstep_methods(const Experiment& experiment, const PreparedRun& prepared);
 

@@ -34,7 +34,8 @@ struct FrameRecord {
   double lmd_age = UNSET;                      ///< Since the pose that the set in use was searched at [s].
   double effective_stiffness = 0.0;            ///< K_eff [N/m] before clipping.
   std::int64_t contact_without_direction = 0;  ///< LMDs at distance 0 with no direction of their own (E12).
-  WorkCounters counters;                       ///< Of the frame's local part.
+  std::int64_t lmds_without_index = 0;  ///< Under an aggregation that asks for indices (ContactFinder).
+  WorkCounters counters;                ///< Of the frame's local part.
 };
 
 /// A global search of one method, without its times.

@@ -43,6 +43,16 @@ void note_findings(const Experiment& experiment, RunResult& result) {
           fmt::format("{}: touching triangles in {} of {} frames; there an LMD keeps its last direction",
                       label, count, result.prepared.times.size()));
   }
+  for (const MethodRecord& record : result.records) {
+    const auto count = std::ranges::count_if(
+        record.frames, [](const FrameRecord& frame) { return frame.lmds_without_index > 0; });
+    if (count > 0)
+      result.warnings.push_back(
+          fmt::format("{}: LMDs without an index in {} of {} frames (lmds_without_index); each pushes by "
+                      "itself, and the force may "
+                      "jump where one is born or dies",
+                      record.label, count, record.frames.size()));
+  }
   for (std::size_t i = 0; i < result.records.size(); ++i)
     if (const auto warning = clipping_warning(result.records[i], result.track_of(i).in_contact))
       result.warnings.push_back(to_text(*warning));
@@ -163,10 +173,10 @@ RunResult run_and_keep(const Experiment& experiment, const RunProgress& progress
     track.in_contact =
         result.one_track ? result.in_contact : frames_in_contact(profile.scene, input.poses, forecast);
     if (result.plan.needs(Part::TRUTH_PROBE))
-      track.truth =
-          probe_truth(profile.scene, input, profile.force, probed, phase("truth"),
-                      is_on(result.plan.rules, Rule::TRUTH_IN_CONTACT) ? &track.in_contact : nullptr,
-                      shortcuts.reuse_repeated);
+      track.truth = probe_truth(
+          profile.scene, input, profile.force, *experiment.profiles[track.profile].aggregation, probed,
+          phase("truth"), is_on(result.plan.rules, Rule::TRUTH_IN_CONTACT) ? &track.in_contact : nullptr,
+          shortcuts.reuse_repeated);
     if (result.plan.needs(Part::INTERSECTIONS))
       track.polylines =
           probe_polylines(profile.scene, input, probed_frames(frame_count, experiment.polyline_stride_frames),

@@ -114,7 +114,7 @@ RunKeeper::RunKeeper(PartFile& part, const Experiment& experiment, std::int64_t 
   for (const MethodChoice& choice : experiment.methods) {
     const MethodDescription& method = method_description(choice.name);
     KeptMethod kept;
-    kept.frames.columns = frame_columns(method, experiment.record_torque);
+    kept.frames.columns = frame_columns(method, experiment.record_torque, choice.counts_indices());
     kept.searches.columns = search_columns(method);
     kept.search_times = search_times(method);
     if (experiment.loop.closed) {

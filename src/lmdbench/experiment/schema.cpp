@@ -3,7 +3,12 @@
 #include <lmdbench/experiment/rules.h>
 #include <lmdbench/experiment/schema.h>
 #include <lmdbench/experiment/schema_text.h>
+#include <lmdbench/force/aggregation.h>
 #include <lmdbench/methods/registry.h>
+
+#include <fmt/format.h>
+
+#include <string>
 
 namespace lmdbench {
 namespace {
@@ -25,12 +30,21 @@ void add_method_options(Json& entry) {
   entry["allOf"] = std::move(choices);
 }
 
+/// The aggregations that there are, each with what it is.
+void add_aggregations(Json& choice) {
+  choice["enum"] = aggregation_names();
+  std::string text = choice["description"].get<std::string>();
+  for (const Aggregation& law : aggregations()) text += fmt::format("; {}: {}", law.name, law.summary);
+  choice["description"] = text;
+}
+
 }  // namespace
 
 const Json& experiment_schema() {
   static const Json schema = [] {
     Json text = Json::parse(experiment_schema_text());
     add_method_options(text["properties"]["methods"]["items"]);
+    add_aggregations(text["properties"]["force"]["properties"]["aggregation"]);
     text["properties"]["plan"] = rules_schema();
     return text;
   }();

@@ -6,7 +6,7 @@
 #include <lmdbench/experiment/contact.h>
 #include <lmdbench/experiment/prepare.h>
 #include <lmdbench/experiment/stability_map.h>
-#include <lmdbench/force/aggregate.h>
+#include <lmdbench/force/contact_finder.h>
 #include <lmdbench/lmd/method_description.h>
 #include <lmdbench/methods/registry.h>
 
@@ -24,13 +24,12 @@
 namespace lmdbench {
 namespace {
 
-/// Force of the exact set at a pose.
-Wrench exact_wrench(const Scene& scene, ForceProfile profile, ForceLaw law, const Pose& X_WM) {
+/// Force of the exact set at a pose, under the profile's aggregation.
+Wrench exact_wrench(const Scene& scene, ForceProfile profile, const Aggregation& aggregation, ForceLaw law,
+                    const Pose& X_WM) {
   profile.law = law;
-  LmdSet lmds;
-  WorkCounters ignored;
-  make_method("certified", scene)->search(X_WM, lmds, ignored);
-  return sum_forces(lmds, profile, X_WM.translation);
+  return ContactFinder(aggregation, scene)
+      .wrench_at(*make_method("certified", scene), X_WM, profile, X_WM.translation);
 }
 
 /// Sine of one axis.
@@ -137,7 +136,9 @@ void map_stability(const Experiment& experiment, const StabilityMapGrid& grid,
   for (std::size_t m = 0; m < methods.size(); ++m) {
     const MethodChoice& choice = experiment.methods[m];
     const PreparedProfile& profile = prepared.profiles[choice.profile];
-    const Wrench at_start = exact_wrench(profile.scene, profile.force, choice.force_law, start);
+    const Wrench at_start =
+        exact_wrench(profile.scene, profile.force, *experiment.profiles[choice.profile].aggregation,
+                     choice.force_law, start);
     if (!(at_start.stiffness > 0.0 && at_start.force.norm() > 0.0))
       throw UsageError(file, "/path/file", "its first pose is not in contact",
                        "begin where there is force and stiffness");

@@ -16,7 +16,7 @@
 /// In every run the device starts at rest at the path's first pose; the hand means to follow the path, moved against the contact's
 /// force there until its spring would press with LOAD_N (smoothly over PRESS_S), and trembles: in each axis a sine of 8 to 12 Hz, the
 /// range of physiological tremor, whose frequency and phase the seed draws and whose amplitude is TREMOR_CUTOFF of the cutoff. What is
-/// measured is measured after SETTLED_S. F_max gives the stiffness: K_eff of the exact set at the first pose is the one asked
+/// measured is measured after SETTLED_S. F_max gives the stiffness: K_eff of the exact set at the first pose, under the profile's aggregation, is the one asked
 /// for, and all methods get the same F_max.
 namespace lmdbench {
 

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/experiment/rules.h>
 #include <lmdbench/experiment/truth_probe.h>
-#include <lmdbench/force/aggregate.h>
+#include <lmdbench/force/contact_finder.h>
 #include <lmdbench/geometry/cone.h>
 #include <lmdbench/methods/registry.h>
 
@@ -28,45 +28,46 @@ std::vector<std::int64_t> probed_frames(std::int64_t frame_count, std::int64_t s
 }
 
 std::vector<TruthFrame> probe_truth(const Scene& scene, const LockstepInput& input,
-                                    const ForceProfile& profile, const std::vector<std::int64_t>& frames,
-                                    const Progress& progress, const std::vector<bool>* in_contact,
-                                    bool reuse_repeated) {
+                                    const ForceProfile& profile, const Aggregation& aggregation,
+                                    const std::vector<std::int64_t>& frames, const Progress& progress,
+                                    const std::vector<bool>* in_contact, bool reuse_repeated) {
   const std::unique_ptr<Method> exhaustive = make_method("exhaustive", scene);
+  ContactFinder contacts(aggregation, scene);
   WorkCounters ignored;
-  const auto rendered = [&](const LmdSet& lmds, std::int64_t frame, ForceLaw law) {
-    ForceProfile with_law = profile;
-    with_law.law = law;
-    const Vec3 reference_W =
-        RigidTransform(input.poses[static_cast<std::size_t>(frame)]).point(input.reference_M);
-    return input.device.render(sum_forces(lmds, with_law, reference_W), profile.largest_sum).force;
+  /// Set and rendered forces of a frame.
+  struct Found {
+    LmdSet lmds;
+    std::array<Vec3, FORCE_LAW_COUNT> force{Vec3::Zero(), Vec3::Zero()};
   };
   std::optional<Pose> searched;  // where the last set was found, ...
-  LmdSet found;                  // ... and the set
-  const auto search = [&](std::int64_t frame, LmdSet& lmds) {
+  Found last;                    // ... and what was found
+  const auto search = [&](std::int64_t frame) -> Found {
     const auto at = static_cast<std::size_t>(frame);
-    if (in_contact != nullptr && !(*in_contact)[at]) return;
-    if (reuse_repeated && searched && same_pose(*searched, input.poses[at])) {
-      lmds = found;
-      return;
+    if (in_contact != nullptr && !(*in_contact)[at]) return {};
+    const Pose& X_WM = input.poses[at];
+    if (reuse_repeated && searched && same_pose(*searched, X_WM)) return last;
+    Found found;
+    contacts.search(*exhaustive, X_WM, found.lmds, ignored);
+    const Vec3 reference_W = RigidTransform(X_WM).point(input.reference_M);
+    for (const ForceLaw law : force_laws()) {
+      ForceProfile with_law = profile;
+      with_law.law = law;
+      found.force[static_cast<std::size_t>(law)] =
+          input.device.render(contacts.combine(found.lmds, with_law, reference_W), profile.largest_sum).force;
     }
-    exhaustive->search(input.poses[at], lmds, ignored);
-    if (!reuse_repeated) return;
-    searched = input.poses[at];
-    found = lmds;
+    if (reuse_repeated) {
+      searched = X_WM;
+      last = found;
+    }
+    return found;
   };
   std::vector<TruthFrame> truth;
-  LmdSet next;
   for (const std::int64_t frame : frames) {
-    TruthFrame here;
-    here.frame = frame;
-    next.clear();
-    search(frame, here.lmds);
-    search(frame + 1, next);
-    for (const ForceLaw law : {ForceLaw::LINEAR, ForceLaw::EXPONENTIAL}) {
-      const auto index = static_cast<std::size_t>(law);
-      here.force[index] = rendered(here.lmds, frame, law);
-      here.force_jump[index] = (rendered(next, frame + 1, law) - here.force[index]).norm();
-    }
+    Found found = search(frame);
+    const Found next = search(frame + 1);
+    TruthFrame here{frame, std::move(found.lmds), found.force, {}};
+    for (std::size_t law = 0; law < FORCE_LAW_COUNT; ++law)
+      here.force_jump[law] = (next.force[law] - here.force[law]).norm();
     truth.push_back(std::move(here));
     if (progress &&
         !progress(static_cast<std::int64_t>(truth.size()), static_cast<std::int64_t>(frames.size())))

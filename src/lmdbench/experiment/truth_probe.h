@@ -15,7 +15,7 @@
 /// The truth probe: on a stride of frames the exhaustive LMD set is computed at the frame and at the next
 /// one, outside the timed frames, and every method is compared with it. Force errors compare rendered forces
 /// (clipped by the same device) under the method's own law, so that they show what the LMD set costs and not
-/// what the law changes. Where the meshes touch, a true LMD at distance 0 has no direction and adds no force,
+/// what the law changes. The aggregation is the profile's, also for a method whose LMDs can only be summed. Where the meshes touch, a true LMD at distance 0 has no direction and adds no force,
 /// while a method in motion keeps its last direction (E12): the force errors of such frames say little.
 namespace lmdbench {
 
@@ -46,12 +46,14 @@ std::vector<std::int64_t> probed_frames(std::int64_t frame_count, std::int64_t s
 
 /// Computes truth at the given frames.
 /// @param profile  the scene's; its law is ignored
+/// @param aggregation  makes the true forces of the exhaustive sets
 /// @param in_contact  one a frame, where frames out of contact are known to have an empty set; else null
 /// @param reuse_repeated  whether a frame at the pose of the one searched before it has its set without a search
 /// @param progress may stop the probe by returning false, which throws Interrupted
 std::vector<TruthFrame> probe_truth(const Scene& scene, const LockstepInput& input,
-                                    const ForceProfile& profile, const std::vector<std::int64_t>& frames,
-                                    const Progress& progress, const std::vector<bool>* in_contact = nullptr,
+                                    const ForceProfile& profile, const Aggregation& aggregation,
+                                    const std::vector<std::int64_t>& frames, const Progress& progress,
+                                    const std::vector<bool>* in_contact = nullptr,
                                     bool reuse_repeated = true);
 
 /// @pre the record keeps the LMD sets of the truth's frames

@@ -5,6 +5,7 @@
 #include <lmdbench/experiment/write_polylines.h>
 #include <lmdbench/experiment/write_realtime.h>
 #include <lmdbench/experiment/write_result.h>
+#include <lmdbench/force/aggregation.h>
 #include <lmdbench/methods/registry.h>
 
 #include <fmt/format.h>
@@ -69,9 +70,11 @@ void write_times(ResultWriter& writer, const DatasetInfo& info,
                {repetitions.size(), (repetitions.front().*times).size()});
 }
 
-void write_frames(ResultWriter& writer, const std::string& group, const MethodDescription& method,
+void write_frames(ResultWriter& writer, const std::string& group, const MethodChoice& choice,
                   const MethodRecord& record, const Experiment& experiment) {
-  write_columns(writer, group, frame_columns(method, experiment.record_torque), record.frames, experiment);
+  const MethodDescription& method = method_description(choice.name);
+  write_columns(writer, group, frame_columns(method, experiment.record_torque, choice.counts_indices()),
+                record.frames, experiment);
   if (experiment.record_timings)
     write_times(writer, {group + "/local_update_time", "s", "time of the frame's local part, by repetition"},
                 record.repetitions, &RepetitionTimes::local_update);
@@ -104,8 +107,10 @@ void write_truth(ResultWriter& writer, const std::string& group, const std::vect
          [](Row r) { return r.neighbours.precision(); });
   column("minimum_distance_error", "m", "minimum distance minus the true one",
          [](Row r) { return r.minimum_distance_error; });
-  column("force_error", "N", "length of the difference to the true rendered force under the same law",
-         [](Row r) { return r.force_error; });
+  column(
+      "force_error", "N",
+      "length of the difference to the true rendered force under the same law and the profile's aggregation",
+      [](Row r) { return r.force_error; });
   column("force_angle_error", "rad", "angle to the true force", [](Row r) { return r.force_angle_error; });
   column("force_jump", "N", "change of the method's force to the next frame",
          [](Row r) { return r.force_jump; });
@@ -236,13 +241,14 @@ void write_method(ResultWriter& writer, const Experiment& experiment, const RunR
   writer.attribute(group, "tracks_locally", std::int64_t{method.tracks_locally});
   writer.attribute(group, "trackings_after_search", std::int64_t{method.trackings_after_search});
   writer.attribute(group, "force_law", std::string(to_string(choice.force_law)));
+  writer.attribute(group, "aggregation", std::string(choice.aggregation->name));
   writer.attribute(group, "options", choice.options_json);
   writer.attribute(group, "result_hash", fmt::format("{:016x}", record.result_hash));
   const Track& track = result.track_of(index);
   const PreparedProfile& profile = result.prepared.profiles[track.profile];
   writer.attribute(group, "profile", profile.name);
   write_profile(writer, group, profile, result.prepared.input.device);
-  write_frames(writer, group, method, record, experiment);
+  write_frames(writer, group, choice, record, experiment);
   if (method.tracks_locally) write_searches(writer, group, method, record, experiment);
   if (!track.truth.empty()) write_truth(writer, group + "/truth", track.truth, result.comparisons[index]);
   if (experiment.loop.closed) {

@@ -10,7 +10,7 @@
 namespace lmdbench {
 
 const std::vector<Aggregation>& aggregations() {
-  static const std::vector<Aggregation> all{sum_law(), signed_law(), shared_law()};
+  static const std::vector<Aggregation> all{sum_law(), signed_law(), shared_law(), layered_law()};
   return all;
 }
 

@@ -5,6 +5,7 @@
 #include <lmdbench/force/aggregate.h>
 #include <lmdbench/lmd/critical_pair.h>
 #include <lmdbench/lmd/merges.h>
+#include <lmdbench/lmd/surface_samples.h>
 
 #include <span>
 #include <string>
@@ -18,12 +19,16 @@ namespace lmdbench {
 enum class AggregationNeeds : std::uint8_t {
   MINIMA,          ///< The LMDs.
   CRITICAL_PAIRS,  ///< All critical pairs with their indices: a method that finds them.
-  MERGES           ///< These, and which minima the saddles join.
+  MERGES,          ///< These, and which minima the saddles join.
+  SURFACE          ///< These, and patches of the moving mesh's surface with their nearest points.
 };
 
 struct ForceInput {
-  const CriticalSet& critical;      ///< Up to the profile's cutoff.
-  std::span<const Merge> merges{};  ///< By the saddle's distance.
+  const CriticalSet& critical;               ///< Up to the profile's cutoff.
+  std::span<const Merge> merges{};           ///< By the saddle's distance.
+  std::span<const SurfaceSample> samples{};  ///< In any order.
+  /// What one minimum weighs among patches of surface [m^2] (`layered`).
+  double minimum_area = 0.0;
 };
 
 struct Aggregation {
@@ -46,5 +51,6 @@ const Aggregation& aggregation_named(std::string_view name, const std::string& f
 const Aggregation& sum_law();
 const Aggregation& signed_law();
 const Aggregation& shared_law();
+const Aggregation& layered_law();
 
 }  // namespace lmdbench

@@ -22,6 +22,10 @@ class WrenchSum {
     force_ += force_W;
     torque_ += (lmd.point_moving - reference_W_).cross(force_W);
   }
+  void add(const Vec3& force_W, const Vec3& torque) {
+    force_ += force_W;
+    torque_ += torque;
+  }
   /// A force along `along` that grows by `stiffness` [N/m] a metre that the moving mesh goes along `measured`.
   void stiffen(const Vec3& along, const Vec3& measured, double stiffness) {
     stiffness_W_ += stiffness * along * measured.transpose();

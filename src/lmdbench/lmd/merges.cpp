@@ -11,17 +11,21 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <set>
+#include <vector>
 
 namespace lmdbench {
 
 namespace {
 
-constexpr std::size_t NO_MINIMUM = std::numeric_limits<std::size_t>::max();
 /// Cosine of the angle up to which the end of a descent has a minimum's direction where their features differ: on a flat contact, say.
 constexpr double SAME_DESCENT_DIRECTION = 0.995;
 /// Distances differ by less than this part of the coordinates where the end of a descent is a minimum: the turn of the generic pose and
 /// what meshes are known to.
 constexpr double SAME_DESCENT_DISTANCE = 16.0 * LEAST_TOLERANCE;
+
+/// Larger places are given up.
+constexpr std::size_t MOST_PAIRS_OF_A_PLACE = 4096;
 
 double largest_coordinate_of(const Surface& surface) {
   double largest = 0.0;
@@ -43,22 +47,50 @@ bool reaches(const Triangle& triangle, const Vec3& point, const Vec3& direction)
   });
 }
 
+/// Triangles that share a corner with one, itself among them.
+std::vector<std::int32_t> neighbours_of(const Surface& surface, std::int32_t triangle) {
+  std::vector<std::int32_t> found;
+  for (const std::int32_t corner : surface.mesh.triangles[static_cast<std::size_t>(triangle)])
+    for (const std::int32_t t : surface.incident_triangles({FeatureKind::VERTEX, corner}))
+      if (std::ranges::find(found, t) == found.end()) found.push_back(t);
+  return found;
+}
+
 }  // namespace
 
-std::size_t MergeFinder::descend(const RigidTransform& X_WM, const CriticalSet& critical, std::int32_t body,
-                                 std::int32_t t_moving, std::int32_t t_fixed) {
+std::size_t MergeFinder::end_of_descent(const RigidTransform& X_WM, const CriticalSet& critical,
+                                        std::int32_t body, std::int32_t t_moving, std::int32_t t_fixed) {
   const Surface &moving = scene_.moving->surface(),
                 &fixed = scene_.fixed[static_cast<std::size_t>(body)]->surface();
   const auto distance_of = [&](std::int32_t a, std::int32_t b) {
     ++triangle_distances_;
     return triangle_distance(X_WM.triangle(moving.mesh.triangle(a)), fixed.mesh.triangle(b));
   };
+  // A place that is level but for the turn of the generic pose, or one next to its birth or death, may hold a descent that has a way down
+  // elsewhere: from pair to pair at the same distance until one is nearer.
+  const auto leave_level_place = [&](std::pair<std::int32_t, std::int32_t> from, double distance,
+                                     double same) {
+    std::vector<std::pair<std::int32_t, std::int32_t>> place{from};
+    std::set<std::pair<std::int32_t, std::int32_t>> met{from};
+    for (std::size_t k = 0; k < place.size() && place.size() < MOST_PAIRS_OF_A_PLACE; ++k) {
+      const auto around = neighbours_of(moving, place[k].first),
+                 others = neighbours_of(fixed, place[k].second);
+      for (const std::int32_t s : around)
+        for (const std::int32_t t : others) {
+          if (!met.insert({s, t}).second) continue;
+          const double there = std::sqrt(distance_of(s, t).squared_distance);
+          if (there < distance - same) return end_of_descent(X_WM, critical, body, s, t);
+          if (there <= distance + same) place.emplace_back(s, t);
+        }
+    }
+    return NO_MINIMUM;
+  };
   std::vector<std::pair<std::int32_t, std::int32_t>> way{{t_moving, t_fixed}};
   TrianglePairDistance here = distance_of(t_moving, t_fixed);
   std::size_t end = NO_MINIMUM;
   for (;;) {
     const auto [a, b] = way.back();
-    if (const auto known = ended_.find(way.back()); known != ended_.end()) {
+    if (const auto known = ended_.find({body, a, b}); known != ended_.end()) {
       end = known->second;
       break;
     }
@@ -103,9 +135,10 @@ std::size_t MergeFinder::descend(const RigidTransform& X_WM, const CriticalSet& 
       nearest = apart;
       end = i;
     }
+    if (end == NO_MINIMUM) end = leave_level_place(way.back(), distance, same);
     break;
   }
-  for (const auto& pair : way) ended_[pair] = end;
+  for (const auto& [a, b] : way) ended_[{body, a, b}] = end;
   return end;
 }
 
@@ -113,15 +146,14 @@ void MergeFinder::find(const Pose& pose, const CriticalSet& critical, std::vecto
   LMDBENCH_EXPECTS(std::ranges::is_sorted(critical, lmd_less, &CriticalPair::pair),
                    "a set that was not sorted (sort_critical)");
   merges.clear();
+  ended_.clear();
   const auto minima = std::ranges::count_if(critical, [](const CriticalPair& c) { return c.is_basin; });
   if (minima < 2) return;
   const RigidTransform X_WM = generic_pose(RigidTransform(pose));
   const Surface& moving = scene_.moving->surface();
   std::vector<std::size_t> ends;
-  // Grouped by body, for the triangle pairs that are known.
   for (std::int32_t body = 0; body < static_cast<std::int32_t>(scene_.fixed.size()); ++body) {
     const Surface& fixed = scene_.fixed[static_cast<std::size_t>(body)]->surface();
-    ended_.clear();
     for (std::size_t i = 0; i < critical.size(); ++i) {
       const Lmd& saddle = critical[i].pair;
       if (critical[i].index > -1 || critical[i].is_minimum || saddle.fixed_body != body) continue;
@@ -134,7 +166,7 @@ void MergeFinder::find(const Pose& pose, const CriticalSet& critical, std::vecto
           if (!reaches(X_WM.triangle(moving.mesh.triangle(s)), saddle.point_moving, d) &&
               !reaches(fixed.mesh.triangle(t), saddle.point_fixed, -d))
             continue;
-          const std::size_t end = descend(X_WM, critical, body, s, t);
+          const std::size_t end = end_of_descent(X_WM, critical, body, s, t);
           if (end != NO_MINIMUM && std::ranges::find(ends, end) == ends.end()) ends.push_back(end);
         }
       for (std::size_t k = 1; k < ends.size(); ++k) merges.push_back({i, ends[0], ends[k]});

@@ -1,0 +1,164 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/catalogue/sleeve.h>
+#include <lmdbench/force/contact_finder.h>
+#include <lmdbench/methods/registry.h>
+
+#include <gtest/gtest.h>
+#include <support/scenes.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <numbers>
+#include <vector>
+
+/// `layered`, and the samples of surface that it is made of.
+namespace lmdbench {
+namespace {
+
+ForceProfile linear_profile(double cutoff) {
+  return {.law = ForceLaw::LINEAR, .cutoff = cutoff, .saturation_distance = 0.0, .maximum_force = 1.0};
+}
+
+/// An aggregation on a scene, as `certified` finds it.
+class Rendered {
+ public:
+  Rendered(const Aggregation& aggregation, Scene scene)
+      : scene_(std::move(scene)),
+        method_(make_method("certified", scene_)),
+        finder_(aggregation, scene_),
+        profile_(linear_profile(scene_.cutoff)) {}
+  Vec3 at(const Pose& X_WM) { return finder_.wrench_at(*method_, X_WM, profile_, X_WM.translation).force; }
+
+ private:
+  Scene scene_;
+  std::unique_ptr<Method> method_;
+  ContactFinder finder_;
+  ForceProfile profile_;
+};
+
+std::vector<SurfaceSample> samples_of(const Scene& scene, const Pose& X_WM) {
+  const auto method = make_method("certified", scene);
+  CriticalSet critical;
+  WorkCounters ignored;
+  method->find_critical(X_WM, critical, ignored);
+  MergeFinder descents(scene);
+  std::vector<Merge> merges;
+  descents.find(X_WM, critical, merges);
+  std::vector<SurfaceSample> samples;
+  SurfaceSampler(scene).find(X_WM, critical, merges, descents, samples);
+  return samples;
+}
+
+TEST(SurfaceSamples, CoverWhatIsWithinTheCutoff) {
+  // A ball over a plate: of a cap of height h the area seen from below is pi (2 R h - h^2).
+  constexpr double RADIUS = 1.0, CUTOFF = 0.2, GAP = 0.05, HEIGHT = CUTOFF - GAP;
+  const Scene scene = testing::make_scene(make_sphere(RADIUS, 4), make_box({4.0, 4.0, 1.0}, 1), CUTOFF);
+  const auto samples = samples_of(scene, testing::moved(0.013, 0.021, 0.5 + RADIUS + GAP));
+  double area = 0.0;
+  for (const SurfaceSample& sample : samples) {
+    area += sample.area;
+    EXPECT_NEAR((sample.direction - Vec3(0, 0, -1)).norm(), 0.0, 1e-12);
+    EXPECT_NEAR(sample.point_moving.z() - 0.5, sample.distance, 1e-12);
+    EXPECT_EQ(sample.minimum, 0u);
+  }
+  EXPECT_NEAR(area, std::numbers::pi * (2.0 * RADIUS * HEIGHT - HEIGHT * HEIGHT), 0.04 * area);
+}
+
+TEST(SurfaceSamples, EachBelongsToTheMinimumBelowIt) {
+  // A bar on two bumps: what is over a bump is the bump's.
+  const TriangleMesh bumps = merged(translated(make_sphere(0.3, 3), {-1.0, 0.0, 0.0}),
+                                    translated(make_sphere(0.3, 3), {1.0, 0.0, 0.0}));
+  const Scene scene = testing::make_scene(make_box({3.0, 0.2, 0.2}, 4), bumps, 0.1);
+  const Pose pose = testing::moved(0.0, 0.0, 0.3 + 0.1 + 0.04);
+  const auto method = make_method("certified", scene);
+  CriticalSet critical;
+  WorkCounters ignored;
+  method->find_critical(pose, critical, ignored);
+  const auto samples = samples_of(scene, pose);
+  ASSERT_GT(samples.size(), 20u);
+  for (const SurfaceSample& sample : samples)
+    EXPECT_GT(sample.point_moving.x() * critical[sample.minimum].pair.point_moving.x(), 0.0);
+}
+
+TEST(SurfaceSamples, NoneWhereMeshesTouch) {
+  const Scene scene = testing::make_scene(make_sphere(1.0, 2), make_sphere(1.0, 2), 0.2);
+  EXPECT_TRUE(samples_of(scene, testing::moved(1.8, 0.0, 0.0)).empty());
+  EXPECT_FALSE(samples_of(scene, testing::moved(2.05, 0.0, 0.0)).empty());
+  EXPECT_TRUE(samples_of(scene, testing::moved(2.3, 0.0, 0.0)).empty());
+}
+
+Scene rod_in_bore(int rod, int bore) {
+  // Polygons as large as their circles, or a coarser one has another gap.
+  const auto radius_of = [](double radius, int n) {
+    const double angle = 2.0 * std::numbers::pi / n;
+    return radius * std::sqrt(angle / std::sin(angle));
+  };
+  return testing::make_scene(make_sleeve(circle_outline(radius_of(0.010, rod)), nullptr,
+                                         {.height = 0.010, .around = rod, .layers = 6}),
+                             make_sleeve(circle_outline(0.020), circle_outline(radius_of(0.0103, bore)),
+                                         {.height = 0.030, .around = bore, .layers = 8}),
+                             0.001);
+}
+
+/// Of smooth surfaces, off the axis by `off`: the gap at an angle is gap - off cos(angle), and patches weigh t - gap.
+double smooth_force(double cutoff, double gap, double off) {
+  double force = 0.0;
+  constexpr int LEVELS = 2000, ANGLES = 2000;
+  for (int i = 0; i < LEVELS; ++i) {
+    const double t = gap - off + (i + 0.5) / LEVELS * (cutoff - gap + off);
+    double weight = 0.0, push = 0.0;
+    for (int k = 0; k < ANGLES; ++k) {
+      const double angle = 2.0 * std::numbers::pi * (k + 0.5) / ANGLES;
+      const double within = std::max(0.0, t - gap + off * std::cos(angle));
+      weight += within;
+      push += within * std::cos(angle);
+    }
+    force += push / weight * (cutoff - gap + off) / LEVELS / cutoff;
+  }
+  return force;
+}
+
+/// Mean over rolls.
+double force_in_bore(int rod, int bore) {
+  Rendered layered(layered_law(), rod_in_bore(rod, bore));
+  double mean = 0.0;
+  constexpr int ROLLS = 3;
+  for (int k = 0; k < ROLLS; ++k) {
+    const double angle = 0.1 + 1.7 * k;
+    Pose pose = testing::moved(0.00015 * std::cos(angle), 0.00015 * std::sin(angle), 0.0003);
+    pose.rotation = Eigen::AngleAxisd(0.37 * k, Vec3::UnitZ());
+    const Vec3 force = layered.at(pose);
+    EXPECT_GT(-force.dot(pose.translation), 0.9 * force.norm() * 0.00015)
+        << "back to the axis: " << rod << " in " << bore << ", roll " << k;
+    mean += force.norm() / ROLLS;
+  }
+  return mean;
+}
+
+TEST(Layered, ARodInABoreHasOneForceHoweverManyFacets) {
+  const double fine = force_in_bore(64, 96);
+  EXPECT_NEAR(fine, smooth_force(0.001, 0.0003, 0.00015), 0.03 * fine);
+  // 64 in 64 is aligned in the first roll: every face of the rod is parallel to one of the bore, and most ways down lead over level
+  // places.
+  for (const auto& [rod, bore] : {std::pair{24, 32}, {32, 48}, {64, 64}})
+    EXPECT_NEAR(force_in_bore(rod, bore), fine, 0.03 * fine) << rod << " facets in " << bore;
+}
+
+TEST(Layered, TurnsRoundSmoothlyWhereTheAxisCrossesTheCentre) {
+  Rendered layered(layered_law(), rod_in_bore(24, 32));
+  constexpr double STEP = 4e-6;
+  Vec3 before = layered.at(testing::moved(-6 * STEP, 1e-6, 0.0003));
+  double steepest = 0.0;
+  for (int k = -5; k <= 5; ++k) {
+    const Vec3 here = layered.at(testing::moved(k * STEP, 1e-6, 0.0003));
+    steepest = std::max(steepest, (here - before).norm() / (STEP / 0.001));
+    before = here;
+  }
+  EXPECT_LE(steepest, 4.0) << "F_max a cutoff";
+  EXPECT_GT(steepest, 1.0);
+}
+
+}  // namespace
+}  // namespace lmdbench
