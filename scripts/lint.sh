@@ -2,7 +2,7 @@
 # SPDX-FileCopyrightText: The lmdbench authors
 # SPDX-License-Identifier: BSD-3-Clause
 # Style and static analysis.
-#   --quick  clang-format, shellcheck, ASCII and licence headers (seconds)
+#   --quick  clang-format, shellcheck, flake8, ASCII and licence headers (seconds)
 #   --tidy   clang-tidy over the library and the program (minutes; needs the release build's compile commands)
 #   --tidy-changed   the same for what changed since LMDBENCH_LINT_BASE (a commit; the parent commit unless set)
 #   (none)   --quick and --tidy
@@ -28,6 +28,12 @@ shell_scripts() {
   local files
   mapfile -t files < <(sources '*.sh' '.ci/run')
   shellcheck -x "${files[@]}" && say "shellcheck: ${#files[@]} files"
+}
+
+python_files() {
+  local files
+  mapfile -t files < <(sources '*.py')
+  flake8 "${files[@]}" && say "flake8: ${#files[@]} files"
 }
 
 headers() {
@@ -89,6 +95,7 @@ case "${1:-}" in
   --quick | "")
     format || status=1
     shell_scripts || status=1
+    python_files || status=1
     headers || status=1
     ;;&
   --tidy | "") tidy_all || status=1 ;;

@@ -15,7 +15,7 @@ from readings import readings
 from region_cost import k5, k6, k7, k8, k9
 from region_force import k1, k2, k3, k4
 from claim_verdicts import NOT_MEASURED, VERDICTS
-from region_rules import FAILS, HOLDS, MEAN_EDGE_DIAGONAL, OPEN, decide, table, verdict
+from region_rules import FAILS, HOLDS, MEAN_EDGE_DIAGONAL, OPEN, table, verdict
 from region_sets import k10, k11, k12
 from sweep_results import Sweep, is_sweep
 

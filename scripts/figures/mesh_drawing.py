@@ -108,4 +108,3 @@ def frame(axes, low, high, margin=0.06):
     axes.set_ylim(middle[1] - half, middle[1] + half)
     axes.set_aspect("equal")
     axes.axis("off")
-

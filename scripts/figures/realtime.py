@@ -362,7 +362,8 @@ def closed_part(study):
     """The wall's boundary by the lockstep, and what the clock makes of stiffnesses about it."""
     done = subprocess.run([study.program, "-q", "stability", "experiments/wall.json", "--json"], capture_output=True, text=True, check=True, stdin=subprocess.DEVNULL)
     boundary = json.loads(done.stdout)[0]["critical_stiffness_n_per_m"]
-    lines = ["## Closed loops", "", f"`wall`: the lockstep's boundary is {boundary:.5g} N/m. At shares of it the ball swings about its place of rest for 0.6 s; does the swing grow? On the clock a force "
+    lines = ["## Closed loops", "", f"`wall`: the lockstep's boundary is {boundary:.5g} N/m. At shares of it the ball swings about its place of rest for 0.6 s; does the swing grow? "
+             "On the clock a force "
              f"comes later than the pose that it is for, and the simulated ball feels that, in steps of 10 us. With a delay t_d the boundary b / (T/2 + t_d) falls by T/2 / (T/2 + t_d).", "",
              f"| share of the boundary | growth in {WALL_WINDOW} ms, lockstep | on the clock | pose to force, mean [us] | periods skipped |", "|---|---|---|---|---|"]
     stills, ticking, delays = [], [], []

@@ -85,7 +85,10 @@ def wild_specification(rng):
 def run(argv, folder):
     """(exit code or minus the signal, output, errors, processor seconds)."""
     before = resource.getrusage(resource.RUSAGE_CHILDREN)
-    limit = lambda: resource.setrlimit(resource.RLIMIT_CPU, (PROCESSOR_SECONDS, PROCESSOR_SECONDS + 1))
+
+    def limit():
+        resource.setrlimit(resource.RLIMIT_CPU, (PROCESSOR_SECONDS, PROCESSOR_SECONDS + 1))
+
     try:
         done = subprocess.run(argv, cwd=folder, stdin=subprocess.DEVNULL, capture_output=True, timeout=WALL_SECONDS,
                               preexec_fn=limit, check=False)

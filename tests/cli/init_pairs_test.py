@@ -28,6 +28,7 @@ def grid_sphere(rings, sectors, radius):
             unit = np.array([np.sin(polar) * np.cos(turn), np.sin(polar) * np.sin(turn), np.cos(polar)])
             if 0 < i < rings or j == 0:
                 points.append(unit * radius(*unit))
+
     def index(i, j):
         return 0 if i == 0 else len(points) - 1 if i == rings else 1 + (i - 1) * sectors + j % sectors
     for i in range(rings):

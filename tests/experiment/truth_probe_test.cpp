@@ -118,9 +118,9 @@ TEST(TruthProbe, ErrorsAreSignedAndUnsetWhereNothingCompares) {
 
 TEST(TruthProbe, StopsWhenAsked) {
   const LockstepInput input = approach({0.04, 0.02, 0.03});
-  EXPECT_THROW(
-      probe_truth(facing_spheres(), input, PROFILE, sum_law(), {0, 1}, [](std::int64_t, std::int64_t) { return false; }),
-      Interrupted);
+  EXPECT_THROW(probe_truth(facing_spheres(), input, PROFILE, sum_law(), {0, 1},
+                           [](std::int64_t, std::int64_t) { return false; }),
+               Interrupted);
 }
 
 TEST(FclProbe, AgreesOnSpheresAndComparesOnlyWhereItMeansSomething) {
@@ -208,7 +208,8 @@ TEST(TruthProbe, AFrameAtThePoseOfTheOneBeforeHasItsSet) {
   const LockstepInput input =
       approach({0.04, 0.04, 0.02, 0.02, 0.04});  // Of the one before: not of the first.
   const auto reused = probe_truth(facing_spheres(), input, PROFILE, sum_law(), {0, 1, 2, 3}, {});
-  const auto fresh = probe_truth(facing_spheres(), input, PROFILE, sum_law(), {0, 1, 2, 3}, {}, nullptr, false);
+  const auto fresh =
+      probe_truth(facing_spheres(), input, PROFILE, sum_law(), {0, 1, 2, 3}, {}, nullptr, false);
   ASSERT_EQ(reused.size(), fresh.size());
   for (std::size_t k = 0; k < fresh.size(); ++k) {
     ASSERT_EQ(reused[k].lmds.size(), fresh[k].lmds.size()) << k;

@@ -144,7 +144,8 @@ class Clock(unittest.TestCase):
 
     def test_a_stopped_program_loses_ticks_and_counts_them(self):
         out = self.path("stopped.h5")
-        with subprocess.Popen(command(out, "--set", '/methods=[{"name": "improved"}]', *NO_PROBES, seconds=4), cwd=ROOT, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE) as process:
+        with subprocess.Popen(command(out, "--set", '/methods=[{"name": "improved"}]', *NO_PROBES, seconds=4), cwd=ROOT,
+                              stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE) as process:
             until = time.monotonic() + 60
             while measured(out + ".part") < 500 and process.poll() is None and time.monotonic() < until:
                 time.sleep(0.02)

@@ -66,7 +66,6 @@ class Answer(unittest.TestCase):
         self.assertIn("recall [%]", shown["headings"])
         self.assertIn("recall, neighbouring features count [%]", shown["headings"])
 
-
     def test_names_an_aggregation_that_is_not_the_sum(self):
         with tempfile.TemporaryDirectory() as folder:
             file = os.path.join(folder, "hard.h5")

@@ -15,8 +15,7 @@ namespace {
 using T = TimeNumbers;
 
 constexpr std::array TIME_NUMBERS = {
-    TimeNumber{"processor_share", "1",
-               "run time of a second in contact, local updates and searches [s/s]",
+    TimeNumber{"processor_share", "1", "run time of a second in contact, local updates and searches [s/s]",
                &T::processor_share},
     TimeNumber{"local_update_mean_s", "s", "local update of a frame in contact, mean",
                &T::local_update_mean_s},
