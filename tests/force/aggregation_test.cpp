@@ -159,7 +159,7 @@ TEST(Aggregation, APatchOfTheSameDirectionChangesNothing) {
   const CriticalSet set{critical(0.05, u, 1)};
   const std::vector<SurfaceSample> samples{sample_at(0.07, u, 1.0), sample_at(0.3, u, 3.0)};
   for (const ForceLaw law : force_laws())
-    for (const double saturation : {0.0, 0.06, 0.2, 0.29, 0.4}) {
+    for (const double saturation : {0.0, 0.06, 0.2, 0.299, 0.4}) {
       ForceProfile profile = PROFILE_OF_ONE;
       profile.law = law;
       profile.saturation_distance = saturation;

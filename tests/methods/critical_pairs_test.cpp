@@ -213,5 +213,26 @@ TEST(Merges, JoinTheMinimaRoundARing) {
   }
 }
 
+TEST(Merges, GiveUpWhereMeshesMeet) {
+  // Where they meet every pair of triangles is at distance 0: nothing leads down, and looking for a way would take all of them.
+  const Scene scene = testing::make_scene(make_blob(1.0, 0.25, 3), make_torus(1.0, 0.4, 24, 16), 1.0);
+  const auto method = make_method("certified", scene);
+  std::mt19937_64 random(5);
+  std::uint64_t most = 0;
+  for (int k = 0; k < 3; ++k) {
+    const Pose pose{Vec3(1.0 + 0.1 * k, 0.1, 0.6), testing::random_rotation(random)};
+    CriticalSet critical;
+    std::vector<Merge> merges;
+    WorkCounters counters;
+    MergeFinder finder(scene);
+    method->find_critical(pose, critical, counters);
+    ASSERT_TRUE(critical.front().pair.intersecting);
+    finder.find(pose, critical, merges);
+    most = std::max(most, finder.triangle_distances());
+  }
+  EXPECT_GT(most, 0u);
+  EXPECT_LT(most, 3000u);
+}
+
 }  // namespace
 }  // namespace lmdbench

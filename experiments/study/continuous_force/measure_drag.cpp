@@ -30,7 +30,7 @@ std::vector<DragRow> measure_drag(const std::filesystem::path& file, std::size_t
   profile.maximum_force = 1.0;
   std::vector<DragRow> rows;
   for (const double stiffness : {300.0, 600.0, 1200.0, 2400.0}) {
-    DragRow row{stiffness, 0, 0, {}, {}};
+    DragRow row{stiffness, 0, 0, zeros(layered), zeros(layered)};
     // The same spots and ways for every stiffness.
     experiments::Random random(seed);
     const double force_of_one = stiffness * profile.cutoff;

@@ -135,7 +135,8 @@ std::size_t MergeFinder::end_of_descent(const RigidTransform& X_WM, const Critic
       nearest = apart;
       end = i;
     }
-    if (end == NO_MINIMUM) end = leave_level_place(way.back(), distance, same);
+    // Where meshes meet everything is level.
+    if (end == NO_MINIMUM && distance > same) end = leave_level_place(way.back(), distance, same);
     break;
   }
   for (const auto& [a, b] : way) ended_[{body, a, b}] = end;
