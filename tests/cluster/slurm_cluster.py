@@ -5,6 +5,7 @@ Needs root: munged runs as its own user, slurmd starts jobs as theirs."""
 
 import os
 import pathlib
+import re
 import pwd
 import secrets
 import shutil
@@ -162,11 +163,20 @@ class Cluster:
         return found
 
     @staticmethod
-    def kill(process):
+    def kill(process, number=signal.SIGKILL):
         try:
-            os.kill(process, signal.SIGKILL)
+            os.kill(process, number)
         except ProcessLookupError:
             pass
+
+    @staticmethod
+    def job_of(process):
+        """Number of the Slurm job that a process belongs to, or None."""
+        try:
+            found = re.search(rb"(?:^|\0)SLURM_JOB_ID=(\d+)", pathlib.Path(f"/proc/{process}/environ").read_bytes())
+        except OSError:
+            return None
+        return int(found[1]) if found else None
 
     @staticmethod
     def name_of(process):

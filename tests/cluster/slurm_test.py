@@ -7,6 +7,7 @@ import json
 import os
 import pathlib
 import shutil
+import signal
 import subprocess
 import sys
 import tempfile
@@ -92,23 +93,42 @@ class Slurm(unittest.TestCase):
         return {step: processes for step, processes in below.items()
                 if any(cluster.name_of(process) == "lmdbench" for process in processes)}
 
+    def jobs_in_the_middle(self):
+        """Jobs that have begun what they have not measured yet."""
+        begun, measured = {}, set()
+        for line in self.journal_lines():
+            if "began" in line:
+                begun[line["began"], line["repetition"]] = line["where"]["job"]
+            elif "key" in line:
+                measured.add((line["key"], line["repetition"]))
+        return {job for place, job in begun.items() if place not in measured}
+
     def kill_the_node(self, cluster):
-        """As a node fails: slurmd and every step. One job's processes die with it; another's, if there is one, live on for a
-        while and nobody looks after them.
+        """As a node fails: slurmd and every step. The processes of a job in the middle of a point die with it; another's, if there is
+        one, live on for a while and nobody looks after them.
         @return how many jobs measured"""
-        end = time.monotonic() + 60
-        jobs = self.working_jobs(cluster)
-        while len(jobs) < 2 and time.monotonic() < (end if jobs else end + 60):
+        dying = None
+        end = time.monotonic() + 120
+        while dying is None:
+            self.assertLess(time.monotonic(), end, "no job measures")
             jobs = self.working_jobs(cluster)
-        self.assertGreaterEqual(len(jobs), 1, "no job measures")
+            if len(jobs) < 2 and time.monotonic() < end - 60:
+                continue
+            # Held, so that none gets to the end of its point between the look and the kill.
+            for process in (process for processes in jobs.values() for process in processes):
+                cluster.kill(process, signal.SIGSTOP)
+            middle = self.jobs_in_the_middle()
+            dying = next((step for step, processes in jobs.items() if any(cluster.job_of(process) in middle for process in processes)), None)
+            if dying is None:
+                for process in (process for processes in jobs.values() for process in processes):
+                    cluster.kill(process, signal.SIGCONT)
         daemon = cluster.processes.pop("slurmd")
         cluster.kill(daemon.pid)
         daemon.wait()
-        for number, (step, processes) in enumerate(jobs.items()):
+        for step, processes in jobs.items():
             cluster.kill(step)
-            if number == 0:
-                for process in processes:
-                    cluster.kill(process)
+            for process in processes:
+                cluster.kill(process, signal.SIGKILL if step == dying else signal.SIGCONT)
         for process in cluster.ours():
             if cluster.name_of(process).startswith("slurmstepd"):
                 cluster.kill(process)
