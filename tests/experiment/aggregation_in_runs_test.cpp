@@ -38,7 +38,7 @@ const std::string BOTH =
 const std::string NO_TRUTH = "/probes/truth/stride_frames=0";
 
 /// The shapes where several LMDs share a component, with what one may add.
-Experiment in_contact(std::vector<Override> overrides = {}) {
+Experiment shapes_in_contact(std::vector<Override> overrides = {}) {
   overrides.insert(overrides.begin(), {"/frames=280", "/driver/repetitions=1", "/probes/fcl/stride_frames=0",
                                        "/probes/truth/stride_frames=60", BOTH});
   return load_experiment(testing::SHAPES_FILE, overrides);
@@ -52,13 +52,13 @@ double largest_difference(const MethodRecord& a, const MethodRecord& b) {
 }
 
 TEST(AggregationInRuns, IsOfMethodsThatFindSaddles) {
-  const RunResult sum = run_experiment(in_contact({"/frames=360"}));
+  const RunResult sum = run_experiment(shapes_in_contact({"/frames=360"}));
   const double one = sum.prepared.profiles[0].force.maximum_force;
   for (const Aggregation& law : aggregations()) {
     // layered takes long; it has a test of its own profile below.
     if (law.needs == AggregationNeeds::MINIMA || law.needs == AggregationNeeds::SURFACE) continue;
     const std::string name(law.name);
-    const RunResult run = run_experiment(in_contact({"/force/aggregation=" + name, "/frames=360"}));
+    const RunResult run = run_experiment(shapes_in_contact({"/force/aggregation=" + name, "/frames=360"}));
     EXPECT_GT(largest_difference(run.records[1], sum.records[1]), 0.1 * one) << name;
     EXPECT_EQ(run.records[0].result_hash, sum.records[0].result_hash) << "improved has no saddles";
     EXPECT_THAT(run.warnings, Contains(HasSubstr("method improved finds no saddles"))) << name;
@@ -81,7 +81,7 @@ TEST(AggregationInRuns, IsOfMethodsThatFindSaddles) {
 
 TEST(AggregationInRuns, StandsInTheResult) {
   const ScratchDirectory scratch;
-  run_experiment_to_file(in_contact({"/force/aggregation=shared", "/frames=60"}), scratch / "r.h5",
+  run_experiment_to_file(shapes_in_contact({"/force/aggregation=shared", "/frames=60"}), scratch / "r.h5",
                          {"lmdbench", "run"});
   const OpenResult result(scratch / "r.h5");
   EXPECT_EQ(result.text_attribute("/methods/certified", "aggregation"), "shared");
@@ -90,7 +90,7 @@ TEST(AggregationInRuns, StandsInTheResult) {
   EXPECT_FALSE(result.has("/methods/improved/lmds_without_index"));
   EXPECT_THAT(result.strings("/scene/warnings"), Contains(HasSubstr("its LMDs are summed")));
 
-  run_experiment_to_file(in_contact({"/frames=60"}), scratch / "s.h5", {"lmdbench", "run"});
+  run_experiment_to_file(shapes_in_contact({"/frames=60"}), scratch / "s.h5", {"lmdbench", "run"});
   const OpenResult plain(scratch / "s.h5");
   EXPECT_EQ(plain.text_attribute("/methods/certified", "aggregation"), "sum");
   EXPECT_FALSE(plain.has("/methods/certified/lmds_without_index"));
@@ -101,8 +101,8 @@ TEST(AggregationInRuns, WhatHasNoIndexIsSaidAndCounted) {
   const ScratchDirectory scratch;
   std::ofstream(scratch / "beside.tum") << "0 0.11 0 0 0 0 0 1\n0.02 0.08 0 0 0 0 0 1\n";
   const RunResult run = run_experiment(
-      in_contact({"/force/aggregation=signed", "/fixed/0/mesh=patch", "/force/cutoff_diagonal=0.2",
-                  "/path/file=" + (scratch / "beside.tum").string()}));
+      shapes_in_contact({"/force/aggregation=signed", "/fixed/0/mesh=patch", "/force/cutoff_diagonal=0.2",
+                         "/path/file=" + (scratch / "beside.tum").string()}));
   EXPECT_THAT(run.warnings, Contains(HasSubstr("boundary edges")));
   const std::vector<FrameRecord>& frames = run.records[1].frames;
   const auto count =
@@ -114,7 +114,7 @@ TEST(AggregationInRuns, WhatHasNoIndexIsSaidAndCounted) {
 }
 
 TEST(AggregationInRuns, EveryProfileHasItsOwn) {
-  const RunResult run = run_experiment(in_contact(
+  const RunResult run = run_experiment(shapes_in_contact(
       {R"(/force=[{"name": "plain", "cutoff_m": 0.002, "maximum_force_n": 1},)"
        R"( {"name": "continuous", "cutoff_m": 0.002, "maximum_force_n": 1, "aggregation": "shared"},)"
        R"( {"name": "conforming", "cutoff_m": 0.002, "maximum_force_n": 1, "aggregation": "layered"}])",
@@ -128,22 +128,22 @@ TEST(AggregationInRuns, EveryProfileHasItsOwn) {
 }
 
 TEST(AggregationInRuns, PlanAndSchemaNameIt) {
-  const Experiment experiment = in_contact({"/force/aggregation=signed"});
+  const Experiment experiment = shapes_in_contact({"/force/aggregation=signed"});
   const std::string text = plan_text(make_plan(experiment), experiment);
   EXPECT_THAT(text, HasSubstr("force/aggregation: certified signed; improved: summed"));
   EXPECT_THAT(text, HasSubstr("force law exponential, aggregation signed"));
   EXPECT_THAT(plan_json(make_plan(experiment), experiment), HasSubstr(R"("aggregation": "signed")"));
   EXPECT_TRUE(make_plan(experiment).needs(Part::CRITICAL_PAIRS));
-  EXPECT_FALSE(make_plan(in_contact()).needs(Part::CRITICAL_PAIRS));
+  EXPECT_FALSE(make_plan(shapes_in_contact()).needs(Part::CRITICAL_PAIRS));
   const auto& choice = experiment_schema()["properties"]["force"]["properties"]["aggregation"];
   EXPECT_EQ(choice["enum"].get<std::vector<std::string>>(), aggregation_names());
 }
 
 TEST(AggregationInRuns, WhatCannotKeepToItRefuses) {
-  EXPECT_THAT(testing::message_of<UsageError>([] { in_contact({"/force/aggregation=shard"}); }),
+  EXPECT_THAT(testing::message_of<UsageError>([] { shapes_in_contact({"/force/aggregation=shard"}); }),
               HasSubstr("/force/aggregation"));
   const std::string message = testing::message_of<UsageError>([] {
-    in_contact({"/force/aggregation=shared", "/driver/kind=realtime", "/driver/repetitions=1"});
+    shapes_in_contact({"/force/aggregation=shared", "/driver/kind=realtime", "/driver/repetitions=1"});
   });
   EXPECT_THAT(message, HasSubstr("/force/aggregation"));
   EXPECT_THAT(message, HasSubstr("driver lockstep"));
@@ -154,7 +154,7 @@ const std::string ALONE = R"(/methods=[{"name": "certified", "force_law": "expon
 
 TEST(AggregationInRuns, AClosedLoopFeelsIt) {
   const auto loop = [](const std::string& aggregation) {
-    return run_experiment(in_contact({LOOP, ALONE, "/force/aggregation=" + aggregation}));
+    return run_experiment(shapes_in_contact({LOOP, ALONE, "/force/aggregation=" + aggregation}));
   };
   const RunResult sum = loop("sum"), shared = loop("shared");
   EXPECT_GT(largest_difference(sum.records[0], shared.records[0]), 0.0);
@@ -164,8 +164,8 @@ TEST(AggregationInRuns, AClosedLoopFeelsIt) {
 
 TEST(AggregationInRuns, MapsTakeTheStiffnessUnderIt) {
   // At a pose where the sum is stiffer than the shared force: F_max is what gives the stiffness asked for there.
-  const RunResult sum = run_experiment(in_contact({ALONE, NO_TRUTH})),
-                  shared = run_experiment(in_contact({ALONE, NO_TRUTH, "/force/aggregation=shared"}));
+  const RunResult sum = run_experiment(shapes_in_contact({ALONE, NO_TRUTH})),
+                  shared = run_experiment(shapes_in_contact({ALONE, NO_TRUTH, "/force/aggregation=shared"}));
   std::size_t frame = 0;
   double ratio = 1.0;
   for (std::size_t i = 0; i < sum.records[0].frames.size(); ++i) {
@@ -183,7 +183,7 @@ TEST(AggregationInRuns, MapsTakeTheStiffnessUnderIt) {
                      pose.translation.y(), pose.translation.z(), pose.rotation.x(), pose.rotation.y(),
                      pose.rotation.z(), pose.rotation.w());
   const auto largest_stiffness = [&](const std::string& aggregation) {
-    Experiment experiment = in_contact(
+    Experiment experiment = shapes_in_contact(
         {LOOP, ALONE, "/force/aggregation=" + aggregation, "/path/file=" + (scratch / "rest.tum").string()});
     double found = 0.0;
     map_stability(experiment, {{300.0}, {0}, 1, 700}, [&](const StabilityMapRun& run) {
