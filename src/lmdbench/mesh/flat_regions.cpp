@@ -185,7 +185,7 @@ FlatRegions FlatRegions::of(const Surface& surface) {
   FlatRegions regions;
   regions.extent = largest_coordinate(surface.mesh.vertices);
   const double tolerance = FLATNESS * regions.extent;
-  const std::vector<PlanarFace> faces = planar_faces(surface, tolerance);
+  const std::vector<PlanarFace> faces = planar_faces(surface, tolerance, &regions.decides_region);
   regions.region_of_triangle.assign(surface.mesh.triangles.size(), -1);
   std::vector<std::pair<std::int32_t, std::int32_t>> rows;
   for (const PlanarFace& face : faces) {

@@ -32,6 +32,9 @@ struct FlatRegions {
       straight_edges_of_region;  ///< #R rows: the border of each; of more than two where sheets meet in an edge.
   double extent = 0.0;           ///< Largest coordinate of the mesh.
   std::vector<bool> vertex_is_inside;  ///< #V; of a region or of a straight edge.
+  /// #T; whether the triangle had a say in what a region of several triangles is. A move of the others makes and unmakes no
+  /// region but theirs.
+  std::vector<bool> decides_region;
 
   std::int32_t region_count() const { return static_cast<std::int32_t>(planes.size()); }
 

@@ -3,6 +3,7 @@
 #include <lmdbench/mesh/planar_faces.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numeric>
 #include <utility>
@@ -29,11 +30,17 @@ TriangleSize size_of(const Triangle& t) {
   return {0.5 * double_area, longest > 0.0 ? double_area / longest : 0.0};
 }
 
+/// Standard deviation of a triangle's corners along its altitude.
+double breadth_of(const TriangleSize& size) {
+  return std::sqrt(2.0) / 3.0 * size.altitude;
+}
+
 class Grower {
  public:
-  Grower(const Surface& surface, double tolerance)
+  Grower(const Surface& surface, double tolerance, std::vector<bool>* looked_at)
       : surface_(surface),
         tolerance_(tolerance),
+        looked_at_(looked_at),
         face_of_(surface.mesh.triangles.size(), -1),
         triangle_marks_(surface.mesh.triangles.size(), 0),
         vertex_marks_(surface.mesh.vertices.size(), 0) {
@@ -64,13 +71,14 @@ class Grower {
 
   void grow(std::int32_t seed) {
     FittedPlane plane{{vertex(corners(seed)[0]), normal(seed)}, 0.0};
-    // Standard deviation of a triangle's corners along its altitude.
-    plane.breadth = std::sqrt(2.0) / 3.0 * sizes_[static_cast<std::size_t>(seed)].altitude;
+    plane.breadth = breadth_of(sizes_[static_cast<std::size_t>(seed)]);
     if (sizes_[static_cast<std::size_t>(seed)].altitude > LEAST_SEED_ALTITUDE * tolerance_) {
       reach(seed, plane, true);
+      note_looked_at();
       if (points_.size() > 3) {
         const FittedPlane all = fit_plane(points_, normal(seed));
         reach(seed, FittedPlane{all.plane, 0.0}, false);
+        note_looked_at();
         plane = all;
       }
     } else {
@@ -126,6 +134,17 @@ class Grower {
     }
   }
 
+  /// Marks what was reached, where that is several triangles, and all that was looked at on the way.
+  void note_looked_at() {
+    if (looked_at_ == nullptr || reached_.size() < 2) return;
+    for (const std::int32_t triangle : reached_) {
+      (*looked_at_)[static_cast<std::size_t>(triangle)] = true;
+      for (const std::int32_t edge : surface_.adjacency.triangle_edges[static_cast<std::size_t>(triangle)])
+        for (const std::int32_t next : surface_.adjacency.edge_triangles[edge])
+          (*looked_at_)[static_cast<std::size_t>(next)] = true;
+    }
+  }
+
   const std::array<std::int32_t, 3>& corners(std::int32_t triangle) const {
     return surface_.mesh.triangles[static_cast<std::size_t>(triangle)];
   }
@@ -152,6 +171,7 @@ class Grower {
 
   const Surface& surface_;
   double tolerance_;
+  std::vector<bool>* looked_at_;
   std::vector<TriangleSize> sizes_;
   std::vector<std::int32_t> face_of_;
   std::vector<PlanarFace> faces_;
@@ -163,8 +183,69 @@ class Grower {
 
 }  // namespace
 
-std::vector<PlanarFace> planar_faces(const Surface& surface, double tolerance) {
-  return Grower(surface, tolerance).run();
+std::vector<PlanarFace> planar_faces(const Surface& surface, double tolerance, std::vector<bool>* looked_at) {
+  if (looked_at != nullptr) looked_at->assign(surface.mesh.triangles.size(), false);
+  return Grower(surface, tolerance, looked_at).run();
+}
+
+namespace {
+
+/// What a face starts with, for a quick look at its neighbours.
+struct FaceStart {
+  Vec3 point, normal;
+  double squared_altitude = 0.0;
+
+  FaceStart(const Surface& surface, std::int32_t triangle)
+      : normal(surface.face_normals[static_cast<std::size_t>(triangle)]) {
+    const Triangle t = surface.mesh.triangle(triangle);
+    point = t[0];
+    const double squared_longest =
+        std::max({(t[1] - t[0]).squaredNorm(), (t[2] - t[1]).squaredNorm(), (t[0] - t[2]).squaredNorm()});
+    if (squared_longest > 0.0)
+      squared_altitude = (t[1] - t[0]).cross(t[2] - t[0]).squaredNorm() / squared_longest;
+  }
+
+  /// Whether the first growth of a face could take in a corner, or one a little farther away: |height| <= tolerance (2 + distance /
+  /// breadth), squared with (a + b)^2 <= 2 a^2 + 2 b^2.
+  bool may_reach(const Vec3& corner, double tolerance) const {
+    const double squared_breadth = 2.0 / 9.0 * squared_altitude;
+    const Vec3 from = corner - point;
+    const double height = normal.dot(from);
+    return height * height * squared_breadth <=
+           2.0 * tolerance * tolerance * (4.0 * squared_breadth + from.squaredNorm());
+  }
+  bool is_low(double tolerance) const {
+    return !(squared_altitude > LEAST_SEED_ALTITUDE * LEAST_SEED_ALTITUDE * tolerance * tolerance) ||
+           normal.isZero(0.0);
+  }
+};
+
+}  // namespace
+
+bool may_join_neighbour(const Surface& surface, std::int32_t triangle, double tolerance,
+                        const SurfaceChange* asked) {
+  const FaceStart own(surface, triangle);
+  if (own.is_low(tolerance)) return true;
+  const auto opposite = [&](std::int32_t t, const std::array<std::int32_t, 2>& ends) -> const Vec3& {
+    const auto& corners = surface.mesh.triangles[static_cast<std::size_t>(t)];
+    const std::size_t k = corners[0] != ends[0] && corners[0] != ends[1]   ? 0
+                          : corners[1] != ends[0] && corners[1] != ends[1] ? 1
+                                                                           : 2;
+    return surface.mesh.vertices[static_cast<std::size_t>(corners[k])];
+  };
+  for (const std::int32_t edge : surface.adjacency.triangle_edges[static_cast<std::size_t>(triangle)]) {
+    const auto e = static_cast<std::size_t>(edge);
+    if (surface.edge_is_boundary[e] || surface.edge_is_non_manifold[e]) continue;
+    const auto& ends = surface.adjacency.edges[e];
+    for (const std::int32_t next : surface.adjacency.edge_triangles[edge]) {
+      if (next == triangle) continue;
+      if (own.may_reach(opposite(next, ends), tolerance)) return true;
+      if (asked != nullptr && asked->has_face(next)) continue;
+      const FaceStart other(surface, next);
+      if (!other.is_low(tolerance) && other.may_reach(opposite(triangle, ends), tolerance)) return true;
+    }
+  }
+  return false;
 }
 
 }  // namespace lmdbench

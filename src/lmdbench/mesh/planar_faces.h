@@ -4,6 +4,7 @@
 
 #include <lmdbench/mesh/plane_fit.h>
 #include <lmdbench/mesh/surface.h>
+#include <lmdbench/mesh/surface_change.h>
 
 #include <cstdint>
 #include <vector>
@@ -27,6 +28,16 @@ struct PlanarFace {
 /// growth reached and with the tolerance alone. A triangle lower than a few tolerances starts nothing: its
 /// plane is noise. Edges with more or fewer than two triangles, or two that disagree on orientation, are not
 /// crossed. Depends on the mesh alone: seeds are taken by area, then index.
-std::vector<PlanarFace> planar_faces(const Surface& surface, double tolerance);
+/// @param looked_at  where given, receives a flag a triangle: whether a face of more than one triangle, or what might have become one,
+///                   was decided by it
+std::vector<PlanarFace> planar_faces(const Surface& surface, double tolerance,
+                                     std::vector<bool>* looked_at = nullptr);
+
+/// Whether a face that starts with a triangle could take in the next one over an edge, or the other way round, within a tolerance:
+/// where no edge of a triangle lets either happen, the triangle is a face by itself. Never for edges that faces do not cross.
+/// A triangle lower than LEAST_SEED_ALTITUDE tolerances, or without area, is said to join.
+/// @param asked  where given, triangles that are asked themselves: what starts with them is left out
+bool may_join_neighbour(const Surface& surface, std::int32_t triangle, double tolerance,
+                        const SurfaceChange* asked = nullptr);
 
 }  // namespace lmdbench

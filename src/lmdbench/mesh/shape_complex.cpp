@@ -1,11 +1,15 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/base/parallel.h>
 #include <lmdbench/geometry/point_triangle.h>
+#include <lmdbench/geometry/tolerance.h>
 #include <lmdbench/mesh/feature_corners.h>
+#include <lmdbench/mesh/planar_faces.h>
 #include <lmdbench/mesh/shape_complex.h>
 #include <lmdbench/mesh/triangle_normal.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -17,6 +21,13 @@ namespace {
 /// Angles of a region at a corner add up to this less than 180 degrees at the most where its chains there run on in one
 /// line.
 constexpr double ANGLE_ROUNDING = 1e-6;
+
+/// A mesh that deforms may grow by this factor before its triangles are looked at again for being regions by themselves.
+constexpr double ROOM_TO_GROW = 4.0;
+/// Tolerances within which nothing may begin to grow there: the growth itself asks for one.
+constexpr double LONE_MARGIN = 2.0;
+/// Triangles that one task looks at.
+constexpr std::size_t FACES_A_LOOK = 4096;
 
 }  // namespace
 
@@ -48,6 +59,68 @@ ShapeComplex ShapeComplex::of(const Surface& surface) {
     end_row(shape.chain_row_[static_cast<std::size_t>(c)]);
   }
   return shape;
+}
+
+void ShapeComplex::follow(const Surface& surface, const SurfaceChange& change) {
+  if (keeps_features(surface, change)) {
+    for (const std::int32_t face : change.faces) {
+      const auto t = static_cast<std::size_t>(face);
+      regions.planes[static_cast<std::size_t>(region_of(face))] = {
+          surface.mesh.vertices[static_cast<std::size_t>(surface.mesh.triangles[t][0])],
+          surface.face_normals[t]};
+    }
+    return;
+  }
+  if (!change.moved.empty()) {
+    const std::uint32_t times = times_made_anew_ + 1;
+    *this = of(surface);
+    times_made_anew_ = times;
+  }
+  find_lone_triangles(surface);
+}
+
+void ShapeComplex::find_lone_triangles(const Surface& surface) {
+  lone_up_to_ = ROOM_TO_GROW * regions.extent;
+  is_lone_.assign(surface.mesh.triangles.size(), false);
+  some_not_lone_ = false;
+  for (std::size_t t = 0; t < is_lone_.size(); ++t) {
+    is_lone_[t] = !regions.decides_region[t] &&
+                  !may_join_neighbour(surface, static_cast<std::int32_t>(t), lone_tolerance());
+    // A triangle without area is in no region whatever the extent.
+    some_not_lone_ = some_not_lone_ || (!is_lone_[t] && !surface.face_normals[t].isZero(0.0));
+  }
+}
+
+/// Whether a shape that is made anew would have the same features, their planes aside. The regions of several triangles are functions
+/// of the triangles that had a say in them (FlatRegions::decides_region) and of the mesh's extent; a triangle over whose edges
+/// no region can begin to grow, from either side, is one by itself and takes part in no chain of several edges and in no
+/// vertex inside a region, because it is not so low that its edges are in one line.
+bool ShapeComplex::keeps_features(const Surface& surface, const SurfaceChange& change) {
+  if (is_lone_.empty() || change.lost_area > 0 || change.regained_area) return false;
+  const double extent = largest_coordinate(surface.mesh.vertices);
+  if (extent > lone_up_to_ || (some_not_lone_ && extent != regions.extent)) return false;
+  std::atomic<bool> all_alone = true;
+  parallel_ranges(change.faces.size(), FACES_A_LOOK, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end && all_alone; ++i)
+      if (!is_lone_[static_cast<std::size_t>(change.faces[i])] ||
+          may_join_neighbour(surface, change.faces[i], lone_tolerance(), &change))
+        all_alone = false;
+  });
+  if (!all_alone) return false;
+  // Wings that are kept are those beside regions and chains of several faces and edges.
+  const auto is_kept = [](const std::vector<std::int32_t>& rows, std::int32_t i) {
+    return !rows.empty() && i >= 0 && rows[static_cast<std::size_t>(i)] >= 0;
+  };
+  for (const std::int32_t vertex : change.vertices)
+    if (is_kept(corner_row_, vertex)) return false;
+  for (const std::int32_t edge : change.edges)
+    if (is_kept(chain_row_, chain_of(edge))) return false;
+  regions.extent = extent;
+  return true;
+}
+
+double ShapeComplex::lone_tolerance() const {
+  return LONE_MARGIN * FLATNESS * lone_up_to_;
 }
 
 bool ShapeComplex::is_plain(const Surface& surface, std::int32_t vertex) const {

@@ -6,6 +6,7 @@
 #include <lmdbench/mesh/flat_regions.h>
 #include <lmdbench/mesh/region_shape.h>
 #include <lmdbench/mesh/surface.h>
+#include <lmdbench/mesh/surface_change.h>
 #include <lmdbench/mesh/vertex_neighbours.h>
 
 #include <cstddef>
@@ -34,6 +35,13 @@ class ShapeComplex {
   bool is_joined = false;
 
   static ShapeComplex of(const Surface& surface);
+
+  /// Follows a surface whose vertices have moved: it is then what `of` makes of it, up to the numbers of regions. Where the triangles that
+  /// moved are regions by themselves and stay so, their planes are all that changes; else the shape is made anew. So it is in the first
+  /// step that moves anything, unless a step that moves nothing came before.
+  void follow(const Surface& surface, const SurfaceChange& change);
+  /// How often `follow` made the shape anew: features may be others then.
+  std::uint32_t times_made_anew() const { return times_made_anew_; }
 
   std::int32_t lead_of_region(std::int32_t region) const { return regions.region_triangles[region].front(); }
   std::int32_t lead_of_chain(std::int32_t chain) const { return regions.edges_of_straight[chain].front(); }
@@ -120,6 +128,9 @@ class ShapeComplex {
       if (!visit(wings_[i])) return false;
     return true;
   }
+  bool keeps_features(const Surface& surface, const SurfaceChange& change);
+  void find_lone_triangles(const Surface& surface);
+  double lone_tolerance() const;
   bool is_plain(const Surface& surface, std::int32_t vertex) const;
   void append_corner_wings(const Surface& surface, std::int32_t vertex);
   void append_chain_wings(const Surface& surface, std::int32_t chain);
@@ -129,6 +140,13 @@ class ShapeComplex {
   std::vector<std::int32_t> chain_row_;   ///< #chains, or empty; -1: none kept.
   std::vector<std::int32_t> wing_starts_{0};
   std::vector<Vec3> wings_;
+
+  std::uint32_t times_made_anew_ = 0;
+  // Where the mesh deforms.
+  /// #T; a region by itself as long as it and its neighbours stay where they are, ...
+  std::vector<bool> is_lone_;
+  double lone_up_to_ = 0.0;     ///< ... at any extent up to this [m].
+  bool some_not_lone_ = false;  ///< Some triangle with area is not.
 };
 
 }  // namespace lmdbench

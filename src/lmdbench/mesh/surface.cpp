@@ -96,6 +96,18 @@ std::size_t bytes_of(const std::vector<bool>& flags) {
 
 }  // namespace
 
+Vec3 vertex_pseudo_normal(const Surface& surface, std::int32_t vertex) {
+  Vec3 sum = Vec3::Zero();
+  for (const std::int32_t triangle : surface.adjacency.vertex_triangles[vertex]) {
+    const auto t = static_cast<std::size_t>(triangle);
+    if (surface.face_normals[t].isZero(0.0)) continue;
+    const Triangle corners = surface.mesh.triangle(triangle);
+    for (std::size_t k = 0; k < 3; ++k)
+      if (surface.mesh.triangles[t][k] == vertex) sum += corner_angle(corners, k) * surface.face_normals[t];
+  }
+  return sum.stableNormalized();
+}
+
 FeatureId Surface::feature_of(std::int32_t triangle, TriangleFeature part) const {
   LMDBENCH_EXPECTS(triangle >= 0 && static_cast<std::size_t>(triangle) < mesh.triangles.size(),
                    "a triangle of the other mesh");
@@ -123,7 +135,7 @@ Vec3 Surface::pseudo_normal(const FeatureId& feature) const {
   const auto i = static_cast<std::size_t>(feature.index);
   switch (feature.kind) {
     case FeatureKind::VERTEX:
-      return vertex_pseudo_normals[i];
+      return vertex_normal(feature.index);
     case FeatureKind::EDGE:
       return edge_pseudo_normal(*this, feature.index);
     case FeatureKind::FACE:
@@ -147,8 +159,9 @@ bool Surface::is_boundary(const FeatureId& feature) const {
 
 std::size_t Surface::bytes() const {
   return bytes_of(mesh.vertices) + bytes_of(mesh.triangles) + adjacency.bytes() + bytes_of(face_normals) +
-         bytes_of(vertex_pseudo_normals) + bytes_of(edge_is_boundary) + bytes_of(vertex_is_boundary) +
-         bytes_of(edge_is_non_manifold) + bytes_of(vertex_has_non_manifold_edge);
+         bytes_of(vertex_pseudo_normals) + bytes_of(vertex_normal_is_stale) + bytes_of(edge_is_boundary) +
+         bytes_of(vertex_is_boundary) + bytes_of(edge_is_non_manifold) +
+         bytes_of(vertex_has_non_manifold_edge);
 }
 
 Surface build_surface(TriangleMesh mesh) {

@@ -33,15 +33,17 @@ class TriangleList {
   std::size_t size_;
 };
 
-/// A mesh with all that is derived from it once and read by every method: immutable, shared between methods
-/// and threads. Directions are unit vectors in the mesh's frame.
+/// A mesh with all that is derived from it once and read by every method: shared between methods and threads, and
+/// immutable but where a mesh deforms (surface_change.h). Directions are unit vectors in the mesh's frame.
 struct Surface {
   TriangleMesh mesh;
   Adjacency adjacency;
   std::vector<Vec3> face_normals;           ///< #T by 3; zero for a triangle without area.
   std::vector<Vec3> vertex_pseudo_normals;  ///< #V by 3; angle-weighted (Baerentzen and Aanaes 2005).
-  std::vector<bool> edge_is_boundary;       ///< #E; the edge has exactly one triangle.
-  std::vector<bool> vertex_is_boundary;     ///< #V; some incident edge is a boundary edge.
+  /// #V, or empty; set where a deformation made the pseudo-normal another one: next to nobody asks, so it is made then.
+  std::vector<bool> vertex_normal_is_stale;
+  std::vector<bool> edge_is_boundary;    ///< #E; the edge has exactly one triangle.
+  std::vector<bool> vertex_is_boundary;  ///< #V; some incident edge is a boundary edge.
   std::vector<bool>
       edge_is_non_manifold;  ///< #E; more than two triangles, or two that disagree on orientation.
   std::vector<bool> vertex_has_non_manifold_edge;  ///< #V; some incident edge is non-manifold.
@@ -54,6 +56,7 @@ struct Surface {
   /// Pseudo-normal of the feature: decides the outer side. Of an edge it is the normalised sum of the
   /// incident faces' normals, or zero; made when it is asked for, because next to nobody asks.
   Vec3 pseudo_normal(const FeatureId& feature) const;
+  Vec3 vertex_normal(std::int32_t vertex) const;
   /// A boundary edge, or a vertex on one; a face never is.
   bool is_boundary(const FeatureId& feature) const;
   /// Memory that all of this takes; certified, improved and exhaustive read no other part of a
@@ -64,5 +67,14 @@ struct Surface {
 /// Derives adjacency and normals. Triangles without area add nothing to any normal.
 /// @pre every index is within the vertex array and every coordinate is finite (import checks both)
 Surface build_surface(TriangleMesh mesh);
+
+/// The angle-weighted pseudo-normal of a vertex, from the face normals and the vertices round it.
+Vec3 vertex_pseudo_normal(const Surface& surface, std::int32_t vertex);
+
+inline Vec3 Surface::vertex_normal(std::int32_t vertex) const {
+  const auto v = static_cast<std::size_t>(vertex);
+  return vertex_normal_is_stale.empty() || !vertex_normal_is_stale[v] ? vertex_pseudo_normals[v]
+                                                                      : vertex_pseudo_normal(*this, vertex);
+}
 
 }  // namespace lmdbench

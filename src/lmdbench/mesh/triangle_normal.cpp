@@ -19,6 +19,12 @@ double difference_of_products(double a, double b, double c, double d) {
   return std::fma(a, b, -cd) + error;
 }
 
+/// Between unit vectors or zeros.
+double angle_between(const Vec3& to_next, const Vec3& from_previous) {
+  if (to_next.isZero(0.0) || from_previous.isZero(0.0)) return 0.0;
+  return std::atan2(to_next.cross(from_previous).norm(), -to_next.dot(from_previous));
+}
+
 }  // namespace
 
 Vec3 accurate_cross(const Vec3& a, const Vec3& b) {
@@ -53,12 +59,14 @@ std::array<double, 3> corner_angles(const Triangle& triangle) {
   std::array<Vec3, 3> sides;
   for (std::size_t k = 0; k < 3; ++k) sides[k] = (triangle[(k + 1) % 3] - triangle[k]).stableNormalized();
   std::array<double, 3> angles{};
-  for (std::size_t k = 0; k < 3; ++k) {
-    const Vec3 &to_next = sides[k], &from_previous = sides[(k + 2) % 3];
-    if (to_next.isZero(0.0) || from_previous.isZero(0.0)) continue;
-    angles[k] = std::atan2(to_next.cross(from_previous).norm(), -to_next.dot(from_previous));
-  }
+  for (std::size_t k = 0; k < 3; ++k) angles[k] = angle_between(sides[k], sides[(k + 2) % 3]);
   return angles;
+}
+
+double corner_angle(const Triangle& triangle, std::size_t corner) {
+  const std::size_t next = (corner + 1) % 3, previous = (corner + 2) % 3;
+  return angle_between((triangle[next] - triangle[corner]).stableNormalized(),
+                       (triangle[corner] - triangle[previous]).stableNormalized());
 }
 
 }  // namespace lmdbench

@@ -5,6 +5,7 @@
 #include <lmdbench/geometry/types.h>
 
 #include <array>
+#include <cstddef>
 
 namespace lmdbench {
 
@@ -23,5 +24,8 @@ Vec3 triangle_normal(const Triangle& triangle);
 
 /// Angles at the corners, radians in [0, pi]; 0 where one of the two sides has no length.
 std::array<double, 3> corner_angles(const Triangle& triangle);
+
+/// One of them, the same bits.
+double corner_angle(const Triangle& triangle, std::size_t corner);
 
 }  // namespace lmdbench

@@ -25,9 +25,7 @@ struct ShadedTriangle {
 inline ShadedTriangle shaded_triangle(const Surface& surface, std::int32_t triangle) {
   const auto t = static_cast<std::size_t>(triangle);
   const auto& corners = surface.mesh.triangles[t];
-  const auto normal = [&](std::size_t k) {
-    return surface.vertex_pseudo_normals[static_cast<std::size_t>(corners[k])];
-  };
+  const auto normal = [&](std::size_t k) { return surface.vertex_normal(corners[k]); };
   return {surface.mesh.triangle(triangle), {normal(0), normal(1), normal(2)}, surface.face_normals[t]};
 }
 

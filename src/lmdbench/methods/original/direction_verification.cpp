@@ -17,8 +17,8 @@ DirectionVerification::DirectionVerification(const Surface& surface, double tole
   for (std::size_t v = 0; v < surface.mesh.vertices.size(); ++v) {
     double half_angle = 0.0;
     for (const std::int32_t t : surface.adjacency.vertex_triangles[static_cast<std::int32_t>(v)]) {
-      const double cosine =
-          surface.vertex_pseudo_normals[v].dot(surface.face_normals[static_cast<std::size_t>(t)]);
+      const double cosine = surface.vertex_normal(static_cast<std::int32_t>(v))
+                                .dot(surface.face_normals[static_cast<std::size_t>(t)]);
       half_angle = std::max(half_angle, std::acos(std::clamp(cosine, -1.0, 1.0)));
     }
     vertex_cosines_.push_back(std::cos(std::min(half_angle + tolerance_rad, std::numbers::pi)));
@@ -30,7 +30,7 @@ bool DirectionVerification::accepts(const FeatureId& feature, const Vec3& direct
   const auto i = static_cast<std::size_t>(feature.index);
   switch (feature.kind) {
     case FeatureKind::VERTEX:
-      return direction.dot(surface_.vertex_pseudo_normals[i]) >= vertex_cosines_[i];
+      return direction.dot(surface_.vertex_normal(feature.index)) >= vertex_cosines_[i];
     case FeatureKind::EDGE:
       return edge_accepts(feature.index, direction);
     case FeatureKind::FACE:
