@@ -67,6 +67,9 @@ struct MethodDescription {
   /// Whether `Method::find_critical` answers.
   bool finds_critical_pairs = false;
 
+  /// Whether an instance goes on where a body of its scene has deformed (Body::deform); others are made anew (remade_method.h).
+  bool follows_deformation = false;
+
   /// The options, as "properties" of a draft-07 JSON Schema; each has a description and a default.
   nlohmann::json options = nlohmann::json::object();
 

@@ -4,6 +4,7 @@
 #include <lmdbench/base/json_schema.h>
 #include <lmdbench/base/limits.h>
 #include <lmdbench/lmd/near_frame.h>
+#include <lmdbench/lmd/remade_method.h>
 #include <lmdbench/methods/registry.h>
 
 #include <fmt/format.h>
@@ -92,7 +93,12 @@ std::unique_ptr<Method> make_method(std::string_view name, const Scene& scene, c
   const MethodDescription& description = method_description(name);
   const Json complete = complete_options(description, options, "options of " + description.name);
   refuse_two_hubs(scene);
-  return make_in_near_frame(scene, [&](const Scene& near) { return description.make(near, complete); });
+  const auto make = [&description, complete](const Scene& of_scene) {
+    return make_in_near_frame(of_scene, [&](const Scene& near) { return description.make(near, complete); });
+  };
+  // In a near frame it would follow copies of the bodies.
+  if (description.follows_deformation && !NearFrame(scene).differs()) return make(scene);
+  return std::make_unique<RemadeMethod>(scene, make);
 }
 
 std::string methods_help() {

@@ -31,6 +31,14 @@ constexpr double LARGEST_PACE = 1.0;
 /// without which the rest is not known.
 constexpr std::size_t FETCH_DISTANCE = 4;
 
+/// Up to which distance pairs are looked for. What meshes are known to grows and shrinks with meshes that deform; rounded up to a power
+/// of two it is the same in neighbouring frames, so that what was kept with it stays valid.
+double kept_reach(const ContactTolerance& tolerance, const WideHierarchy& moving,
+                  const WideHierarchy& fixed) {
+  if (moving.changes.now == 0 && fixed.changes.now == 0) return tolerance.reach;
+  return tolerance.cutoff + 2.0 * std::exp2(std::ceil(std::log2(tolerance.known)));
+}
+
 /// Brings a feature's indices near; a mesh that does not fit into a processor's cache
 /// is slow to follow otherwise.
 void fetch_indices(const Surface& surface, const FeatureId& feature) {
@@ -153,6 +161,17 @@ bool Certified::follow_motion(const RigidTransform& X_WM, double touch) {
   return goes_on;
 }
 
+/// What is kept is in the frames of the hierarchies; where these change, it says nothing.
+void Certified::follow_deformations() {
+  if (hierarchy_moving_.changes.frame > seen_frame_) {
+    seen_frame_ = hierarchy_moving_.changes.now;
+    has_last_ = false;
+    for (FixedBody& body : fixed_) body.front.clear();
+  }
+  for (FixedBody& body : fixed_)
+    if (body.hierarchy.changes.frame > body.seen_fixed) body.front.clear();
+}
+
 void Certified::enumerate_from_scratch(Frame& frame) {
   find_wide_pairs(frame.moving, frame.fixed, frame.query, kernel_, scratch_, frame.work);
   const auto fetch = [&](std::size_t k, const auto& fetch_part) {
@@ -170,6 +189,11 @@ void Certified::enumerate_from_scratch(Frame& frame) {
 
 void Certified::enumerate_coherently(Frame& frame, FixedBody& body) {
   TraversalFront& front = body.front;
+  if (frame.longest != body.reach) front.clear();
+  if (!front.empty()) front.follow(frame.moving, body.seen_moving, frame.fixed, body.seen_fixed, motion_);
+  body.reach = frame.longest;
+  body.seen_moving = frame.moving.changes.now;
+  body.seen_fixed = frame.fixed.changes.now;
   if (front.empty()) {
     front.start(frame.moving, frame.fixed, frame.query, motion_, frame.filter.X_WM, frame.longest,
                 frame.work);
@@ -205,6 +229,7 @@ void Certified::find(const Pose& X_WM, WorkCounters& counters, Join&& join) {
   const RigidTransform transform(X_WM);
   intersections_.clear();
   crossing_pairs_.clear();
+  follow_deformations();
   double coordinates =
       transform.point(hierarchy_moving_.origin).cwiseAbs().maxCoeff() + hierarchy_moving_.radius;
   for (const FixedBody& body : fixed_)
@@ -219,17 +244,18 @@ void Certified::find(const Pose& X_WM, WorkCounters& counters, Join&& join) {
     const ShapePair pair{moving, fixed,
                          ContactTolerance::of(moving.surface, moving.shape, fixed.surface, fixed.shape,
                                               transform, scene_.cutoff)};
+    const double reach = kept_reach(pair.tolerance, hierarchy_moving_, body.hierarchy);
     const PairFilter filter{moving.surface,
                             transform,
                             fixed.surface,
-                            pair.tolerance.reach,
+                            reach,
                             pair.tolerance.rounding,
                             touch,
                             FILTER_MARGIN,
                             RELATIVE_TINY * coordinates,
                             moving.shape,
                             fixed.shape};
-    const WideQuery query(hierarchy_moving_, body.hierarchy, transform, pair.tolerance.reach, touch);
+    const WideQuery query(hierarchy_moving_, body.hierarchy, transform, reach, touch);
     contacts_.clear();
     std::optional<SignedPair> signs;
     if (signs_moving_ != nullptr) signs.emplace(pair, *signs_moving_, *body.signs);
@@ -238,7 +264,7 @@ void Certified::find(const Pose& X_WM, WorkCounters& counters, Join&& join) {
                 pair,
                 filter,
                 query,
-                std::max(pair.tolerance.reach, touch),
+                std::max(reach, touch),
                 {pair, static_cast<std::int32_t>(i), touch, contacts_, intersections_, crossing_pairs_},
                 contacts_,
                 counters,

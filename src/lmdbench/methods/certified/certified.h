@@ -38,8 +38,8 @@ const MethodDescription& certified_method();
 /// number of frames that it stands if the motion goes on as forecast (wide_lifetime.h), and so are the answers of the filter.
 /// What a frame does again is what has run out, and whatever the motion, as it turns out, has deviated too far for
 /// (motion_forecast.h); steps 2 and 3 are made in every frame. Where the pose jumps, and where next to nothing is kept
-/// (coherence_policy.h), the frame is searched from scratch. The set is the same either way; the work counters tell what was
-/// done.
+/// (coherence_policy.h), the frame is searched from scratch. Where a mesh deforms, what was kept of the nodes that changed is made
+/// again (TraversalFront::follow). The set is the same either way; the work counters tell what was done.
 class Certified : public Method {
  public:
   /// What it counts.
@@ -81,6 +81,8 @@ class Certified : public Method {
     const SignedFeatures* signs;  ///< Where critical pairs are looked for.
     TraversalFront front;         ///< Empty where nothing is kept.
     CoherencePolicy policy;
+    std::uint32_t seen_moving = 0, seen_fixed = 0;  ///< Deformations that the front knows.
+    double reach = 0.0;                             ///< That its tests were made for [m].
   };
   struct Frame;
 
@@ -92,6 +94,7 @@ class Certified : public Method {
 
   // Steps 1 and 2. No other name begins with `search`: instructions are counted by that name (scripts/tuned_constants.py).
   bool follow_motion(const RigidTransform& X_WM, double touch);
+  void follow_deformations();
   void enumerate_from_scratch(Frame& frame);
   void enumerate_coherently(Frame& frame, FixedBody& body);
 
@@ -105,8 +108,9 @@ class Certified : public Method {
   VectorTarget target_;
   WideKernel kernel_;
   MotionForecast motion_;
-  bool has_last_ = false;  ///< The forecast knows the last frame.
-  double touch_ = 0.0;     ///< Of the last frame [m].
+  bool has_last_ = false;         ///< The forecast knows the last frame.
+  double touch_ = 0.0;            ///< Of the last frame [m].
+  std::uint32_t seen_frame_ = 0;  ///< Deformation of the moving hierarchy after which the forecast began.
 
   WideScratch scratch_;
   ContactSet contacts_;

@@ -24,6 +24,7 @@ const MethodDescription& certified_method() {
       .tracks_locally = false,
       .trackings_after_search = 0,
       .finds_critical_pairs = true,
+      .follows_deformation = true,
       .options = with_defaults(
           {{"frame_coherence",
             {{"type", "boolean"},

@@ -1,5 +1,7 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/catalogue/deformation.h>
+#include <lmdbench/lmd/body.h>
 #include <lmdbench/mesh/polar_cone.h>
 #include <lmdbench/methods/certified/hierarchy/polar_cap.h>
 #include <lmdbench/methods/certified/hierarchy/wide_hierarchy.h>
@@ -143,6 +145,43 @@ std::vector<FeatureId> visit_lanes(
   return all;
 }
 
+/// @param shape  null: of the mesh itself
+void expect_owns_and_bounds(const WideHierarchy& hierarchy, const Surface& surface,
+                            const ShapeComplex* shape) {
+  const auto check = [&](const WideNode& node, std::size_t lane, const std::vector<FeatureId>& below) {
+    const Vec3 centre(node.centre[0][lane], node.centre[1][lane], node.centre[2][lane]);
+    const Vec3 axis(node.axis[0][lane], node.axis[1][lane], node.axis[2][lane]);
+    for (const FeatureId& feature : below) {
+      const auto triangles = surface.incident_triangles(feature);
+      for (const std::int32_t corner : surface.mesh.triangles[static_cast<std::size_t>(triangles[0])]) {
+        if (feature.kind == FeatureKind::VERTEX && corner != feature.index) continue;
+        if (feature.kind == FeatureKind::EDGE) {
+          const auto& ends = surface.adjacency.edges[static_cast<std::size_t>(feature.index)];
+          if (corner != ends[0] && corner != ends[1]) continue;
+        }
+        const Vec3 p = surface.mesh.vertices[static_cast<std::size_t>(corner)] - hierarchy.origin;
+        ASSERT_LE((p - centre).norm(), static_cast<double>(node.radius[lane]));
+        ASSERT_LE(std::abs((p - centre).dot(axis)), static_cast<double>(node.thickness[lane]));
+        ASSERT_LE(p.norm(), hierarchy.radius);
+      }
+      if (axis.isZero(0.0)) continue;
+      // With a shape, the wings of a corner are others than its edges.
+      if (shape != nullptr && shape->is_joined) continue;
+      for (const Vec3& direction : polar_cone(surface, feature).generators)
+        ASSERT_GE(direction.dot(axis), static_cast<double>(node.cosine[lane]));
+    }
+  };
+  std::vector<FeatureId> owned = visit_lanes(hierarchy, 0, check);
+  std::sort(owned.begin(), owned.end());
+  std::vector<FeatureId> expected;
+  for (const FeatureId& feature : all_features(surface))
+    if ((shape == nullptr || shape->is_lead(feature)) &&
+        (feature.kind == FeatureKind::FACE || polar_cap(surface, feature, shape)))
+      expected.push_back(feature);
+  EXPECT_EQ(owned, expected);
+  EXPECT_EQ(hierarchy.feature_count, expected.size());
+}
+
 TEST(WideHierarchy, OwnsEveryFeatureOnceAndBoundsIt) {
   for (const WideSplit split : {WideSplit::POSITION, WideSplit::NORMAL, WideSplit::ORDER}) {
     for (const bool full : {true, false}) {
@@ -151,37 +190,40 @@ TEST(WideHierarchy, OwnsEveryFeatureOnceAndBoundsIt) {
         WideBuildOptions options;
         options.split = split;
         options.full_nodes = full;
-        const WideHierarchy hierarchy = build_wide_hierarchy(surface, options);
-        const auto check = [&](const WideNode& node, std::size_t lane, const std::vector<FeatureId>& below) {
-          const Vec3 centre(node.centre[0][lane], node.centre[1][lane], node.centre[2][lane]);
-          const Vec3 axis(node.axis[0][lane], node.axis[1][lane], node.axis[2][lane]);
-          for (const FeatureId& feature : below) {
-            const auto triangles = surface.incident_triangles(feature);
-            for (const std::int32_t corner : surface.mesh.triangles[static_cast<std::size_t>(triangles[0])]) {
-              if (feature.kind == FeatureKind::VERTEX && corner != feature.index) continue;
-              if (feature.kind == FeatureKind::EDGE) {
-                const auto& ends = surface.adjacency.edges[static_cast<std::size_t>(feature.index)];
-                if (corner != ends[0] && corner != ends[1]) continue;
-              }
-              const Vec3 p = surface.mesh.vertices[static_cast<std::size_t>(corner)] - hierarchy.origin;
-              ASSERT_LE((p - centre).norm(), static_cast<double>(node.radius[lane]));
-              ASSERT_LE(std::abs((p - centre).dot(axis)), static_cast<double>(node.thickness[lane]));
-            }
-            if (axis.isZero(0.0)) continue;
-            for (const Vec3& direction : polar_cone(surface, feature).generators)
-              ASSERT_GE(direction.dot(axis), static_cast<double>(node.cosine[lane]));
-          }
-        };
-        std::vector<FeatureId> owned = visit_lanes(hierarchy, 0, check);
-        std::sort(owned.begin(), owned.end());
-        std::vector<FeatureId> expected;
-        for (const FeatureId& feature : all_features(surface))
-          if (feature.kind == FeatureKind::FACE || polar_cap(surface, feature)) expected.push_back(feature);
-        EXPECT_EQ(owned, expected);
-        EXPECT_EQ(hierarchy.feature_count, expected.size());
+        expect_owns_and_bounds(build_wide_hierarchy(surface, options), surface, nullptr);
       }
     }
   }
+}
+
+TEST(WideHierarchy, OwnsEveryFeatureOnceAndBoundsItWhileTheMeshDeforms) {
+  std::mt19937_64 random(21);
+  std::uint32_t refitted = 0, built_anew = 0;
+  for (const TriangleMesh& mesh : shapes()) {
+    for (const DeformationKind kind : {DeformationKind::BEND, DeformationKind::TWIST, DeformationKind::DENT,
+                                       DeformationKind::BREATHE, DeformationKind::CRUMPLE}) {
+      const double amplitude = kind == DeformationKind::TWIST  ? 6.0
+                               : kind == DeformationKind::BEND ? 1.0
+                                                               : 0.1;
+      const Deformation deformation(
+          mesh, {kind, amplitude, 0.2 + 0.8 * uniform(random), random_direction(random), 1});
+      Body body("deforming", build_surface(mesh));
+      const auto& hierarchy = body.prepared<WideHierarchy>();
+      const auto& shape = body.prepared<ShapeComplex>();
+      body.deform(mesh.vertices);
+      std::vector<Vec3> vertices;
+      for (int step = 1; step < 12; ++step) {
+        deformation.at(0.02 * step, vertices);
+        const std::uint32_t times = hierarchy.times_built_anew();
+        body.deform(vertices);
+        ++(hierarchy.times_built_anew() > times ? built_anew : refitted);
+        expect_owns_and_bounds(hierarchy, body.surface(), &shape);
+        if (::testing::Test::HasFailure()) return;
+      }
+    }
+  }
+  EXPECT_GT(refitted, built_anew);
+  EXPECT_GT(built_anew, 10u);
 }
 
 TEST(WideHierarchy, IsTheSameEveryTime) {

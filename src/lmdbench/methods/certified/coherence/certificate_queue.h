@@ -29,9 +29,10 @@ class CertificateQueue {
   /// @param frames    of the forecast after which the thing is due; at least the next frame is
   /// @param deviation_budget deviation that it stands [m]
   void plan(std::uint32_t index, double frames, double deviation_budget, const MotionForecast& forecast);
+  /// In the forecast's frame, which is not collected yet.
   void plan_now(std::uint32_t index, const MotionForecast& forecast) {
     LMDBENCH_EXPECTS(index < budgets_.size(), "a thing of another queue");
-    by_frame_.move_to(index, forecast.frame() % FRAMES);
+    if (place_in_next_[index] == NONE) by_frame_.move_to(index, forecast.frame() % FRAMES);
   }
 
   /// In the next frame, whatever the motion.

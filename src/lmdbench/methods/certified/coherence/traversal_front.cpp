@@ -88,20 +88,55 @@ void TraversalFront::plan_leaf(const WideHierarchy& a, const MotionForecast& mot
   leaf_queue_.plan(index, frames, deviation_budget, motion);
 }
 
-void TraversalFront::drop_record(std::uint32_t record) {
-  dropping_.push_back(record);
+void TraversalFront::drop_below(const Record& record) {
+  for (std::uint32_t left = record.opened_lanes; left != 0; left &= left - 1)
+    dropping_.push_back(record.below[static_cast<std::size_t>(std::countr_zero(left))]);
+  for (std::uint32_t left = record.lmd_lanes; left != 0; left &= left - 1)
+    leaf_queue_.drop(record.below[static_cast<std::size_t>(std::countr_zero(left))]);
+  for (std::uint32_t left = record.touch_lanes; left != 0; left &= left - 1)
+    leaf_queue_.drop(record.touching[static_cast<std::size_t>(std::countr_zero(left))]);
+}
+
+void TraversalFront::finish_dropping() {
   while (!dropping_.empty()) {
     const std::uint32_t index = dropping_.back();
     dropping_.pop_back();
-    const Record& dropped = records_[index];
-    for (std::uint32_t left = dropped.opened_lanes; left != 0; left &= left - 1)
-      dropping_.push_back(dropped.below[static_cast<std::size_t>(std::countr_zero(left))]);
-    for (std::uint32_t left = dropped.lmd_lanes; left != 0; left &= left - 1)
-      leaf_queue_.drop(dropped.below[static_cast<std::size_t>(std::countr_zero(left))]);
-    for (std::uint32_t left = dropped.touch_lanes; left != 0; left &= left - 1)
-      leaf_queue_.drop(dropped.touching[static_cast<std::size_t>(std::countr_zero(left))]);
+    drop_below(records_[index]);
     records_[index].in_use = false;
     test_queue_.drop(index);
+  }
+}
+
+void TraversalFront::drop_record(std::uint32_t record) {
+  dropping_.push_back(record);
+  finish_dropping();
+}
+
+void TraversalFront::follow(const WideHierarchy& a, std::uint32_t seen_a, const WideHierarchy& b,
+                            std::uint32_t seen_b, const MotionForecast& motion) {
+  for (std::uint32_t i = 0; i < records_.size(); ++i) {
+    Record& record = records_[i];
+    if (!record.in_use) continue;
+    WideKeptPair& pair = pairs_[i];
+    const WideHierarchy &opened = pair.open_a ? a : b, &other = pair.open_a ? b : a;
+    const std::uint32_t seen_opened = pair.open_a ? seen_a : seen_b,
+                        seen_other = pair.open_a ? seen_b : seen_a;
+    const std::uint32_t slot = pair.open_a ? pair.slot_b : pair.slot_a;
+    if (!opened.changes.bounds_after(pair.node, seen_opened) &&
+        !other.changes.bounds_after(slot / WIDE_WIDTH, seen_other))
+      continue;
+    // Where the other child itself is another one now, the pair goes with the record above that opened its node.
+    if (opened.changes.lanes_after(pair.node, seen_opened)) {
+      drop_below(record);
+      finish_dropping();
+      record.opened_lanes = record.lmd_lanes = record.touch_lanes = 0;
+    }
+    pair.child = WideChild(other.nodes[slot / WIDE_WIDTH], slot % WIDE_WIDTH);
+    test_queue_.plan_now(i, motion);
+    for (std::uint32_t left = record.lmd_lanes; left != 0; left &= left - 1)
+      leaf_queue_.plan_now(record.below[static_cast<std::size_t>(std::countr_zero(left))], motion);
+    for (std::uint32_t left = record.touch_lanes; left != 0; left &= left - 1)
+      leaf_queue_.plan_now(record.touching[static_cast<std::size_t>(std::countr_zero(left))], motion);
   }
 }
 

@@ -30,6 +30,12 @@ class TraversalFront {
   void start(const WideHierarchy& a, const WideHierarchy& b, const WideQuery& query,
              const MotionForecast& motion, const RigidTransform& X_BA, double cutoff, WideCounters& counters);
 
+  /// What was kept of children that have changed since (WideChanges), in either hierarchy, is made again in the frame that the forecast was
+  /// brought to. Comes before `advance`.
+  /// @param seen_a, seen_b  deformations of each that the pairs know; the frames of neither changed since
+  void follow(const WideHierarchy& a, std::uint32_t seen_a, const WideHierarchy& b, std::uint32_t seen_b,
+              const MotionForecast& motion);
+
   /// Brings the pairs to the frame that the forecast was brought to.
   void advance(const WideHierarchy& a, const WideHierarchy& b, const WideQuery& query,
                const MotionForecast& motion, const RigidTransform& X_BA, double cutoff,
@@ -102,6 +108,10 @@ class TraversalFront {
   std::uint32_t add_record(const Work& work, std::uint32_t slot_a, std::uint32_t slot_b);
   std::uint32_t add_leaf(const Work& work, std::uint32_t slot_a, const WidePair& pair, bool touches);
   void drop_record(std::uint32_t record);
+  /// Drops the pairs that a test let through, and puts its records on `dropping_`.
+  void drop_below(const Record& record);
+  /// Drops the records on `dropping_` and all below them.
+  void finish_dropping();
   void make_requested_tests(const Work& work);
   void apply(const Work& work, const WideKeptTest& test);
 

@@ -129,12 +129,21 @@ std::optional<PolarCap> vertex_cap(const Surface& surface, std::int32_t vertex, 
   if (work.extremes.directions.empty()) return std::nullopt;
   // Saddles are done here, and so are peaks, all of whose directions are outer ones: whether a vertex has an
   // outer side costs a walk round it.
-  const Vec3& outer = surface.vertex_pseudo_normals[static_cast<std::size_t>(vertex)];
-  const bool all_outer = std::all_of(work.extremes.directions.begin(), work.extremes.directions.end(),
-                                     [&](const Vec3& direction) { return direction.dot(outer) >= 0.0; });
-  if (!all_outer && has_outer_side(surface, {FeatureKind::VERTEX, vertex})) {
-    work.constraints.push_back({-outer, POLAR_SLACK});
-    find_crossings(work);
+  // What lies above every triangle lies on the side of their mean, which costs more to make.
+  const auto above_all = [&](const Vec3& direction) {
+    return std::ranges::all_of(surface.adjacency.vertex_triangles[vertex], [&](std::int32_t t) {
+      const Vec3& normal = surface.face_normals[static_cast<std::size_t>(t)];
+      return normal.isZero(0.0) || normal.dot(direction) > 0.0;
+    });
+  };
+  if (!std::ranges::all_of(work.extremes.directions, above_all)) {
+    const Vec3 outer = surface.vertex_normal(vertex);
+    const bool all_outer = std::ranges::all_of(
+        work.extremes.directions, [&](const Vec3& direction) { return direction.dot(outer) >= 0.0; });
+    if (!all_outer && has_outer_side(surface, {FeatureKind::VERTEX, vertex})) {
+      work.constraints.push_back({-outer, POLAR_SLACK});
+      find_crossings(work);
+    }
   }
   return polar::cap_around(work.extremes);
 }

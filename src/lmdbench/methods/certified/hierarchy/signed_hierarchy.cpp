@@ -50,6 +50,13 @@ PolarCap merged_caps(const PolarCap& a, const PolarCap& b) {
   return both.cosine > 0.0 ? PolarCap{both.axis, both.cosine, both.sine} : PolarCap{};
 }
 
+void SignedHierarchy::follow(const Body& body, const SurfaceChange& change) {
+  if (change.moved.empty()) return;
+  const std::uint32_t now = hierarchy.changes.now + 1;
+  *this = of(body);
+  hierarchy.changes.now = hierarchy.changes.frame = now;
+}
+
 SignedHierarchy SignedHierarchy::of(const Body& body) {
   WideBuildOptions options;
   options.signs = &body.prepared<SignedFeatures>();

@@ -16,6 +16,8 @@ struct SignedHierarchy {
   WideHierarchy hierarchy;
 
   static SignedHierarchy of(const Body& body);
+  /// Built anew, and known to be: critical pairs are asked for seldom.
+  void follow(const Body& body, const SurfaceChange& change);
 };
 
 /// Cap of all directions in which a feature has an index that is not 0: a region's normal, both normals of a chain, all normals round

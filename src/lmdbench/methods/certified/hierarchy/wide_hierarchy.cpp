@@ -8,6 +8,7 @@
 #include <lmdbench/methods/certified/hierarchy/wide_hierarchy.h>
 #include <lmdbench/methods/certified/hierarchy/wide_items.h>
 #include <lmdbench/methods/certified/hierarchy/wide_partition.h>
+#include <lmdbench/methods/certified/hierarchy/wide_refit.h>
 
 #include <algorithm>
 #include <array>
@@ -20,8 +21,6 @@ namespace lmdbench {
 namespace {
 
 constexpr std::size_t WIDTH = WIDE_WIDTH;
-/// Widening of stored cosines and sines: a few roundings of single precision.
-constexpr double CONE_ROUNDING = 5e-7;
 
 struct Range {
   std::size_t begin, end;
@@ -270,10 +269,7 @@ class Builder {
     LaneVectors offsets{};
     find_lane_centres(points, axes, steps, offsets);
 
-    // Corners were moved to the origin in double precision; that rounding is 1e-16
-    // of the mesh and is added too.
-    const double rounding =
-        4.0 * std::numeric_limits<double>::epsilon() * (result_.radius + result_.origin.norm());
+    const double rounding = result_.rounding();
     for (std::size_t i = 0; i < lanes.size(); ++i) {
       const Vec3 middle = anchors[i] - result_.origin + Vec3(offsets.x[i], offsets.y[i], offsets.z[i]);
       const Vec3 axis(axes.x[i], axes.y[i], axes.z[i]);
@@ -323,14 +319,30 @@ WideHierarchy build_wide_hierarchy(const Surface& surface, const WideBuildOption
   std::vector<WideItem> items = collect_wide_items(surface, options, shape);
   partition_wide_items(surface, options, shape, result.origin, result.radius, items);
   result.feature_count = items.size();
-  double squared_least = std::numeric_limits<double>::infinity();
-  for (const auto& ends : surface.adjacency.edges)
-    squared_least = std::min(squared_least, (surface.mesh.vertices[static_cast<std::size_t>(ends[0])] -
-                                             surface.mesh.vertices[static_cast<std::size_t>(ends[1])])
-                                                .squaredNorm());
-  result.least_edge = std::sqrt(squared_least);
   Builder(surface, options, items, shape, result).build();
   return result;
+}
+
+double WideHierarchy::rounding() const {
+  return 4.0 * std::numeric_limits<double>::epsilon() * (radius + origin.norm());
+}
+
+void WideHierarchy::follow(const Body& body, const SurfaceChange& change) {
+  const auto& shape = body.prepared<ShapeComplex>();
+  ++changes.now;
+  if (refit_ && shape.times_made_anew() == shape_times_ &&
+      refit_->refit(*this, body.surface(), shape, change))
+    return;
+  if (!change.moved.empty()) {
+    const std::uint32_t now = changes.now, times = times_built_anew_ + 1;
+    *this = of(body);
+    times_built_anew_ = times;
+    changes.now = changes.frame = now;
+  }
+  changes.bounds.assign(nodes.size(), changes.now);
+  changes.lanes = changes.bounds;
+  shape_times_ = shape.times_made_anew();
+  refit_ = std::make_shared<WideRefit>(*this, body.surface());
 }
 
 WideHierarchy WideHierarchy::of(const Body& body) {

@@ -8,6 +8,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 namespace lmdbench {
@@ -71,6 +72,8 @@ struct alignas(32) WideNode {
 inline constexpr float UNBOUNDED_THICKNESS = 1e18F;
 /// Cosine of children that carry no LMD.
 inline constexpr float NO_LMD_COSINE = 2.0F;
+/// Widening of stored cosines and sines: a few roundings of single precision.
+inline constexpr double CONE_ROUNDING = 5e-7;
 
 class SignedFeatures;
 
@@ -114,6 +117,25 @@ struct WideBuildOptions {
   const SignedFeatures* signs = nullptr;
 };
 
+class WideRefit;
+
+/// When what of a hierarchy over a deforming mesh changed, in deformations: what was kept of it since an earlier one still holds
+/// where nothing changed after that.
+struct WideChanges {
+  std::uint32_t now = 0;    ///< Deformations so far.
+  std::uint32_t frame = 0;  ///< Origin, radius, or all there is.
+  std::vector<std::uint32_t>
+      bounds;  ///< #nodes: bounds of some lane, or wings of a feature in it; empty before the first.
+  std::vector<std::uint32_t> lanes;  ///< #nodes: what some lane refers to.
+
+  bool bounds_after(std::uint32_t node, std::uint32_t time) const {
+    return !bounds.empty() && bounds[node] > time;
+  }
+  bool lanes_after(std::uint32_t node, std::uint32_t time) const {
+    return !lanes.empty() && lanes[node] > time;
+  }
+};
+
 /// Hierarchy over the features of a mesh that can carry an LMD (non-empty outward polar cone),
 /// each owned by one lane of one node, and over every triangle without area. nodes[0] has one
 /// child, the root; empty for an empty mesh.
@@ -124,12 +146,24 @@ struct WideHierarchy {
   double radius = 0.0;         ///< Every point of every feature is within this distance
                                ///< of `origin`.
   std::size_t feature_count = 0;
-  double least_edge = 0.0;  ///< Length of the shortest edge among the features.
+  WideChanges changes;
 
   std::size_t bytes() const { return nodes.size() * sizeof(WideNode); }
 
+  /// What subtracting the origin from a coordinate may lose, and is added to each size [m].
+  double rounding() const;
+
   /// Built with the default options over the features of the mesh's shape: what `certified` prepares for a mesh.
   static WideHierarchy of(const Body& body);
+  /// Brings it to the mesh as it is after a deformation (wide_refit.h); built anew where the features are others, in the first step
+  /// too, and where counters say that it pays.
+  void follow(const Body& body, const SurfaceChange& change);
+  std::uint32_t times_built_anew() const { return times_built_anew_; }
+
+ private:
+  std::shared_ptr<WideRefit> refit_;  ///< Once the mesh has deformed.
+  std::uint32_t shape_times_ = 0;     ///< ShapeComplex::times_made_anew of the shape that it was built over.
+  std::uint32_t times_built_anew_ = 0;
 };
 
 /// Deterministic, whatever the number of threads.

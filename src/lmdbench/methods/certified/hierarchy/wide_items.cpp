@@ -43,23 +43,24 @@ PolarCap widened(const PolarCap& cap, double angle) {
   return result;
 }
 
-void append_item(const Surface& surface, const WideBuildOptions& options, const ShapeComplex* shape,
-                 const FeatureId& feature, std::vector<WideItem>& items) {
+}  // namespace
+
+std::optional<WideItem> make_wide_item(const Surface& surface, const WideBuildOptions& options,
+                                       const ShapeComplex* shape, const FeatureId& feature) {
   std::optional<PolarCap> cap = polar_cap(surface, feature, shape);
   if (options.signs != nullptr)
     if (const auto signed_one = signed_cap(*options.signs, *shape, feature))
       cap = cap ? merged_caps(*cap, *signed_one) : *signed_one;
-  if (!cap && feature.kind != FeatureKind::FACE) return;
-  WideItem& item = items.emplace_back();
+  if (!cap && feature.kind != FeatureKind::FACE) return std::nullopt;
+  WideItem item;
   item.ref = WideRef::feature(feature);
   item.carries_lmd = cap.has_value();
-  if (!cap) return;
+  if (!cap) return item;
   item.cap = options.tight_caps ? *cap : one_ring_cap(surface, feature);
   // Regions and chains count as parallel to others at a small tilt (lmd/contact_tolerance.h); the other mesh decides how small.
   if (feature.kind != FeatureKind::VERTEX) item.cap = widened(item.cap, LARGEST_PARALLEL_TILT);
+  return item;
 }
-
-}  // namespace
 
 std::vector<WideItem> collect_wide_items(const Surface& surface, const WideBuildOptions& options,
                                          const ShapeComplex* shape) {
@@ -77,7 +78,8 @@ std::vector<WideItem> collect_wide_items(const Surface& surface, const WideBuild
     const std::size_t end = std::min(features, (block + 1) * BLOCK);
     for (std::size_t i = block * BLOCK; i < end; ++i)
       if (shape == nullptr || shape->is_lead(feature_at(i)))
-        append_item(surface, options, shape, feature_at(i), blocks[block]);
+        if (const auto item = make_wide_item(surface, options, shape, feature_at(i)))
+          blocks[block].push_back(*item);
   });
 
   std::vector<std::size_t> starts{0};

@@ -6,6 +6,7 @@
 #include <lmdbench/methods/certified/hierarchy/polar_cap.h>
 #include <lmdbench/methods/certified/hierarchy/wide_hierarchy.h>
 
+#include <optional>
 #include <vector>
 
 namespace lmdbench {
@@ -16,6 +17,11 @@ struct WideItem {
   WideRef ref;
   bool carries_lmd = false;  ///< False for triangles without area: they have no cap.
 };
+
+/// A feature as a hierarchy owns it; nothing where it carries no LMD and is no triangle without area.
+/// @param feature  of a shape the lead
+std::optional<WideItem> make_wide_item(const Surface& surface, const WideBuildOptions& options,
+                                       const ShapeComplex* shape, const FeatureId& feature);
 
 /// The features that a hierarchy owns: vertices, edges and faces, each by index; flat ones by their leads.
 std::vector<WideItem> collect_wide_items(const Surface& surface, const WideBuildOptions& options,
