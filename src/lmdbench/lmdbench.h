@@ -76,6 +76,13 @@ class LmdSearch {
   /// The same with several fixed meshes; `Lmd::fixed_body` counts them.
   LmdSearch(const PreparedMesh& moving, const std::vector<PreparedMesh>& fixed, double cutoff,
             const std::string& method = "certified", const std::string& options = "{}");
+
+  /// The same with fixed meshes in frames of their own: copies of one `PreparedMesh` share its memory, so that thousands of
+  /// instances cost some 200 bytes each.
+  /// @param X_WF pose of each fixed mesh in the world
+  /// @throws UsageError also for another number of poses, and for one that is not finite or no rotation (a pose has no scale)
+  LmdSearch(const PreparedMesh& moving, const std::vector<PreparedMesh>& fixed, const std::vector<Pose>& X_WF,
+            double cutoff, const std::string& method = "certified", const std::string& options = "{}");
   ~LmdSearch();
   LmdSearch(LmdSearch&&) noexcept;
   LmdSearch& operator=(LmdSearch&&) noexcept;

@@ -12,7 +12,7 @@ class CgalVertices : public GlobalSearch {
  public:
   explicit CgalVertices(const Scene& scene)
       : moving_(scene.moving),
-        fixed_(scene.fixed.at(0)),
+        fixed_(scene.fixed.at(0).body),
         moving_tree_(moving_->surface().mesh),
         fixed_tree_(fixed_->surface().mesh) {}
 

@@ -15,7 +15,7 @@ namespace {
 class EmbreeSearch : public GlobalSearch {
  public:
   explicit EmbreeSearch(const Scene& scene)
-      : moving_(scene.moving), fixed_(scene.fixed.at(0)), embree_(fixed_->surface().mesh) {}
+      : moving_(scene.moving), fixed_(scene.fixed.at(0).body), embree_(fixed_->surface().mesh) {}
 
   void run(const Pose& X_WM) override {
     const RigidTransform X(X_WM);

@@ -48,6 +48,17 @@ void check_mesh_in_memory(const TriangleMesh& mesh, const std::string& name) {
   check_mesh_limits(mesh, name);
 }
 
+void refuse_bad_pose(const Pose& pose, const std::string& place) {
+  const double length = pose.rotation.norm();
+  const bool rigid = pose.translation.allFinite() &&
+                     pose.translation.cwiseAbs().maxCoeff() <= LARGEST_COORDINATE &&
+                     std::abs(length - 1.0) <= QUATERNION_LENGTH_TOLERANCE;  // false for NaN, too
+  if (!rigid)
+    throw UsageError(
+        "", place, "is no rigid transform of finite size",
+        fmt::format("give a unit quaternion and a translation up to {:g} m", LARGEST_COORDINATE));
+}
+
 Scene scene_of(const PreparedMesh& moving, const std::vector<PreparedMesh>& fixed, double cutoff) {
   if (!(cutoff > 0.0 && cutoff <= LARGEST_COORDINATE))
     throw UsageError("", "cutoff",
@@ -103,6 +114,23 @@ LmdSearch::LmdSearch(const PreparedMesh& moving, const std::vector<PreparedMesh>
   state_ = std::make_unique<State>(State{std::move(scene), std::move(made)});
 }
 
+LmdSearch::LmdSearch(const PreparedMesh& moving, const std::vector<PreparedMesh>& fixed,
+                     const std::vector<Pose>& X_WF, double cutoff, const std::string& method,
+                     const std::string& options) {
+  const nlohmann::json chosen = options_of(method, options);
+  Scene scene = scene_of(moving, fixed, cutoff);
+  if (X_WF.size() != fixed.size())
+    throw UsageError("", "X_WF", fmt::format("{} poses of {} fixed meshes", X_WF.size(), fixed.size()),
+                     "give one a mesh");
+  for (std::size_t i = 0; i < X_WF.size(); ++i) {
+    refuse_bad_pose(X_WF[i], fmt::format("X_WF {}", i));
+    scene.fixed[i].X_WF = X_WF[i];
+    scene.fixed[i].X_WF.rotation.normalize();
+  }
+  std::unique_ptr<Method> made = make_method(method, scene, chosen);
+  state_ = std::make_unique<State>(State{std::move(scene), std::move(made)});
+}
+
 LmdSearch::LmdSearch(const PreparedMesh& moving, const PreparedMesh& fixed, double cutoff,
                      const std::string& method, const std::string& options)
     : LmdSearch(moving, std::vector<PreparedMesh>{fixed}, cutoff, method, options) {}
@@ -112,14 +140,7 @@ LmdSearch::LmdSearch(LmdSearch&&) noexcept = default;
 LmdSearch& LmdSearch::operator=(LmdSearch&&) noexcept = default;
 
 LmdSet LmdSearch::at(const Pose& X_WM) {
-  const double length = X_WM.rotation.norm();
-  const bool rigid = X_WM.translation.allFinite() &&
-                     X_WM.translation.cwiseAbs().maxCoeff() <= LARGEST_COORDINATE &&
-                     std::abs(length - 1.0) <= QUATERNION_LENGTH_TOLERANCE;  // false for NaN, too
-  if (!rigid)
-    throw UsageError(
-        "", "pose", "is no rigid transform of finite size",
-        fmt::format("give a unit quaternion and a translation up to {:g} m", LARGEST_COORDINATE));
+  refuse_bad_pose(X_WM, "pose");
   return query(*state_->method, X_WM, state_->scene.cutoff).lmds;
 }
 

@@ -64,6 +64,10 @@ struct MethodDescription {
   /// Whether a search looks at every pair of triangles, so that benchmarks time it only where asked to.
   bool brute_force = false;
 
+  /// Whether `search` keeps what it found of a pair of meshes for the next frame. Then each instance of a world that is near gets a
+  /// method of its own; else one serves all instances of a mesh.
+  bool frame_coherent = false;
+
   /// Whether `Method::find_critical` answers.
   bool finds_critical_pairs = false;
 

@@ -80,7 +80,7 @@ NearFrame::NearFrame(const Scene& scene) : scene_(scene) {
   origin_W_ = near_origin(fixed, half_diagonal(fixed) + half_diagonal(moving));
   differs_ = !origin_M_.isZero(0.0) || !origin_W_.isZero(0.0);
   scene_.moving = moved(scene.moving, origin_M_);
-  for (auto& body : scene_.fixed) body = moved(body, origin_W_);
+  for (FixedBody& body : scene_.fixed) body.body = moved(body.body, origin_W_);
 }
 
 Pose NearFrame::to_near(const Pose& X_WM) const {

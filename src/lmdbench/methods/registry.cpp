@@ -6,6 +6,7 @@
 #include <lmdbench/lmd/near_frame.h>
 #include <lmdbench/lmd/remade_method.h>
 #include <lmdbench/methods/registry.h>
+#include <lmdbench/world/world_method.h>
 
 #include <fmt/format.h>
 
@@ -42,7 +43,10 @@ struct LargestFan {
 /// Where two hubs meet, every method looks at all pairs of their triangles.
 void refuse_two_hubs(const Scene& scene) {
   const auto& moving = scene.moving->prepared<LargestFan>();
-  for (const auto& body : scene.fixed) {
+  const Body* last = nullptr;
+  for (const FixedBody& body : scene.fixed) {
+    if (body.body.get() == last) continue;  // another instance
+    last = body.body.get();
     const auto& fixed = body->prepared<LargestFan>();
     if (moving.triangles * fixed.triangles <= limit_of(Limit::VERTEX_PAIRS)) continue;
     throw InputError(
@@ -94,10 +98,11 @@ std::unique_ptr<Method> make_method(std::string_view name, const Scene& scene, c
   const Json complete = complete_options(description, options, "options of " + description.name);
   refuse_two_hubs(scene);
   const auto make = [&description, complete](const Scene& of_scene) {
-    return make_in_near_frame(of_scene, [&](const Scene& near) { return description.make(near, complete); });
+    return make_in_world(of_scene, description,
+                         [&](const Scene& near) { return description.make(near, complete); });
   };
-  // In a near frame it would follow copies of the bodies.
-  if (description.follows_deformation && !NearFrame(scene).differs()) return make(scene);
+  // Among instances, or in a near frame, it would not see the bodies themselves.
+  if (description.follows_deformation && !scene.is_world() && !NearFrame(scene).differs()) return make(scene);
   return std::make_unique<RemadeMethod>(scene, make);
 }
 

@@ -23,6 +23,7 @@ const MethodDescription& certified_method() {
       .promise = Promise::COMPLETE_SET,
       .tracks_locally = false,
       .trackings_after_search = 0,
+      .frame_coherent = true,
       .finds_critical_pairs = true,
       .follows_deformation = true,
       .options = with_defaults(

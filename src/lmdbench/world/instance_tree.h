@@ -1,0 +1,42 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Geometry>
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <span>
+#include <vector>
+
+namespace lmdbench {
+
+/// Boost.Geometry's R-tree over the boxes of instances, packed when it is made, in single precision rounded outwards: 28 bytes an
+/// instance and its share of the nodes. Chosen by measurement (`lmdbench-study worlds --broad-phase`). What it answers does not depend on
+/// the order in which boxes come.
+class InstanceTree {
+ public:
+  /// @param boxes one an instance, which is named by its index
+  explicit InstanceTree(std::span<const Eigen::AlignedBox3d> boxes);
+  ~InstanceTree();
+  InstanceTree(InstanceTree&& other) noexcept;
+  InstanceTree& operator=(InstanceTree&& other) noexcept;
+
+  /// Those whose boxes share a point with `box`, ascending; a few beside it, by the rounding of single precision.
+  void touching(const Eigen::AlignedBox3d& box, std::vector<std::uint32_t>& instances) const;
+
+  /// Calls visit(instance, bound) for one after the other, by the distance of its box from the point, until it returns false; `bound` [m]
+  /// is a lower bound of that distance, and of those of all that would follow.
+  void by_distance(const Eigen::Vector3d& point,
+                   const std::function<bool(std::uint32_t instance, double bound)>& visit) const;
+
+  std::size_t size() const;
+
+ private:
+  class Tree;
+  std::unique_ptr<Tree> tree_;
+};
+
+}  // namespace lmdbench

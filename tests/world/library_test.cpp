@@ -1,0 +1,51 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/base/error.h>
+#include <lmdbench/catalogue/shapes.h>
+#include <lmdbench/lmdbench.h>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <support/message_of.h>
+#include <support/scenes.h>
+
+#include <limits>
+#include <vector>
+
+namespace lmdbench {
+namespace {
+
+using ::testing::HasSubstr;
+using testing::message_of;
+using testing::moved;
+
+TEST(LibraryInstances, AreCopiesOfOneMeshAtTheirPoses) {
+  const PreparedMesh ball(make_sphere(0.5, 2));
+  std::vector<Pose> poses;
+  for (int k = 0; k < 100; ++k) poses.push_back(moved(3.0 * k, 0.0, 0.0));
+  LmdSearch search(ball, std::vector<PreparedMesh>(100, ball), poses, 0.1);
+  for (const int k : {0, 42, 99}) {
+    const LmdSet lmds = search.at(moved(3.0 * k, 1.05, 0.0));
+    ASSERT_FALSE(lmds.empty());
+    EXPECT_EQ(lmds[0].fixed_body, k);
+    EXPECT_NEAR(lmds[0].distance, 0.05, 0.01);
+    EXPECT_NEAR(lmds[0].point_fixed.x(), 3.0 * k, 0.1);
+  }
+  EXPECT_TRUE(search.at(moved(1.5, 5.0, 0.0)).empty());
+}
+
+TEST(LibraryInstances, RefusesWhatIsNoPose) {
+  const PreparedMesh ball(make_sphere(0.5, 1));
+  const auto made_with = [&](const std::vector<Pose>& poses) {
+    return message_of<UsageError>([&] { LmdSearch(ball, std::vector<PreparedMesh>(2, ball), poses, 0.1); });
+  };
+  EXPECT_THAT(made_with({Pose{}}), HasSubstr("1 poses of 2"));
+  Pose scaled, lost;
+  scaled.rotation.coeffs() *= 2.0;
+  lost.translation.x() = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_THAT(made_with({Pose{}, scaled}), HasSubstr("X_WF 1"));
+  EXPECT_THAT(made_with({lost, Pose{}}), HasSubstr("X_WF 0"));
+}
+
+}  // namespace
+}  // namespace lmdbench
