@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/base/error.h>
 #include <lmdbench/cli/anatomy_command.h>
 #include <lmdbench/experiment/anatomy.h>
 #include <lmdbench/experiment/contact.h>
@@ -59,7 +60,11 @@ void add_anatomy_command(CLI::App& app) {
       ->check(CLI::Range(0, 64))
       ->capture_default_str();
   command->callback([options] {
-    const PreparedRun prepared = prepare(load_experiment(options->experiment, options->overrides));
+    const Experiment experiment = load_experiment(options->experiment, options->overrides);
+    if (experiment.is_world())
+      throw UsageError(options->experiment, "/fixed", "anatomy looks at one fixed mesh, not at instances",
+                       "leave \"instances\" out");
+    const PreparedRun prepared = prepare(experiment);
     const std::size_t frame = frame_at(prepared, options->time);
     fmt::print("{}\n", anatomy_json(prepared.scene(), prepared.input.poses[frame], prepared.times[frame],
                                     options->levels));

@@ -1,6 +1,8 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/experiment/columns.h>
+#include <lmdbench/methods/registry.h>
+#include <lmdbench/world/world_method.h>
 
 #include <fmt/format.h>
 
@@ -20,6 +22,10 @@ void add_counters(std::vector<Column<Row>>& columns, const std::string& group,
 }
 
 }  // namespace
+
+MethodDescription described(const Experiment& experiment, const std::string& name) {
+  return experiment.is_world() ? in_world(method_description(name)) : method_description(name);
+}
 
 std::vector<Column<FrameRecord>> frame_columns(const MethodDescription& method, bool torque, bool indices) {
   using F = FrameRecord;

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <lmdbench/experiment/experiment.h>
 #include <lmdbench/experiment/records.h>
 #include <lmdbench/lmd/method_description.h>
 
@@ -36,6 +37,9 @@ Column<Row> column(std::string name, std::string units, std::string long_name, V
   return {std::move(name), std::move(units), std::move(long_name),
           std::function<Type(const Row&)>(std::move(value))};
 }
+
+/// A method of the experiment; among instances with what a world counts.
+MethodDescription described(const Experiment& experiment, const std::string& name);
 
 /// @param torque   whether the torque before clipping is among them
 /// @param indices  whether LMDs without an index are counted

@@ -4,6 +4,7 @@
 #include <lmdbench/mesh/radius_about.h>
 #include <lmdbench/snch/minimum_distance.h>
 #include <lmdbench/snch/nearest_tracker.h>
+#include <lmdbench/world/nearest_instance.h>
 
 #include <algorithm>
 #include <cmath>
@@ -102,6 +103,13 @@ class DistanceScan {
 }  // namespace
 
 std::vector<bool> frames_in_contact(const Scene& scene, const std::vector<Pose>& poses, bool forecast) {
+  if (scene.is_world()) {
+    const BroadPhase phase(scene);
+    std::vector<bool> in_contact;
+    for (const Pose& X_WM : poses)
+      in_contact.push_back(nearest_instance(scene, phase, X_WM, scene.cutoff).instance >= 0);
+    return in_contact;
+  }
   const MotionBound motion(scene.moving->surface().mesh);
   std::vector<ContactScan> scans;
   for (const auto& fixed : scene.fixed) scans.emplace_back(scene, *fixed, motion);
@@ -122,6 +130,16 @@ std::vector<bool> frames_in_contact(const Scene& scene, const std::vector<Pose>&
 }
 
 Clearance clearance(const Scene& scene, std::span<const Pose> poses) {
+  if (scene.is_world()) {
+    const BroadPhase phase(scene);
+    Clearance result;
+    for (const Pose& X_WM : poses) {
+      const NearestInstance nearest = nearest_instance(scene, phase, X_WM, result.least_m);
+      result.least_m = std::min(result.least_m, nearest.distance);
+      if (nearest.distance == 0.0) ++result.touching;
+    }
+    return result;
+  }
   const MotionBound motion(scene.moving->surface().mesh);
   std::vector<DistanceScan> scans;
   for (const auto& fixed : scene.fixed) scans.emplace_back(scene, *fixed, motion);

@@ -4,6 +4,7 @@
 
 #include <lmdbench/experiment/acceptance.h>
 #include <lmdbench/experiment/defaults.h>
+#include <lmdbench/experiment/instance_choice.h>
 #include <lmdbench/experiment/loop_choice.h>
 #include <lmdbench/experiment/realtime_choice.h>
 #include <lmdbench/experiment/rules.h>
@@ -16,6 +17,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
@@ -36,6 +38,8 @@ struct MeshChoice {
   Pose pose;                         ///< X_WF of a fixed mesh; identity for the moving one.
   PlanarTolerance planar_tolerance;  ///< Of rounded planes, see flatten.h; a length is in the scene's metres.
   OrientationChoice orientation = OrientationChoice::KEEP;  ///< Which side is outside.
+  /// Of a fixed mesh: how many of it stand where, about `pose`. The mesh then stays in its own frame.
+  std::optional<InstanceChoice> instances;
 };
 
 /// Constants of the force profile (decision E8: the paper states none of them). Some are relative to the
@@ -114,6 +118,11 @@ struct Experiment {
   bool record_torque = false;
   RuleSwitches rules{};
   Acceptance acceptance;
+  /// Whether fixed meshes are instances (lmd/scene.h).
+  bool is_world() const {
+    return std::any_of(fixed.begin(), fixed.end(),
+                       [](const MeshChoice& choice) { return choice.instances.has_value(); });
+  }
   std::vector<DefaultNote> defaults;  ///< What the file leaves open and no mesh is needed for.
   std::string resolved_json;          ///< The file with overrides and defaults, for the record.
 };

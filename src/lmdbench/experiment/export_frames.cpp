@@ -193,10 +193,10 @@ std::vector<fs::path> export_frames(const ResultReader& result, const fs::path& 
                                     std::size_t most_frames) {
   const Scene scene = scene_of_result(result);
   Exporter exporter(result.file(), folder);
-  for (std::size_t i = 0; i < scene.fixed.size(); ++i)
-    exporter.write_top(fmt::format("fixed_{}.vtu", i),
-                       vtu_text(mesh_grid(scene.fixed[i]->surface().mesh, {})));
-  for (const ResultTrack& track : tracks_of_result(result, most_frames)) {
+  const std::vector<ResultTrack> tracks = tracks_of_result(result, most_frames);
+  for (const std::size_t i : drawn_bodies(scene, tracks))
+    exporter.write_top(fmt::format("fixed_{}.vtu", i), vtu_text(mesh_grid(placed_mesh(scene.fixed[i]), {})));
+  for (const ResultTrack& track : tracks) {
     export_track(exporter, result, scene, track);
     export_polylines(exporter, result, track.method);
   }

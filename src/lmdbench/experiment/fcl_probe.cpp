@@ -4,23 +4,72 @@
 #include <lmdbench/experiment/fcl_probe.h>
 #include <lmdbench/experiment/rules.h>
 #include <lmdbench/snch/nearest_tracker.h>
+#include <lmdbench/world/nearest_instance.h>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <tuple>
 
 namespace lmdbench {
 namespace {
 
+/// FCL's nearest pair, in a world that of the instances one after the other, nearest boxes first, each at the relative pose that
+/// methods see.
+class FclMinimum {
+ public:
+  explicit FclMinimum(const Scene& scene) {
+    if (scene.is_world()) {
+      phase_.emplace(scene);
+      for (const auto& mesh : phase_->meshes())
+        checks_.emplace_back(scene.moving->surface(), std::vector<const Surface*>{&mesh->surface()});
+      return;
+    }
+    std::vector<const Surface*> fixed;
+    for (const auto& body : scene.fixed) fixed.push_back(&body->surface());
+    checks_.emplace_back(scene.moving->surface(), fixed);
+  }
+
+  FclResult at(const Pose& X_WM) const {
+    if (!phase_) return checks_.front().distance(X_WM);
+    FclResult best;
+    phase_->by_distance(X_WM, [&](std::uint32_t instance, double bound) {
+      if (best.fixed_body >= 0 && bound > best.distance) return false;
+      const Pose& X_WF = phase_->pose_of(instance);
+      const FclResult found = checks_[phase_->mesh_of(instance)].distance(relative_pose(X_WF, X_WM));
+      const bool same = best.fixed_body >= 0 && found.distance == best.distance;
+      if (best.fixed_body >= 0 && !(found.distance < best.distance) &&
+          !(same && static_cast<std::int32_t>(instance) < best.fixed_body))
+        return true;
+      best = found;
+      best.fixed_body = static_cast<std::int32_t>(instance);
+      best.point_fixed = RigidTransform(X_WF).point(found.point_fixed);
+      best.point_moving = RigidTransform(X_WF).point(found.point_moving);
+      return true;
+    });
+    return best;
+  }
+
+ private:
+  std::optional<BroadPhase> phase_;
+  std::vector<FclCrosscheck> checks_;  ///< One a mesh of a world, else one of all.
+};
+
 /// Exact minimum distance to any of the fixed meshes, frame after frame.
 class ExactMinimum {
  public:
   /// @param warm  whether a search begins with the last one's triangles
-  ExactMinimum(const Scene& scene, bool warm) : scene_(scene), warm_(warm) { start(); }
+  ExactMinimum(const Scene& scene, bool warm) : scene_(scene), warm_(warm) {
+    if (scene.is_world())
+      phase_.emplace(scene);
+    else
+      start();
+  }
 
   double at(const Pose& X_WM) {
+    if (phase_) return nearest_instance(scene_, *phase_, X_WM).distance;
     if (!warm_) start();
     double least = std::numeric_limits<double>::infinity();
     for (NearestTracker& tracker : trackers_) {
@@ -40,6 +89,7 @@ class ExactMinimum {
 
   const Scene& scene_;
   bool warm_;
+  std::optional<BroadPhase> phase_;  ///< Of a world.
   std::vector<NearestTracker> trackers_;
 };
 
@@ -54,9 +104,7 @@ void require_fcl(const std::string& /*file*/, const std::string& /*place*/) {}
 FclCheck probe_fcl(const Scene& scene, const LockstepInput& input, const std::vector<LockstepMethod>& methods,
                    const std::vector<std::int64_t>& frames, double tolerance_relative,
                    const Progress& progress, const ProbeShortcuts& shortcuts) {
-  std::vector<const Surface*> fixed;
-  for (const auto& body : scene.fixed) fixed.push_back(&body->surface());
-  const FclCrosscheck fcl(scene.moving->surface(), fixed);
+  const FclMinimum fcl(scene);
   std::vector<std::unique_ptr<Method>> instances;
   for (const LockstepMethod& method : methods) instances.push_back(method.make());
 
@@ -87,7 +135,7 @@ FclCheck probe_fcl(const Scene& scene, const LockstepInput& input, const std::ve
       continue;
     }
     noted = check.exceptions.size();
-    const FclResult theirs = fcl.distance(X_WM);
+    const FclResult theirs = fcl.at(X_WM);
     FclFrame row;
     row.frame = frame;
     row.distance = theirs.distance;

@@ -34,9 +34,12 @@ MeshChoice mesh_choice(const Json& entry, const std::string& place, const std::s
   const Json& tolerance = entry["planar_tolerance"];
   // A number's own text is among those that the option takes.
   const std::string text = tolerance.is_string() ? tolerance.get<std::string>() : tolerance.dump();
-  return {entry["mesh"].get<std::string>(), read_placement(entry, file, place), Pose{},
+  return {entry["mesh"].get<std::string>(),
+          read_placement(entry, file, place),
+          Pose{},
           parse_planar_tolerance(text, file, place + "/planar_tolerance"),
-          parse_orientation(entry["orient"].get<std::string>(), file, place + "/orient")};
+          parse_orientation(entry["orient"].get<std::string>(), file, place + "/orient"),
+          std::nullopt};
 }
 
 Pose pose_of(const Json& entry, const std::string& place, const std::string& file) {
@@ -147,6 +150,9 @@ Experiment from_json(Json document, const std::filesystem::path& path) {
     experiment.fixed.push_back(mesh_choice(document["fixed"][i], fmt::format("/fixed/{}", i), file));
     experiment.fixed.back().pose =
         pose_of(document["fixed"][i]["pose"], fmt::format("/fixed/{}/pose", i), file);
+    if (document["fixed"][i].contains("instances"))
+      experiment.fixed.back().instances = read_instance_choice(document["fixed"][i]["instances"],
+                                                               fmt::format("/fixed/{}/instances", i), path);
   }
   if (document["path"].contains("file"))
     experiment.path_file =
@@ -207,6 +213,11 @@ Experiment from_json(Json document, const std::filesystem::path& path) {
   experiment.record_torque = document["record"]["torque"].get<bool>();
   experiment.record_lmds = document["record"]["lmds"].get<bool>();
   experiment.polyline_stride_frames = document["record"]["polylines"]["stride_frames"].get<std::int64_t>();
+  if (experiment.is_world() && experiment.polyline_stride_frames > 0)
+    throw UsageError(file, "/record/polylines/stride_frames", "polylines are not traced among instances",
+                     "set it to 0, or list the fixed meshes without \"instances\"");
+  if (experiment.is_world() && experiment.path_file.empty())
+    throw UsageError(file, "/path/file", "no path is made among instances", "name a path (paths/README.md)");
   experiment.resolved_json = document.dump(2);
   return experiment;
 }

@@ -19,6 +19,7 @@
 #include <lmdbench/motion/tum_file.h>
 #include <lmdbench/phantom/device.h>
 #include <lmdbench/snch/minimum_distance.h>
+#include <lmdbench/world/nearest_instance.h>
 
 #include <fmt/format.h>
 
@@ -55,12 +56,20 @@ std::shared_ptr<const Body> load_body(const MeshChoice& choice, const std::strin
   flattening.largest_move *= scale;
   mesh = placed(std::move(mesh), choice.placement);
   const RigidTransform X_WF(choice.pose);
-  if (role != "moving")
+  if (role != "moving" && !choice.instances)
     for (Vec3& vertex : mesh.vertices) vertex = X_WF.point(vertex);
   refuse_extreme_size(mesh, choice.mesh);
   auto body = std::make_shared<const Body>(choice.mesh, build_surface(std::move(mesh)));
-  notes.push_back({role, choice.mesh, resolved.file, resolved.size, resolved.sha256,
-                   check_mesh(body->surface()), flattening, orientation});
+  notes.push_back({role,
+                   choice.mesh,
+                   resolved.file,
+                   resolved.size,
+                   resolved.sha256,
+                   check_mesh(body->surface()),
+                   flattening,
+                   orientation,
+                   {},
+                   0});
   return body;
 }
 
@@ -180,7 +189,7 @@ ForceProfile profile_for(const ForceChoice& force, double cutoff, const std::str
 /// What every run needs of each mesh, side by side where the meshes are large enough for threads.
 void prepare_hierarchies(const Scene& scene) {
   constexpr std::size_t WORTH_A_THREAD = 2048;  // triangles
-  const auto large = [](const std::shared_ptr<const Body>& body) {
+  const auto large = [](const FixedBody& body) {
     return body->surface().mesh.triangles.size() >= WORTH_A_THREAD;
   };
   if (!large(scene.moving) || std::none_of(scene.fixed.begin(), scene.fixed.end(), large)) return;
@@ -189,12 +198,32 @@ void prepare_hierarchies(const Scene& scene) {
 }
 
 bool touches(const Scene& scene, const Pose& X_WM) {
+  if (scene.is_world()) return nearest_instance(scene, BroadPhase(scene), X_WM, scene.cutoff).distance == 0.0;
   for (const auto& fixed : scene.fixed) {
     const NearestPair pair = nearest_pair(scene.moving->surface(), scene.moving->prepared<Hierarchy>(),
                                           fixed->surface(), fixed->prepared<Hierarchy>(), X_WM, scene.cutoff);
     if (pair.triangle_moving >= 0 && pair.distance == 0.0) return true;
   }
   return false;
+}
+
+/// The instances of an entry. Meshes that are the same are read and prepared once, whether they move or stand.
+void add_instances(const Experiment& experiment, std::size_t entry, const std::string& role, Scene& scene,
+                   std::vector<MeshNote>& notes) {
+  const MeshChoice& choice = experiment.fixed[entry];
+  std::shared_ptr<const Body> body;
+  if (allowed(experiment.rules, Rule::SHARED_MESH) && same_mesh(experiment.moving, choice)) {
+    body = scene.moving;
+    notes.push_back(notes.front());
+    notes.back().role = role;
+  } else {
+    body = load_body(choice, role, experiment, notes);
+  }
+  notes.back().instances.clear();
+  for (const Pose& pose : instance_poses(*choice.instances, body->prepared<MeshBounds>())) {
+    notes.back().instances.push_back(choice.pose * pose);
+    scene.fixed.emplace_back(body, notes.back().instances.back());
+  }
 }
 
 }  // namespace
@@ -204,13 +233,17 @@ Scene load_scene(const Experiment& experiment, std::vector<MeshNote>& notes) {
   scene.moving = load_body(experiment.moving, "moving", experiment, notes);
   for (std::size_t i = 0; i < experiment.fixed.size(); ++i) {
     const std::string role = fmt::format("fixed_{}", i);
-    if (allowed(experiment.rules, Rule::SHARED_MESH) && same_body(experiment, i)) {
+    const auto first = static_cast<std::int64_t>(scene.fixed.size());
+    if (experiment.fixed[i].instances) {
+      add_instances(experiment, i, role, scene, notes);
+    } else if (allowed(experiment.rules, Rule::SHARED_MESH) && same_body(experiment, i)) {
       scene.fixed.push_back(scene.moving);
       notes.push_back(notes.front());
       notes.back().role = role;
-      continue;
+    } else {
+      scene.fixed.push_back(load_body(experiment.fixed[i], role, experiment, notes));
     }
-    scene.fixed.push_back(load_body(experiment.fixed[i], role, experiment, notes));
+    notes.back().first_fixed_body = first;
   }
   return scene;
 }
@@ -311,6 +344,11 @@ PreparedRun prepare(const Experiment& experiment, const Progress& progress) {
     if (note.orientation.choice == OrientationChoice::OUTWARD)
       prepared.warnings.emplace_back(
           fmt::format("{} mesh {}: {}", note.role, note.name, to_text(note.orientation)));
+    if (const std::size_t coincident = count_coincident(note.instances); coincident > 0)
+      prepared.warnings.emplace_back(fmt::format(
+          "{} mesh {}: {} of {} instances are just where an earlier one is: each of their LMDs is "
+          "there once an instance",
+          note.role, note.name, coincident, note.instances.size()));
     for (const std::string& finding : findings(note.report))
       prepared.warnings.emplace_back(fmt::format("{} mesh {}: {}", note.role, note.name, finding));
   }
@@ -345,7 +383,10 @@ std::vector<std::filesystem::path> input_files(const Experiment& experiment) {
                                               : folder / choice.mesh);
   };
   add(experiment.moving);
-  for (const MeshChoice& choice : experiment.fixed) add(choice);
+  for (const MeshChoice& choice : experiment.fixed) {
+    add(choice);
+    if (choice.instances && !choice.instances->file.empty()) files.push_back(choice.instances->file);
+  }
   return files;
 }
 

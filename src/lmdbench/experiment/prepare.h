@@ -28,6 +28,8 @@ struct MeshNote {
   ValidityReport report;
   FlatteningReport flattening;  ///< In metres of the scene.
   OrientationReport orientation;
+  std::vector<Pose> instances;        ///< X_WF of each; empty for a mesh that is in the world frame.
+  std::int64_t first_fixed_body = 0;  ///< `Lmd::fixed_body` of the first of a fixed mesh.
 };
 
 /// A force profile with the scene that it reaches into: the meshes under its cutoff, which all profiles share.

@@ -24,12 +24,13 @@ constexpr std::size_t MOST_FRAMES = 600;
 void write_report_scene(const ResultReader& result, const std::filesystem::path& folder) {
   const Scene scene = scene_of_result(result);
   write_off(folder / "moving.off", scene.moving->surface().mesh);
-  for (std::size_t i = 0; i < scene.fixed.size(); ++i)
-    write_off(folder / fmt::format("fixed_{}.off", i), scene.fixed[i]->surface().mesh);
+  const std::vector<ResultTrack> tracks = tracks_of_result(result, MOST_FRAMES);
+  for (const std::size_t i : drawn_bodies(scene, tracks))
+    write_off(folder / fmt::format("fixed_{}.off", i), placed_mesh(scene.fixed[i]));
 
   const std::unique_ptr<Method> method = exact_method(scene);
   std::string lines;
-  for (const ResultTrack& track : tracks_of_result(result, MOST_FRAMES))
+  for (const ResultTrack& track : tracks)
     for (std::size_t i = 0; i < track.poses.size(); ++i) {
       const std::string line =
           query_json(query(*method, track.poses[i].pose, scene.cutoff, track.poses[i].time));

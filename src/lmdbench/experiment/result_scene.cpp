@@ -6,10 +6,14 @@
 #include <lmdbench/experiment/prepare.h>
 #include <lmdbench/experiment/result_scene.h>
 #include <lmdbench/methods/registry.h>
+#include <lmdbench/world/broad_phase.h>
 
 #include <algorithm>
 #include <filesystem>
+#include <map>
+#include <numeric>
 #include <string_view>
+#include <utility>
 
 namespace lmdbench {
 namespace {
@@ -78,6 +82,39 @@ std::vector<ResultTrack> tracks_of_result(const ResultReader& result, std::size_
   for (const std::string& label : devices)
     tracks.push_back(track_of(result, label, std::max<std::size_t>(1, most_frames / devices.size())));
   return tracks;
+}
+
+std::vector<std::size_t> drawn_bodies(const Scene& scene, const std::vector<ResultTrack>& tracks) {
+  std::vector<std::size_t> drawn(scene.fixed.size());
+  std::iota(drawn.begin(), drawn.end(), std::size_t{0});
+  if (!scene.is_world() || drawn.size() <= MOST_DRAWN) return drawn;
+  const BroadPhase phase(scene);
+  std::map<std::size_t, double> nearest;
+  for (const ResultTrack& track : tracks)
+    for (const TimedPose& timed : track.poses) {
+      std::size_t visited = 0;
+      phase.by_distance(timed.pose, [&](std::uint32_t instance, double bound) {
+        double& least = nearest.try_emplace(instance, bound).first->second;
+        least = std::min(least, bound);
+        return ++visited < MOST_DRAWN;
+      });
+    }
+  std::vector<std::pair<double, std::size_t>> order;
+  for (const auto& [instance, bound] : nearest) order.emplace_back(bound, instance);
+  std::sort(order.begin(), order.end());
+  order.resize(std::min(order.size(), MOST_DRAWN));
+  drawn.clear();
+  for (const auto& [bound, instance] : order) drawn.push_back(instance);
+  std::sort(drawn.begin(), drawn.end());
+  return drawn;
+}
+
+TriangleMesh placed_mesh(const FixedBody& fixed) {
+  TriangleMesh mesh = fixed->surface().mesh;
+  if (!fixed.is_placed()) return mesh;
+  const RigidTransform X_WF(fixed.X_WF);
+  for (Vec3& vertex : mesh.vertices) vertex = X_WF.point(vertex);
+  return mesh;
 }
 
 std::unique_ptr<Method> exact_method(const Scene& scene) {

@@ -31,6 +31,16 @@ struct ResultTrack {
 /// @param most_frames evenly spread frames, of all tracks together
 std::vector<ResultTrack> tracks_of_result(const ResultReader& result, std::size_t most_frames);
 
+/// At most so many instances of a world are drawn.
+inline constexpr std::size_t MOST_DRAWN = 24;
+
+/// Indices of the fixed meshes that are worth drawing, ascending: all of them, or of a world with more than `MOST_DRAWN` those whose boxes
+/// come nearest to the tracks.
+std::vector<std::size_t> drawn_bodies(const Scene& scene, const std::vector<ResultTrack>& tracks);
+
+/// The mesh in the world frame.
+TriangleMesh placed_mesh(const FixedBody& fixed);
+
 /// The method whose sets are the truth at a price that every frame can pay.
 std::unique_ptr<Method> exact_method(const Scene& scene);
 

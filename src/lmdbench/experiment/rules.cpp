@@ -173,12 +173,14 @@ nlohmann::ordered_json rules_json(const std::vector<RuleDecision>& decisions) {
   return json;
 }
 
+bool same_mesh(const MeshChoice& a, const MeshChoice& b) {
+  return a.mesh == b.mesh && a.placement == b.placement && a.planar_tolerance == b.planar_tolerance &&
+         a.orientation == b.orientation;
+}
+
 bool same_body(const Experiment& experiment, std::size_t index) {
-  const MeshChoice& moving = experiment.moving;
   const MeshChoice& fixed = experiment.fixed[index];
-  return moving.mesh == fixed.mesh && moving.placement == fixed.placement &&
-         moving.planar_tolerance == fixed.planar_tolerance && moving.orientation == fixed.orientation &&
-         same_pose(fixed.pose, Pose{});
+  return same_mesh(experiment.moving, fixed) && (fixed.instances || same_pose(fixed.pose, Pose{}));
 }
 
 }  // namespace lmdbench

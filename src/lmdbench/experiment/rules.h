@@ -20,6 +20,7 @@
 namespace lmdbench {
 
 struct Experiment;
+struct MeshChoice;
 
 /// The same bits.
 inline bool same_pose(const Pose& a, const Pose& b) {
@@ -89,6 +90,9 @@ bool is_on(const std::vector<RuleDecision>& decisions, Rule rule);
 std::string rules_text(const std::vector<RuleDecision>& decisions);
 /// [{"name", "on", "effect", "saving", "reason"}]
 nlohmann::ordered_json rules_json(const std::vector<RuleDecision>& decisions);
+
+/// Whether two choices make one mesh of the same file in the same way; poses aside.
+bool same_mesh(const MeshChoice& a, const MeshChoice& b);
 
 /// Whether moving and fixed mesh `index` are one and the same at the same place, so that one preparation serves both.
 bool same_body(const Experiment& experiment, std::size_t index);

@@ -112,7 +112,7 @@ RunKeeper::RunKeeper(PartFile& part, const Experiment& experiment, std::int64_t 
       searches_(static_cast<std::size_t>((frames + experiment.driver.search_every_frames - 1) /
                                          experiment.driver.search_every_frames)) {
   for (const MethodChoice& choice : experiment.methods) {
-    const MethodDescription& method = method_description(choice.name);
+    const MethodDescription method = described(experiment, choice.name);
     KeptMethod kept;
     kept.frames.columns = frame_columns(method, experiment.record_torque, choice.counts_indices());
     kept.searches.columns = search_columns(method);

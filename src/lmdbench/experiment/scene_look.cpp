@@ -4,6 +4,7 @@
 #include <lmdbench/experiment/scene_look.h>
 #include <lmdbench/mesh/winding_number.h>
 #include <lmdbench/snch/minimum_distance.h>
+#include <lmdbench/world/nearest_instance.h>
 
 #include <Eigen/Geometry>
 #include <fmt/format.h>
@@ -11,6 +12,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 namespace lmdbench {
@@ -60,6 +62,7 @@ void look_at_cutoff(SceneLook& look) {
 
 /// Distances do not tell inside from outside.
 void look_inside(SceneLook& look, const PreparedRun& prepared) {
+  if (prepared.scene().is_world()) return;  // where meshes may well be in each other
   const BoxedMesh moving(look.meshes.front(), prepared.scene().moving->surface().mesh);
   const std::vector<Pose>& poses = prepared.input.poses;
   const auto count = static_cast<std::int64_t>(poses.size());
@@ -111,7 +114,17 @@ void look_at_path(SceneLook& look, const PreparedRun& prepared) {
   }
   if (look.frames_in_contact > 0) return;
   double bound = std::numeric_limits<double>::infinity();
+  std::optional<BroadPhase> phase;
+  if (prepared.scene().is_world()) phase.emplace(prepared.scene());
   for (std::size_t frame = 0; frame < prepared.input.poses.size(); ++frame) {
+    if (phase) {
+      const double least =
+          nearest_instance(prepared.scene(), *phase, prepared.input.poses[frame], bound).distance;
+      if (!(least < bound)) continue;
+      bound = least;
+      look.nearest_frame = static_cast<std::int64_t>(frame);
+      continue;
+    }
     for (const auto& fixed : prepared.scene().fixed) {
       const NearestPair pair =
           nearest_pair(prepared.scene().moving->surface(), prepared.scene().moving->prepared<Hierarchy>(),
@@ -141,8 +154,8 @@ SceneLook look_at(const Experiment& experiment, const PreparedRun& prepared,
                   const std::vector<bool>& in_contact) {
   SceneLook look;
   for (const MeshNote& note : prepared.meshes)
-    look.meshes.push_back(
-        {note.role, note.name, note.report.triangles, note.report.diagonal, note.report.closed});
+    look.meshes.push_back({note.role, note.name, note.report.triangles, note.report.diagonal,
+                           note.report.closed, static_cast<std::int64_t>(note.instances.size())});
   look.cutoff = prepared.scene().cutoff;
   look.saturation = prepared.profiles.front().force.saturation_distance;
   look.maximum_force = prepared.profiles.front().force.maximum_force;
@@ -180,8 +193,9 @@ std::optional<SceneWarning> clipping_warning(const MethodRecord& record,
 std::string to_text(const SceneLook& look) {
   std::string text = "scene:\n";
   for (const SceneLook::Mesh& mesh : look.meshes)
-    text += fmt::format("  {:<10} {}: {} triangles, {:.4g} m, {}\n", mesh.role, mesh.name, mesh.triangles,
-                        mesh.diagonal, mesh.closed ? "closed" : "open");
+    text += fmt::format("  {:<10} {}: {} triangles, {:.4g} m, {}{}\n", mesh.role, mesh.name, mesh.triangles,
+                        mesh.diagonal, mesh.closed ? "closed" : "open",
+                        mesh.instances > 0 ? fmt::format(", {} instances", mesh.instances) : "");
   text += fmt::format(
       "  cutoff {:.4g} m, saturation {:.4g} m, {:g} N an LMD at most, the sum clipped to {:g} N\n",
       look.cutoff, look.saturation, look.maximum_force, look.force_limit);
@@ -201,12 +215,14 @@ nlohmann::ordered_json to_json(const SceneLook& look) {
   using OrderedJson = nlohmann::ordered_json;
   OrderedJson json;
   json["meshes"] = OrderedJson::array();
-  for (const SceneLook::Mesh& mesh : look.meshes)
+  for (const SceneLook::Mesh& mesh : look.meshes) {
     json["meshes"].push_back({{"role", mesh.role},
                               {"name", mesh.name},
                               {"triangles", mesh.triangles},
                               {"diagonal_m", mesh.diagonal},
                               {"closed", mesh.closed}});
+    if (mesh.instances > 0) json["meshes"].back()["instances"] = mesh.instances;
+  }
   json["cutoff_m"] = look.cutoff;
   json["saturation_m"] = look.saturation;
   json["maximum_force_n"] = look.maximum_force;

@@ -50,6 +50,7 @@ struct SceneLook {
     std::int64_t triangles = 0;
     double diagonal = 0.0;  ///< metres
     bool closed = false;
+    std::int64_t instances = 0;  ///< 0: it stands in the world frame.
   };
   std::vector<Mesh> meshes;
   double cutoff = 0.0;         ///< metres

@@ -233,7 +233,7 @@ void write_method(ResultWriter& writer, const Experiment& experiment, const RunR
   const MethodChoice& choice = experiment.methods[index];
   const MethodRecord& record = result.records[index];
   const std::string group = "/methods/" + choice.label;
-  const MethodDescription& method = method_description(choice.name);
+  const MethodDescription method = described(experiment, choice.name);
   writer.attribute(group, "method", choice.name);
   writer.attribute(group, "method_order", static_cast<std::int64_t>(method_order(choice.name)));
   writer.attribute(group, "about", method.summary);

@@ -17,6 +17,26 @@ void write_profile(ResultWriter& writer, const std::string& group, const Prepare
   writer.attribute(group, "force_limit_n", device.limit(profile.force.largest_sum));
 }
 
+namespace {
+
+/// Which `fixed_body` an instance is, and where it stands.
+void write_instances(ResultWriter& writer, const std::string& group, const MeshNote& mesh) {
+  writer.attribute(group, "first_fixed_body", mesh.first_fixed_body);
+  writer.attribute(group, "coincident_instances",
+                   static_cast<std::int64_t>(count_coincident(mesh.instances)));
+  std::vector<double> position, orientation;
+  for (const Pose& pose : mesh.instances) {
+    position.insert(position.end(), pose.translation.begin(), pose.translation.end());
+    orientation.insert(orientation.end(), pose.rotation.coeffs().begin(), pose.rotation.coeffs().end());
+  }
+  writer.write({group + "/position", "m", "origin of each instance's frame, world frame"},
+               std::span<const double>(position), {mesh.instances.size(), 3});
+  writer.write({group + "/orientation", "1", "quaternion x, y, z, w of each instance's frame"},
+               std::span<const double>(orientation), {mesh.instances.size(), 4});
+}
+
+}  // namespace
+
 void write_scene(ResultWriter& writer, const RunResult& result) {
   const PreparedRun& prepared = result.prepared;
   writer.attribute("/scene", "frame_rate_hz", prepared.input.frame_rate_hz);
@@ -39,6 +59,7 @@ void write_scene(ResultWriter& writer, const RunResult& result) {
     writer.attribute(group, "orient", std::string(to_string(mesh.orientation.choice)));
     writer.attribute(group, "turned_triangles", mesh.orientation.turned_triangles);
     writer.attribute(group, "validity", to_json(mesh.report).dump());
+    if (!mesh.instances.empty()) write_instances(writer, group, mesh);
   }
   writer.attribute("/scene", "starts_touching", std::int64_t{prepared.starts_touching});
   writer.write({"/scene/warnings", "1", "what a reader of this result must know"}, result.warnings);

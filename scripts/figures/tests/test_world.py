@@ -1,0 +1,93 @@
+#!/usr/bin/env python3
+# SPDX-FileCopyrightText: The lmdbench authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""The figure of a world, from a result made by hand."""
+
+import os
+import sys
+import tempfile
+import unittest
+
+import h5py
+import numpy as np
+
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), ".."))
+import world  # noqa: E402
+from lmdbench_results import ResultError  # noqa: E402
+
+BOX = "OFF\n8 12 0\n" + "".join(f"{x} {y} {z}\n" for x in (0, 1) for y in (0, 1) for z in (0, 1)) + "".join(
+    f"3 {a} {b} {c}\n" for a, b, c in ((0, 1, 3), (0, 3, 2), (4, 6, 7), (4, 7, 5), (0, 4, 5), (0, 5, 1), (2, 3, 7), (2, 7, 6), (0, 2, 6), (0, 6, 4),
+                                       (1, 5, 7), (1, 7, 3)))
+
+
+def write(file, instances=True, lmds=True):
+    """Six boxes in two entries, three frames; in the second one LMDs of bodies 1, 1 and 5."""
+    with h5py.File(file, "w") as h5:
+        scene = h5.create_group("scene")
+        scene.create_group("moving").attrs.update({"mesh": "box", "diagonal_m": 1.0})
+        for index, (first, count) in enumerate(((0, 4), (4, 2))):
+            group = scene.create_group(f"fixed_{index}")
+            group.attrs.update({"mesh": "box", "diagonal_m": 1.0})
+            if instances:
+                group.attrs["first_fixed_body"] = first
+                group["position"] = np.array([[2.0 * (first + i), float(index), 0.0] for i in range(count)])
+                group["orientation"] = np.tile([0.0, 0.0, 0.0, 1.0], (count, 1))
+        path = h5.create_group("path")
+        path["time"] = np.arange(3) / 1000.0
+        path["position"] = np.array([[2.0, 1.0, 0.0], [2.5, 1.0, 0.0], [3.0, 1.0, 0.0]])
+        path["orientation"] = np.tile([0.0, 0.0, 0.0, 1.0], (3, 1))
+        method = h5.create_group("methods/certified")
+        method["counters/instances_touched"] = np.array([0, 2, 1])
+        if lmds:
+            group = method.create_group("lmds")
+            group["frame_offset"] = np.array([0, 0, 3, 4])
+            group["fixed_body"] = np.array([1, 1, 5, 1])
+            group["point_fixed"] = np.ones((4, 3))
+
+
+class WorldFigure(unittest.TestCase):
+    def setUp(self):
+        self.folder = tempfile.TemporaryDirectory()
+        self.file = os.path.join(self.folder.name, "world.h5")
+        with open(os.path.join(self.folder.name, "box.off"), "w", encoding="ascii") as stream:
+            stream.write(BOX)
+
+    def tearDown(self):
+        self.folder.cleanup()
+
+    def test_names_instances_and_finds_the_frame_of_most(self):
+        write(self.file)
+        with h5py.File(self.file) as file:
+            found = world.World(file, "certified")
+        self.assertEqual(found.count(), 6)
+        self.assertEqual(found.frame_of_most(), 1)
+        self.assertEqual(sorted(found.bodies(1)), [1, 1, 5])
+        self.assertEqual(list(found.place(5)[1]), [10.0, 1.0, 0.0])
+        self.assertEqual(list(found.counters["instances_touched"]), [0, 2, 1])
+        with self.assertRaises(ResultError):
+            found.place(6)
+
+    def test_places_meshes_by_their_diagonal(self):
+        with open(os.path.join(self.folder.name, "box.off"), "w", encoding="ascii") as stream:
+            stream.write(BOX)
+        corners = world.Meshes(self.folder.name).corners("box", 2.0, np.array([5.0, 0.0, 0.0]), np.array([0.0, 0.0, 0.0, 1.0]))
+        points = corners.reshape(-1, 3)
+        self.assertAlmostEqual(np.linalg.norm(points.max(axis=0) - points.min(axis=0)), 2.0)
+        np.testing.assert_allclose(0.5 * (points.max(axis=0) + points.min(axis=0)), [5.0, 0.0, 0.0], atol=1e-12)
+
+    def test_draws(self):
+        write(self.file)
+        self.assertEqual(world.main([self.file, "--meshes", self.folder.name, "--out", self.folder.name]), 0)
+        self.assertGreater(os.path.getsize(os.path.join(self.folder.name, "world.png")), 10_000)
+
+    def test_says_what_is_missing(self):
+        write(self.file, instances=False)
+        with self.assertRaisesRegex(ResultError, "no instances"):
+            world.main([self.file])
+        write(self.file, lmds=False)
+        with self.assertRaisesRegex(ResultError, "record/lmds"):
+            world.main([self.file])
+
+
+if __name__ == "__main__":
+    unittest.main()
