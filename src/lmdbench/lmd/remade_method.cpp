@@ -2,27 +2,30 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/lmd/remade_method.h>
 
+#include <algorithm>
 #include <utility>
 
 namespace lmdbench {
 
-namespace {
+RemadeMethod::RemadeMethod(const Scene& scene, Make make)
+    : scene_(scene), bodies_{scene.moving}, make_(std::move(make)), method_(make_(scene_)) {
+  for (const FixedBody& fixed : scene.fixed) bodies_.push_back(fixed.body);
+  std::ranges::sort(bodies_);
+  const auto repeated = std::ranges::unique(bodies_);
+  bodies_.erase(repeated.begin(), repeated.end());
+  deformations_ = deformations();
+}
 
-std::uint64_t deformations_of(const Scene& scene) {
-  std::uint64_t sum = scene.moving->deformations();
-  for (const auto& body : scene.fixed) sum += body->deformations();
+std::uint64_t RemadeMethod::deformations() const {
+  std::uint64_t sum = 0;
+  for (const auto& body : bodies_) sum += body->deformations();
   return sum;
 }
 
-}  // namespace
-
-RemadeMethod::RemadeMethod(const Scene& scene, Make make)
-    : scene_(scene), make_(std::move(make)), method_(make_(scene_)), deformations_(deformations_of(scene_)) {}
-
 Method& RemadeMethod::current() {
-  if (const std::uint64_t deformations = deformations_of(scene_); deformations != deformations_) {
+  if (const std::uint64_t now = deformations(); now != deformations_) {
     method_ = make_(scene_);
-    deformations_ = deformations;
+    deformations_ = now;
   }
   return *method_;
 }

@@ -7,6 +7,7 @@
 
 #include <functional>
 #include <memory>
+#include <vector>
 
 namespace lmdbench {
 
@@ -26,11 +27,13 @@ class RemadeMethod : public Method {
 
  private:
   Method& current();
+  std::uint64_t deformations() const;  ///< Of all bodies.
 
   Scene scene_;
+  std::vector<std::shared_ptr<const Body>> bodies_;  ///< Each once, however many instances it has.
   Make make_;
   std::unique_ptr<Method> method_;
-  std::uint64_t deformations_ = 0;  ///< Of all bodies, when the method was made.
+  std::uint64_t deformations_ = 0;  ///< When the method was made.
 };
 
 }  // namespace lmdbench

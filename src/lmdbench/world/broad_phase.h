@@ -28,7 +28,7 @@ inline constexpr double BROAD_PHASE_SLACK = 0.25;
 /// A query of the tree reaches farther than asked, by the *slack*, and orders what it finds, the *candidates*, by their *room*: by how
 /// much they were farther away than the reach, as their boxes tell. As long as no point of the moving mesh is farther than the slack from
 /// where it was at the query, an instance that is no candidate is out of reach, and so is a candidate whose room is not used up
-/// (certified/PROOF.md, lemma 22). A candidate whose room is used up for the first time gets a larger one, where the spheres of the outlines
+/// (PROOF.md here, W2). A candidate whose room is used up for the first time gets a larger one, where the spheres of the outlines
 /// (mesh_outline.h) were farther apart at the query than the boxes. So a frame looks at the candidates whose room is used up and at no
 /// other instance.
 class BroadPhase {

@@ -175,7 +175,7 @@ bool cone_of_lanes(const WideNode& node, PolarCap& cap) {
 /// Bounds a lane that holds a feature of one vertex, edge or triangle.
 void bound_feature(WideNode& node, std::uint32_t lane, const WideHierarchy& hierarchy, const Surface& surface,
                    const WideItem& item) {
-  const FeatureCorners corners(surface, item.ref.feature_id());
+  FeatureCorners corners(surface, item.ref.feature_id());
   std::array<Vec3, 3> points;
   std::size_t count = 0;
   for (const std::int32_t v : corners.view())

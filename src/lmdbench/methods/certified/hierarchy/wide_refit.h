@@ -15,7 +15,7 @@
 
 namespace lmdbench {
 
-/// Brings a wide hierarchy to a mesh that deforms (PROOF.md, lemma 21).
+/// Brings a wide hierarchy to a mesh that deforms (DEFORMATION.md).
 ///
 /// 1. *The leaf set follows.* Each feature whose wings changed is asked anew for its polar cap: a reflex edge that turns convex, a
 ///    saddle that becomes a peak get a lane, beside a face that they belong to; what loses its cap loses its lane.
