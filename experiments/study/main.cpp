@@ -25,6 +25,7 @@ int main(int argc, char** argv) {
   study::add_scaling(app, chosen);
   study::add_builders(app, chosen);
   study::add_compare(app, chosen);
+  study::add_deform(app, chosen);
   study::add_depth(app, chosen);
   study::add_flat(app, chosen);
   study::add_integrators(app, chosen);

@@ -27,6 +27,7 @@ void add_continuous_force(CLI::App& app, Run& chosen);
 void add_scaling(CLI::App& app, Run& chosen);
 void add_builders(CLI::App& app, Run& chosen);
 void add_compare(CLI::App& app, Run& chosen);
+void add_deform(CLI::App& app, Run& chosen);
 void add_depth(CLI::App& app, Run& chosen);
 void add_flat(CLI::App& app, Run& chosen);
 void add_integrators(CLI::App& app, Run& chosen);
