@@ -34,6 +34,7 @@ int main(int argc, char** argv) {
   study::add_leave_out(app, chosen);
   study::add_parts(app, chosen);
   study::add_roles(app, chosen);
+  study::add_worlds(app, chosen);
   return experiments::run_program(app, argc, argv, [&] {
     if (!pieces) return chosen.work();
     fmt::print("{}\n", study::pieces_json(app, chosen));

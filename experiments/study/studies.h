@@ -36,5 +36,6 @@ void add_passivity(CLI::App& app, Run& chosen);
 void add_leave_out(CLI::App& app, Run& chosen);
 void add_parts(CLI::App& app, Run& chosen);
 void add_roles(CLI::App& app, Run& chosen);
+void add_worlds(CLI::App& app, Run& chosen);
 
 }  // namespace lmdbench::study
