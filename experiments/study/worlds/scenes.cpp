@@ -106,7 +106,7 @@ std::vector<World> small_worlds(std::size_t frames, std::uint64_t seed) {
 
   Scene& coincident = start("coincident");
   for (int copy = 0; copy < 3; ++copy)
-    add(coincident, torus, scatter({.rule = Rule::RANDOM, .count = 30, .spacing = 0.9, .seed = 5}, bounds));
+    add(coincident, torus, scatter({.rule = Rule::RANDOM, .count = 30, .spacing = 0.6, .seed = 5}, bounds));
   walk(3.5);
 
   Scene& far = start("far");
