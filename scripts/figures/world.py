@@ -150,8 +150,8 @@ def main(argv):
         draw_contacts(figure.add_axes([0.31, 0.02, 0.34, 0.86]), world, Meshes(arguments.meshes), frame, colours)
         top = figure.add_axes([0.72, 0.58, 0.27, 0.32])
         draw_times(top, figure.add_axes([0.72, 0.13, 0.27, 0.32], sharex=top), world, touched, colours)
-        figure.text(0.01, 0.94, f"{world.count()} instances, {len(touched)} of them in contact along the path", fontsize=7.5)
-        figure.text(0.34, 0.94, f"{world.time[frame]:.3f} s: {len(world.bodies(frame))} LMDs, {len(set(world.bodies(frame)))} instances", fontsize=7.5)
+        figure.text(0.01, 0.94, f"{world.count()} instances, {len(touched)} in contact", fontsize=7.5)
+        figure.text(0.36, 0.94, f"{world.time[frame]:.3f} s: {len(world.bodies(frame))} LMDs, instances in contact: {len(set(world.bodies(frame)))}", fontsize=7.5)
         for name in style.save(figure, arguments.out, "world"):
             print(name)
     return 0
