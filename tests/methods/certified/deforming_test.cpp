@@ -326,7 +326,7 @@ TEST(DeformingCertified, WhatIsFarFromADeformationStaysKept) {
   // The far side of a blob deforms; the tests near the contact are not made again.
   const TriangleMesh blob = make_blob(1.0, 0.2, 4), box = make_box({1.0, 1.0, 1.0});
   const auto body = deforming_body(blob);
-  const Scene scene{make_body("box", box), {body}, 0.05};
+  const Scene scene{make_body("box", box), {std::shared_ptr<const Body>(body)}, 0.05};
   const Deformation ear(blob, {DeformationKind::BEND, 0.5, 0.05, Vec3::UnitZ(), 0});
   const double reach =
       first_approach(scene.moving->surface(), scene.moving->prepared<Hierarchy>(), body->surface(),
@@ -353,7 +353,7 @@ TEST(DeformingMethods, AllFindTheSetOfTheNewMesh) {
     const TriangleMesh blob = translated(make_blob(1.0, 0.3, 2), Vec3(offset, 0.0, 0.0)),
                        box = make_box({1.0, 1.0, 1.0});
     const auto body = deforming_body(blob);
-    const Scene scene{make_body("box", box), {body}, 0.3};
+    const Scene scene{make_body("box", box), {std::shared_ptr<const Body>(body)}, 0.3};
     Pose pose;
     pose.translation = Vec3(offset + 1.5, 0.2, 0.1);
     const Deformation bend(blob, {DeformationKind::BEND, 0.6, 1.0, random_direction(random), 0});
@@ -397,7 +397,7 @@ TEST(DeformingCertified, ManyMethodsMayFollowOneBodyAndSkipSteps) {
   std::mt19937_64 random(14);
   const TriangleMesh blob = make_blob(1.0, 0.3, 3), box = make_box({1.0, 1.0, 1.0});
   const auto body = deforming_body(blob);
-  const Scene scene{make_body("box", box), {body}, 0.2};
+  const Scene scene{make_body("box", box), {std::shared_ptr<const Body>(body)}, 0.2};
   const Pose middle = grazing_pose(scene, 0.02, random);
   const auto poses = swing_about(middle, 1.0, 60, random);
   const Deformation crumple(blob, {DeformationKind::CRUMPLE, 0.05, 0.5, random_direction(random), 3});
