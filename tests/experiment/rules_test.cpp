@@ -70,7 +70,7 @@ TEST(Rules, AllHoldOnASceneThatNeedsThem) {
   const RunResult only_fcl =
       run_experiment(experiment(scratch.write("p.tum", resting_path()), {"/probes/truth/stride_frames=0"}));
   EXPECT_TRUE(decision(only_fcl, Rule::REPEATED_POSE).on) << "the cross-check repeats, too";
-  EXPECT_EQ(result.prepared.scene().moving, result.prepared.scene().fixed.front());
+  EXPECT_EQ(result.prepared.scene().moving, result.prepared.scene().fixed.front().body);
   EXPECT_EQ(result.prepared.meshes.size(), 2u);
   EXPECT_EQ(result.prepared.meshes[1].role, "fixed_0");
 }
