@@ -121,7 +121,7 @@ bool same_bits(const LmdSet& a, const LmdSet& b) {
 
 /// Processor time [s] of all threads: other programs on the machine count as little as they can.
 template <class Work>
-double seconds_of(Work&& work) {
+double processor_seconds_of(Work&& work) {
   const auto now = [] {
     std::timespec time{};
     clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
@@ -203,16 +203,16 @@ nlohmann::json measure_cost(const DeformChoice& choice, const Kind& kind) {
   std::vector<Vec3> vertices;
   for (std::size_t frame = 0; frame < choice.frames; ++frame) {
     shapes.at(frame, vertices);
-    following.push_back(
-        seconds_of([&] { faces.push_back(static_cast<double>(body->deform(vertices).faces.size())); }));
+    following.push_back(processor_seconds_of(
+        [&] { faces.push_back(static_cast<double>(body->deform(vertices).faces.size())); }));
     const Pose X_WM = swung(poses, frame, choice.frames);
-    searching.push_back(seconds_of([&] { kept.search(X_WM, lmds, of_kept); }));
+    searching.push_back(processor_seconds_of([&] { kept.search(X_WM, lmds, of_kept); }));
     scratch.search(X_WM, lmds, of_scratch);
     if (frame % choice.stride != 0) continue;
     TriangleMesh now = mesh;
     now.vertices = vertices;
     std::shared_ptr<const Body> fresh;
-    preparing.push_back(seconds_of([&] {
+    preparing.push_back(processor_seconds_of([&] {
       fresh = body_of(now);
       fresh->prepared<WideHierarchy>();
     }));
