@@ -135,6 +135,14 @@ class RealResultTest(unittest.TestCase):
                        capture_output=True, stdin=subprocess.DEVNULL)
         return result
 
+    def with_saddles(self):
+        """A law that needs saddles: it counts LMDs without an index."""
+        result = self.path("saddles.h5")
+        shapes = os.path.join(os.path.dirname(check_format.README), "..", "experiments", "shapes.json")
+        subprocess.run([PROGRAM, "run", shapes, "--out", result, "--set", "/frames=20", "--set", '/methods=[{"name": "certified"}]', "--set",
+                        "/force/aggregation=shared"], check=True, capture_output=True, stdin=subprocess.DEVNULL)
+        return result
+
     def printed(self, main, *arguments):
         stream = io.StringIO()
         with contextlib.redirect_stdout(stream):
@@ -142,14 +150,15 @@ class RealResultTest(unittest.TestCase):
         return stream.getvalue()
 
     def test_results_have_the_described_format(self):
-        text = self.printed(check_format.main, self.hard, self.soft, self.both, self.closed(), self.on_the_clock())
+        text = self.printed(check_format.main, self.hard, self.soft, self.both, self.closed(), self.on_the_clock(),
+                            self.with_saddles())
         self.assertIn(" 0 differences", text)
 
     def test_everything_described_is_there(self):
         with open(check_format.README, encoding="utf-8") as stream:
             described = set(check_format.described(stream.read()))
         found = set()
-        for file in (self.hard, self.both, self.closed(), self.on_the_clock()):
+        for file in (self.hard, self.both, self.closed(), self.on_the_clock(), self.with_saddles()):
             Result(file).h5.visit(lambda name: found.add(check_format.documented_path("/" + name)))
         self.assertEqual(described - found, set())
 

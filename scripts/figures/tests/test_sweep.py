@@ -17,6 +17,7 @@ import h5py  # noqa: E402
 import numpy as np  # noqa: E402
 
 import claim_regions  # noqa: E402
+import region_rules  # noqa: E402
 import intervals  # noqa: E402
 import region_cost  # noqa: E402
 import region_sets  # noqa: E402
@@ -210,11 +211,11 @@ def role_row(label, device_share, **more):
 
 class Verdicts(unittest.TestCase):
     def test_one_event_decides_nothing(self):
-        self.assertEqual(claim_regions.decide(0.5, 1.5, at_least=1.0), claim_regions.OPEN)
-        self.assertEqual(claim_regions.decide(1.1, 1.5, at_least=1.0), claim_regions.HOLDS)
-        self.assertEqual(claim_regions.decide(0.5, 0.9, at_least=1.0), claim_regions.FAILS)
-        self.assertEqual(claim_regions.decide(1.2, 1.4, at_least=1.0, at_most=1.3), claim_regions.OPEN)
-        self.assertEqual(claim_regions.decide(math.nan, 1.0, at_least=1.0), claim_regions.OPEN)
+        self.assertEqual(region_rules.decide(0.5, 1.5, at_least=1.0), claim_regions.OPEN)
+        self.assertEqual(region_rules.decide(1.1, 1.5, at_least=1.0), claim_regions.HOLDS)
+        self.assertEqual(region_rules.decide(0.5, 0.9, at_least=1.0), claim_regions.FAILS)
+        self.assertEqual(region_rules.decide(1.2, 1.4, at_least=1.0, at_most=1.3), claim_regions.OPEN)
+        self.assertEqual(region_rules.decide(math.nan, 1.0, at_least=1.0), claim_regions.OPEN)
 
     def test_words(self):
         holds, fails, undecided = claim_regions.HOLDS, claim_regions.FAILS, claim_regions.OPEN
@@ -293,7 +294,7 @@ class Verdicts(unittest.TestCase):
         self.assertEqual((value, low, high), (2.0, 2.0, 4.0))
         value, limits = region_cost.time_interval((new[:1], old[:1]), lambda a, b: np.median(a) / np.median(b))
         self.assertEqual(value, 2.0)
-        self.assertEqual(claim_regions.decide(*limits, at_least=1.0), claim_regions.OPEN, "one repetition")
+        self.assertEqual(region_rules.decide(*limits, at_least=1.0), claim_regions.OPEN, "one repetition")
 
     def test_k8_needs_every_repetition(self):
         def roles(*shares):

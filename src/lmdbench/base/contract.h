@@ -12,7 +12,8 @@
 /// LMDBENCH_ALWAYS   in every build, where going on would write outside memory or report a wrong number. Must cost next to nothing.
 namespace lmdbench {
 
-/// Prints "contract broken: CONDITION (FILE:LINE): CAUSE" and aborts.
+/// Prints "contract broken: CONDITION (FILE:LINE): CAUSE" and aborts. The file without its folder: an installed library names no folder of
+/// the machine that built it.
 [[noreturn]] void contract_broken(const char* condition, const char* file, int line,
                                   const char* likely_cause) noexcept;
 
@@ -20,7 +21,7 @@ namespace lmdbench {
 
 #define LMDBENCH_ALWAYS(condition, likely_cause) \
   ((condition) ? static_cast<void>(0)            \
-               : ::lmdbench::contract_broken(#condition, __FILE__, __LINE__, likely_cause))
+               : ::lmdbench::contract_broken(#condition, __FILE_NAME__, __LINE__, likely_cause))
 
 #ifdef LMDBENCH_CONTRACTS
 #define LMDBENCH_EXPECTS(condition, likely_cause) LMDBENCH_ALWAYS(condition, likely_cause)

@@ -72,7 +72,7 @@ void write_times(ResultWriter& writer, const DatasetInfo& info,
 
 void write_frames(ResultWriter& writer, const std::string& group, const MethodChoice& choice,
                   const MethodRecord& record, const Experiment& experiment) {
-  const MethodDescription& method = method_description(choice.name);
+  const MethodDescription method = described(experiment, choice.name);
   write_columns(writer, group, frame_columns(method, experiment.record_torque, choice.counts_indices()),
                 record.frames, experiment);
   if (experiment.record_timings)

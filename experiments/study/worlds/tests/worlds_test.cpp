@@ -14,13 +14,14 @@ namespace lmdbench::worlds {
 namespace {
 
 TEST(Worlds, AreAllLookedAtAndComplete) {
+  constexpr std::size_t FRAMES = 600;
   std::size_t worlds = 0;
-  for (const World& world : small_worlds(150, 1)) {
-    ASSERT_EQ(world.poses.size(), 150u);
+  for (const World& world : small_worlds(FRAMES, 1)) {
+    ASSERT_EQ(world.poses.size(), FRAMES);
     EXPECT_TRUE(world.scene.is_world());
     const completeness::Judgement judgement = judge_world(
         world, 0.05, [&](const std::string& what) { ADD_FAILURE() << world.name << ": " << what; });
-    EXPECT_EQ(judgement.poses, 150u);
+    EXPECT_EQ(judgement.poses, FRAMES);
     EXPECT_GT(judgement.same.true_lmds, 20u) << world.name;
     ++worlds;
   }
