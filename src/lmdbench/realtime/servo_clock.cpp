@@ -47,10 +47,16 @@ TickTimes run_empty_loop(std::int64_t period, std::int64_t ticks) {
   TickTimes times;
   times.reserve(static_cast<std::size_t>(ticks));
   TickGrid grid(monotonic_ns() + period, period);
-  for (Tick tick; tick.period + 1 < ticks;) {
-    tick = grid.wait();
+  for (std::int64_t next = 0; next < ticks;) {
+    const Tick tick = grid.wait();
     const ServoWatch watch;
+    if (tick.period >= ticks) {
+      // A stall that lasted past the end: the instants up to there have no tick.
+      times.skipped += ticks - next;
+      break;
+    }
     times.add(tick, monotonic_ns());
+    next = tick.period + 1;
   }
   return times;
 }

@@ -60,7 +60,7 @@ struct TickTimes {
 };
 
 /// The control loop: the same grid with nothing in it. What it is late by is the machine's own.
-/// Runs in the calling thread, whose policy it has.
+/// Runs in the calling thread, whose policy it has. Ticks and skipped instants are `ticks` together.
 TickTimes run_empty_loop(std::int64_t period, std::int64_t ticks);
 
 }  // namespace lmdbench
