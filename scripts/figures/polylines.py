@@ -8,11 +8,10 @@ import argparse
 import json
 import os
 
-import h5py
 import numpy as np
 
 import figure_style as style
-from lmdbench_results import ResultError, run_script
+from lmdbench_results import ResultError, open_h5, run_script
 
 import matplotlib.pyplot as plt
 from mpl_toolkits.mplot3d.art3d import Line3DCollection, Poly3DCollection
@@ -84,11 +83,7 @@ def main(argv):
     parser.add_argument("--out", default="results/figures")
     parser.add_argument("--curves", type=int, default=6, help="frames whose curves are drawn")
     arguments = parser.parse_args(argv)
-    try:
-        file = h5py.File(arguments.result)
-    except OSError as error:
-        raise ResultError(f"{arguments.result}: not a result file ({error})") from error
-    with file:
+    with open_h5(arguments.result) as file:
         if "polylines" not in file:
             raise ResultError(f"{arguments.result}: no /polylines (remedy: --set /record/polylines/stride_frames=5)")
         lines = Lines(file["polylines"])

@@ -8,11 +8,10 @@ a frame looks at. Meshes are drawn from the built OFF files that the result name
 import argparse
 import os
 
-import h5py
 import numpy as np
 
 import figure_style as style
-from lmdbench_results import ResultError, run_script
+from lmdbench_results import ResultError, open_h5, run_script
 from mesh_drawing import FIXED, MOVING, draw_triangles, read_off, rotation, view_onto
 
 import matplotlib.pyplot as plt
@@ -133,11 +132,7 @@ def main(argv):
     parser.add_argument("--meshes", default="meshes", help="folder of built meshes")
     parser.add_argument("--out", default="results/figures")
     arguments = parser.parse_args(argv)
-    try:
-        file = h5py.File(arguments.result)
-    except OSError as error:
-        raise ResultError(f"{arguments.result}: not a result file ({error})") from error
-    with file:
+    with open_h5(arguments.result) as file:
         world = World(file, arguments.method)
     touched = sorted(set(world.body))
     if not touched:

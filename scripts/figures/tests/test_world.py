@@ -23,6 +23,7 @@ BOX = "OFF\n8 12 0\n" + "".join(f"{x} {y} {z}\n" for x in (0, 1) for y in (0, 1)
 def write(file, instances=True, lmds=True):
     """Six boxes in two entries, three frames; in the second one LMDs of bodies 1, 1 and 5."""
     with h5py.File(file, "w") as h5:
+        h5.attrs.update({"format": "lmdbench-result", "format_version": 2})
         scene = h5.create_group("scene")
         scene.create_group("moving").attrs.update({"mesh": "box", "diagonal_m": 1.0})
         for index, (first, count) in enumerate(((0, 4), (4, 2))):
