@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <lmdbench/base/uniform_number.h>
 #include <lmdbench/geometry/types.h>
 
 #include <Eigen/Geometry>
@@ -21,7 +22,7 @@ class Random {
   explicit Random(std::uint64_t seed) : engine_(seed) {}
 
   /// Uniform in [0, 1), multiples of 2^-53.
-  double uniform() { return static_cast<double>(engine_() >> 11U) * 0x1p-53; }
+  double uniform() { return uniform_number(engine_); }
   double uniform(double low, double high) { return low + (high - low) * uniform(); }
 
   /// One of 0 to count - 1.

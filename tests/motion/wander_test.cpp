@@ -62,12 +62,5 @@ TEST(UniformRotation, CoversAllDirections) {
   EXPECT_LT((spread - Mat3::Identity() / 3.0).norm(), 0.02);
 }
 
-TEST(UniformNumber, IsTheSameOnEveryPlatform) {
-  std::mt19937_64 generator(5489);  // the standard fixes the 10000th number of this seed: 9981545732273789042
-  for (int i = 1; i < 10000; ++i) generator();
-  EXPECT_EQ(uniform_number(generator),
-            static_cast<double>(9981545732273789042ULL >> 11) / 9007199254740992.0);
-}
-
 }  // namespace
 }  // namespace lmdbench

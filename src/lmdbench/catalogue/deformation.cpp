@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/base/uniform_number.h>
 #include <lmdbench/catalogue/deformation.h>
 #include <lmdbench/catalogue/rounded_circle.h>
 
@@ -18,15 +19,11 @@ namespace {
 constexpr std::size_t WAVES = 12;
 constexpr double SHORTEST_WAVE = 0.08, LONGEST_WAVE = 0.5;
 
-double unit_random(std::mt19937_64& random) {
-  return static_cast<double>(random() >> 11U) * 0x1p-53;
-}
-
 /// Uniform on the unit sphere, by rejection: no sines.
 Vec3 direction_random(std::mt19937_64& random) {
   for (;;) {
     Vec3 v;
-    for (int k = 0; k < 3; ++k) v[k] = 2.0 * unit_random(random) - 1.0;
+    for (int k = 0; k < 3; ++k) v[k] = 2.0 * uniform_number(random) - 1.0;
     const double squared = v.squaredNorm();
     if (squared <= 1.0 && squared > 0.01) return v / std::sqrt(squared);
   }
@@ -118,10 +115,10 @@ Deformation::Deformation(const TriangleMesh& mesh, const DeformationChoice& choi
   std::array<Wave, WAVES> waves;
   std::mt19937_64 random(choice.seed);
   for (Wave& wave : waves) {
-    const double part = SHORTEST_WAVE + (LONGEST_WAVE - SHORTEST_WAVE) * unit_random(random);
+    const double part = SHORTEST_WAVE + (LONGEST_WAVE - SHORTEST_WAVE) * uniform_number(random);
     wave.turns_per_metre = direction_random(random) / (part * diagonal_);
     wave.direction = direction_random(random);
-    wave.offset = unit_random(random);
+    wave.offset = uniform_number(random);
   }
   for (const MovingVertex& moving : moving_) {
     Vec3 sum = Vec3::Zero();

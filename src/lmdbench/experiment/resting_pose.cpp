@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/base/error.h>
+#include <lmdbench/base/uniform_number.h>
 #include <lmdbench/experiment/resting_pose.h>
 #include <lmdbench/force/aggregate.h>
 #include <lmdbench/lmd/method_description.h>
@@ -37,10 +38,9 @@ Vec3 lattice_direction(int i, int n) {
 Eigen::Quaterniond orientation(int i) {
   if (i == 0) return Eigen::Quaterniond::Identity();
   std::mt19937_64 random(static_cast<std::uint64_t>(i));
-  const auto uniform = [&random] { return static_cast<double>(random() >> 11) * 0x1p-53; };
-  const double u = uniform();
-  const double a = 2.0 * std::numbers::pi * uniform();
-  const double b = 2.0 * std::numbers::pi * uniform();
+  const double u = uniform_number(random);
+  const double a = 2.0 * std::numbers::pi * uniform_number(random);
+  const double b = 2.0 * std::numbers::pi * uniform_number(random);
   return {std::sqrt(u) * std::cos(b), std::sqrt(1.0 - u) * std::sin(a), std::sqrt(1.0 - u) * std::cos(a),
           std::sqrt(u) * std::sin(b)};
 }

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/base/error.h>
 #include <lmdbench/base/statistics.h>
+#include <lmdbench/base/uniform_number.h>
 #include <lmdbench/experiment/cleanliness.h>
 #include <lmdbench/experiment/contact.h>
 #include <lmdbench/experiment/prepare.h>
@@ -40,11 +41,10 @@ struct Tremor {
 
 std::array<Tremor, 3> draw_tremor(std::int64_t seed) {
   std::mt19937_64 random(static_cast<std::uint64_t>(seed));
-  const auto uniform = [&random] { return static_cast<double>(random() >> 11) * 0x1p-53; };
   std::array<Tremor, 3> tremor;
   for (Tremor& axis : tremor) {
-    axis.frequency_hz = 8.0 + 4.0 * uniform();
-    axis.phase = 2.0 * std::numbers::pi * uniform();
+    axis.frequency_hz = 8.0 + 4.0 * uniform_number(random);
+    axis.phase = 2.0 * std::numbers::pi * uniform_number(random);
   }
   return tremor;
 }

@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/base/uniform_number.h>
 #include <lmdbench/motion/rotation_vector.h>
 #include <lmdbench/motion/wander.h>
 
@@ -7,10 +8,6 @@
 #include <numbers>
 
 namespace lmdbench {
-
-double uniform_number(std::mt19937_64& generator) {
-  return static_cast<double>(generator() >> 11) * 0x1p-53;  // the upper 53 bits, as many as a double holds
-}
 
 Eigen::Quaterniond uniform_rotation(std::mt19937_64& generator) {
   const double u = uniform_number(generator);

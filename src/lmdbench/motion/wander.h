@@ -12,9 +12,6 @@
 
 namespace lmdbench {
 
-/// A uniform number in [0, 1) that is the same on every platform (std::uniform_real_distribution is not).
-double uniform_number(std::mt19937_64& generator);
-
 /// A uniformly distributed rotation (Shoemake 1992).
 Eigen::Quaterniond uniform_rotation(std::mt19937_64& generator);
 

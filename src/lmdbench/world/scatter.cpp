@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/base/uniform_number.h>
 #include <lmdbench/world/scatter.h>
 
 #include <algorithm>
@@ -14,7 +15,7 @@ namespace {
 constexpr double PILE_SLOPE = 1.2;
 
 double uniform_in(std::mt19937_64& random, double low, double high) {
-  return low + (high - low) * static_cast<double>(random() >> 11U) * 0x1p-53;
+  return low + (high - low) * uniform_number(random);
 }
 
 /// Uniform over all rotations: a direction in four dimensions, by rejection. No sine: it is the same on every machine.
