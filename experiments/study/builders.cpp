@@ -66,9 +66,9 @@ std::vector<Variant> all_variants() {
 
 std::string row(const Variant& variant, const BuilderChoice& choice, const Surface& moving,
                 const Surface& fixed, const std::vector<Pose>& poses) {
-  const double start = process_seconds();
+  const double start = experiments::process_seconds();
   const WideHierarchy a = build_wide_hierarchy(moving, variant.options);
-  const double seconds = process_seconds() - start;
+  const double seconds = experiments::process_seconds() - start;
   const WideHierarchy b = build_wide_hierarchy(fixed, variant.options);
   std::string tests, lanes, pairs;
   for (const double cutoff : CUTOFFS) {

@@ -22,6 +22,7 @@
 #include <cstdio>
 #include <memory>
 #include <numbers>
+#include <vector>
 
 /// What a face that lies on a face costs, over the number of triangles that it is cut into: `certified` from scratch and
 /// coherent, FCL's nearest pair, and a grazing pose of two bunnies from scratch, interleaved pose by pose. Exit code 1
@@ -85,14 +86,13 @@ std::string times(const std::vector<double>& seconds) {
 /// Least squares through the logarithms of the medians.
 double slope_of(const std::vector<double>& triangles, const std::vector<std::vector<double>>& seconds,
                 const std::vector<std::size_t>& drawn) {
-  double n = 0.0, sum_x = 0.0, sum_y = 0.0, sum_xx = 0.0, sum_xy = 0.0;
-  for (std::size_t i = 0; i < triangles.size(); ++i) {
+  std::vector<double> medians;
+  for (const std::vector<double>& of_mesh : seconds) {
     std::vector<double> sample;
-    for (const std::size_t pose : drawn) sample.push_back(seconds[i][pose]);
-    const double x = std::log(triangles[i]), y = std::log(median(sample));
-    n += 1.0, sum_x += x, sum_y += y, sum_xx += x * x, sum_xy += x * y;
+    for (const std::size_t pose : drawn) sample.push_back(of_mesh[pose]);
+    medians.push_back(median(sample));
   }
-  return (n * sum_xy - sum_x * sum_y) / (n * sum_xx - sum_x * sum_x);
+  return experiments::log_slope(triangles, medians);
 }
 
 /// With its 95 % interval: the poses are drawn again 2,000 times, the same ones for every number of triangles.

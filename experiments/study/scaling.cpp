@@ -20,9 +20,9 @@
 #include <support/timing.h>
 
 #include <algorithm>
-#include <cmath>
 #include <cstdio>
 #include <memory>
+#include <vector>
 
 /// How run time and work grow with the number of triangles at a fixed contact, and with cutoff and gap at a
 /// fixed mesh. Markdown on standard output, every pose's numbers as JSON in a file
@@ -182,13 +182,12 @@ void print_row(const Point& point, const Scene& scene, const Measurement& measur
 
 /// Slope of the log of a series' median over the log of the moving mesh's triangles, by least squares.
 double slope(const nlohmann::json& points, const std::string& name) {
-  double n = 0.0, sum_x = 0.0, sum_y = 0.0, sum_xx = 0.0, sum_xy = 0.0;
+  std::vector<double> triangles, medians;
   for (const auto& point : points) {
-    const double x = std::log(point.at("moving_triangles").get<double>());
-    const double y = std::log(median(point.at("methods").at(name).at("seconds").get<std::vector<double>>()));
-    n += 1.0, sum_x += x, sum_y += y, sum_xx += x * x, sum_xy += x * y;
+    triangles.push_back(point.at("moving_triangles").get<double>());
+    medians.push_back(median(point.at("methods").at(name).at("seconds").get<std::vector<double>>()));
   }
-  return (n * sum_xy - sum_x * sum_y) / (n * sum_xx - sum_x * sum_x);
+  return experiments::log_slope(triangles, medians);
 }
 
 void print_slopes(const nlohmann::json& points) {

@@ -13,6 +13,7 @@
 #include <support/context.h>
 #include <support/poses.h>
 #include <support/program.h>
+#include <support/timing.h>
 
 #include <algorithm>
 #include <cstdio>
@@ -84,7 +85,7 @@ void study_cost(const WorldsChoice& choice, nlohmann::json& report) {
     fmt::print("\n{} frames of {} have the same set in all sizes and are timed.", rows.front().seconds.size(),
                poses.size());
     if (counts.size() > 1) {
-      const double slope = worlds::log_slope(counts, medians);
+      const double slope = experiments::log_slope(counts, medians);
       fmt::print(" Slope of the median over {:g} to {:g} instances: {:.4f}.", counts.front(), counts.back(),
                  slope);
       report["slope"][to_string(frames)] = slope;

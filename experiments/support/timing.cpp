@@ -4,14 +4,36 @@
 
 #include <support/timing.h>
 
+#include <cmath>
 #include <ctime>
 
 namespace lmdbench::experiments {
 
-double thread_seconds() {
+namespace {
+
+double seconds_of(clockid_t clock) {
   timespec now{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+  clock_gettime(clock, &now);
   return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
+
+}  // namespace
+
+double thread_seconds() {
+  return seconds_of(CLOCK_THREAD_CPUTIME_ID);
+}
+
+double process_seconds() {
+  return seconds_of(CLOCK_PROCESS_CPUTIME_ID);
+}
+
+double log_slope(const std::vector<double>& counts, const std::vector<double>& values) {
+  double n = 0.0, x = 0.0, y = 0.0, xx = 0.0, xy = 0.0;
+  for (std::size_t i = 0; i < counts.size(); ++i) {
+    const double a = std::log(counts[i]), b = std::log(values[i]);
+    n += 1.0, x += a, y += b, xx += a * a, xy += a * b;
+  }
+  return (n * xy - x * y) / (n * xx - x * x);
 }
 
 std::vector<std::vector<double>> time_interleaved(const std::vector<TimedTask>& tasks, std::size_t pose_count,

@@ -20,6 +20,13 @@ struct TimedTask {
 /// count as little as they can.
 double thread_seconds();
 
+/// Processor time [s] of all threads of the program.
+double process_seconds();
+
+/// Exponent of the power law that fits best: the slope of log(values) over log(counts) by least squares.
+/// @pre as many of the one as of the other, all above 0, two counts that differ
+double log_slope(const std::vector<double>& counts, const std::vector<double>& values);
+
 /// seconds[task][pose]: the median of `repetitions` runs. All tasks run at a pose before the next
 /// pose comes, in an order that rotates, so drifts of the machine meet every task alike. One
 /// unrecorded run of everything goes first.

@@ -15,7 +15,6 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <ctime>
 #include <limits>
 
 namespace lmdbench::scaling {
@@ -100,12 +99,6 @@ double wall_seconds() {
 
 }  // namespace
 
-double process_seconds() {
-  timespec now{};
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
-  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-}
-
 Measurement measure(const Scene& scene, const std::vector<Pose>& poses, const MeasureChoice& choice) {
   const Body& moving = *scene.moving;
   const Body& fixed = *scene.fixed.at(0);
@@ -177,11 +170,11 @@ BuildCost measure_build(const TriangleMesh& mesh) {
   BuildCost cost{INFINITE, INFINITE, INFINITE, INFINITE};
   for (int run = 0; run < RUNS; ++run) {
     TriangleMesh copy = mesh;
-    const double start = wall_seconds(), start_cpu = process_seconds();
+    const double start = wall_seconds(), start_cpu = experiments::process_seconds();
     const Surface surface = build_surface(std::move(copy));
-    const double middle = wall_seconds(), middle_cpu = process_seconds();
+    const double middle = wall_seconds(), middle_cpu = experiments::process_seconds();
     const WideHierarchy hierarchy = build_wide_hierarchy(surface);
-    const double end_cpu = process_seconds();
+    const double end_cpu = experiments::process_seconds();
     cost.surface_seconds = std::min(cost.surface_seconds, middle - start);
     cost.surface_cpu_seconds = std::min(cost.surface_cpu_seconds, middle_cpu - start_cpu);
     cost.wide_hierarchy_seconds = std::min(cost.wide_hierarchy_seconds, wall_seconds() - middle);

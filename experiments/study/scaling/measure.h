@@ -54,9 +54,6 @@ struct BuildCost {
   std::size_t features = 0;  ///< That can carry an LMD.
 };
 
-/// Processor time of the whole process, all threads.
-double process_seconds();
-
 BuildCost measure_build(const TriangleMesh& mesh);
 
 }  // namespace lmdbench::scaling

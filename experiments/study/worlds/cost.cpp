@@ -10,7 +10,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cmath>
 #include <limits>
 #include <stdexcept>
 
@@ -133,15 +132,6 @@ std::vector<PreparationRow> measure_preparation(const std::shared_ptr<const Body
     rows.push_back(row);
   }
   return rows;
-}
-
-double log_slope(const std::vector<double>& counts, const std::vector<double>& values) {
-  double n = 0.0, x = 0.0, y = 0.0, xx = 0.0, xy = 0.0;
-  for (std::size_t i = 0; i < counts.size(); ++i) {
-    const double a = std::log(counts[i]), b = std::log(values[i]);
-    n += 1.0, x += a, y += b, xx += a * a, xy += a * b;
-  }
-  return (n * xy - x * y) / (n * xx - x * x);
 }
 
 }  // namespace lmdbench::worlds

@@ -59,7 +59,4 @@ std::vector<PreparationRow> measure_preparation(const std::shared_ptr<const Body
                                                 const std::shared_ptr<const Body>& mesh, double cutoff,
                                                 const CostChoice& choice);
 
-/// Slope of log(value) over log(count), by least squares.
-double log_slope(const std::vector<double>& counts, const std::vector<double>& values);
-
 }  // namespace lmdbench::worlds

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <support/timing.h>
 
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -37,6 +38,11 @@ TEST(TimeInterleaved, PreparesBeforeEachRunAndDoesNotTimeThat) {
   const auto seconds = time_interleaved({task}, 1, 3);
   EXPECT_EQ(order, "prprprpr");
   EXPECT_LT(seconds[0][0], 0.005);
+}
+
+TEST(LogSlope, OfAPowerIsItsExponent) {
+  EXPECT_NEAR(log_slope({1.0, 10.0, 100.0}, {3.0, 3.0 * std::sqrt(10.0), 30.0}), 0.5, 1e-12);
+  EXPECT_NEAR(log_slope({10.0, 1000.0}, {2.0, 2.0}), 0.0, 1e-12);
 }
 
 }  // namespace

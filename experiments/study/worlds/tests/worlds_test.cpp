@@ -83,10 +83,5 @@ TEST(BroadPhases, ALargerSlackAsksLessOften) {
   EXPECT_GT(little.queries, 4.0 * much.queries);
 }
 
-TEST(LogSlope, OfAPowerIsItsExponent) {
-  EXPECT_NEAR(log_slope({1.0, 10.0, 100.0}, {3.0, 3.0 * std::sqrt(10.0), 30.0}), 0.5, 1e-12);
-  EXPECT_NEAR(log_slope({10.0, 1000.0}, {2.0, 2.0}), 0.0, 1e-12);
-}
-
 }  // namespace
 }  // namespace lmdbench::worlds
