@@ -12,37 +12,10 @@
 namespace lmdbench {
 namespace {
 
-using S = StepNumbers;
-
 constexpr std::array STEP_NUMBERS = {
-    StepNumber{"seconds_in_contact", "s", "time in contact that counts", &S::seconds_in_contact},
-    StepNumber{"false_jumps", "1", "jumps in steps in which the true force has none", &S::false_jumps},
-    StepNumber{"missed_jumps", "1", "true jumps in steps in which the method has none", &S::missed_jumps},
-    StepNumber{"switches", "1", "changes of force in a frame between below 5 % and above 50 % of F_max",
-               &S::switches},
-    StepNumber{"true_switches", "1", "the same of the true force", &S::true_switches},
-    StepNumber{"births", "1", "LMDs without a neighbouring one in the frame before", &S::births},
-    StepNumber{"deaths", "1", "LMDs without a neighbouring one in the frame after", &S::deaths},
-    StepNumber{"true_births", "1", "births of the true set", &S::true_births},
-    StepNumber{"true_deaths", "1", "deaths of the true set", &S::true_deaths},
-    StepNumber{"lmd_count_mean", "1", "LMDs within the cutoff, mean", &S::lmd_count_mean},
-    StepNumber{"true_lmd_count_mean", "1", "LMDs of the true set, mean", &S::true_lmd_count_mean},
-    StepNumber{"force_mean_n", "N", "length of the force, mean", &S::force_mean_n},
-    StepNumber{"true_force_mean_n", "N", "length of the true force under the same law, mean",
-               &S::true_force_mean_n},
-    StepNumber{"force_magnitude_error_rms_n", "N", "error of the force's length, root mean square",
-               &S::force_magnitude_error_rms_n},
-    StepNumber{"force_angle_error_p99_rad", "rad", "angle to the true force, 99th percentile",
-               &S::force_angle_error_p99_rad},
-    StepNumber{"minimum_distance_error_p99_m", "m",
-               "minimum distance against the true one, 99th percentile of the error",
-               &S::minimum_distance_error_p99_m},
-    StepNumber{"torque_error_rms_n_m", "N m", "torque error, root mean square", &S::torque_error_rms_n_m},
-    StepNumber{"torque_error_maximum_n_m", "N m", "torque error, largest", &S::torque_error_maximum_n_m},
-    StepNumber{"frames_clipped", "1", "frames whose force the device clips", &S::frames_clipped},
-    StepNumber{"frames_empty", "1", "frames in contact without an LMD", &S::frames_empty},
-    StepNumber{"candidates", "1", "LMDs that all searches found", &S::candidates},
-    StepNumber{"kept", "1", "LMDs that all first reductions kept", &S::kept},
+#define NUMBER(name, units, ...) StepNumber{#name, units, &StepNumbers::name, __VA_ARGS__},
+#include <lmdbench/sweep/step_numbers.def>
+#undef NUMBER
 };
 
 /// Sum of squares that becomes a root mean square.

@@ -12,23 +12,10 @@
 namespace lmdbench {
 namespace {
 
-using T = TimeNumbers;
-
 constexpr std::array TIME_NUMBERS = {
-    TimeNumber{"processor_share", "1", "run time of a second in contact, local updates and searches [s/s]",
-               &T::processor_share},
-    TimeNumber{"local_update_mean_s", "s", "local update of a frame in contact, mean",
-               &T::local_update_mean_s},
-    TimeNumber{"local_update_empty_median_s", "s", "local update of frames that carry no LMD, median",
-               &T::local_update_empty_median_s},
-    TimeNumber{"local_update_filled_median_s", "s", "local update of frames that carry LMDs, median",
-               &T::local_update_filled_median_s},
-    TimeNumber{"local_update_filled_mean_s", "s", "local update of frames that carry LMDs, mean",
-               &T::local_update_filled_mean_s},
-    TimeNumber{"local_update_per_tracked_s", "s",
-               "local updates of all frames that carry LMDs / LMDs carried", &T::local_update_per_tracked_s},
-    TimeNumber{"search_share", "1", "share of searches and the trackings after them in the run time",
-               &T::search_share},
+#define NUMBER(name, units, ...) TimeNumber{#name, units, &TimeNumbers::name, __VA_ARGS__},
+#include <lmdbench/sweep/time_numbers.def>
+#undef NUMBER
 };
 
 /// Median over the measured repetitions of a frame.

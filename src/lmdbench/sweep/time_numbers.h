@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <lmdbench/base/metric.h>
 #include <lmdbench/experiment/records.h>
 
 #include <span>
-#include <string_view>
 #include <vector>
 
 /// Times beyond those of a run's summary (experiment/times.h): what all of a second costs, and what an update costs
@@ -15,21 +15,12 @@ namespace lmdbench {
 /// NaN for what was not measured. Over the frames that count, and the searches that start in one; a frame or search has
 /// the median of its measured repetitions.
 struct TimeNumbers {
-  double processor_share = UNSET;  ///< Run time (wall clock) / time in contact.
-  double local_update_mean_s = UNSET;
-  double local_update_empty_median_s = UNSET;   ///< Frames whose set is empty.
-  double local_update_filled_median_s = UNSET;  ///< The others.
-  double local_update_filled_mean_s = UNSET;
-  double local_update_per_tracked_s = UNSET;  ///< Time of all filled frames / LMDs that they carry.
-  double search_share = UNSET;                ///< Of the run time, in searches and the trackings after them.
+#define NUMBER(name, ...) double name = UNSET;
+#include <lmdbench/sweep/time_numbers.def>
+#undef NUMBER
 };
 
-struct TimeNumber {
-  std::string_view name;
-  std::string_view units;
-  std::string_view long_name;
-  double TimeNumbers::*value;
-};
+using TimeNumber = Metric<TimeNumbers>;
 
 /// All numbers, in the order of reports.
 std::span<const TimeNumber> time_numbers();
