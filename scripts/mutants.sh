@@ -28,9 +28,6 @@ while (($# > 0)); do
   shift
 done
 
-# Objects of the unchanged code come from the cache although the worktree has another path.
-export CCACHE_BASEDIR="${CCACHE_BASEDIR:-$ROOT}" CCACHE_NOHASHDIR=1
-
 remove_tree() {
   git -C "$ROOT" worktree remove --force "$TREE" 2>/dev/null
   git -C "$ROOT" worktree prune
