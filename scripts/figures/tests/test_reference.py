@@ -1,54 +1,59 @@
 # SPDX-FileCopyrightText: The lmdbench authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Every table and figure of results/reference is told to have been made by a command that there is at a commit that there is."""
+"""Every table and figure of results/reference is told to have been made by a command that there is at a commit that there is, and to be older than
+its code where it is."""
 
 import os
 import re
-import subprocess
+import sys
 import unittest
 
 ROOT = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "..")
-FOLDER = os.path.join(ROOT, "results", "reference")
+sys.path.insert(0, os.path.join(ROOT, "scripts"))
+from reference_ages import ADDED, FOLDER, age, git, rows, unmarked  # noqa: E402
+
 STUDIES = os.path.join(ROOT, "experiments", "study", "main.cpp")
-
-
-def rows():
-    """(files, command, commits) of the register."""
-    with open(os.path.join(FOLDER, "README.md"), encoding="utf-8") as stream:
-        cells = [[cell.strip() for cell in line.strip("|\n").split("|")] for line in stream if line.startswith("| `")]
-    return [(re.findall(r"`([^`]+)`", files), command, [commit.strip() for commit in commits.split(",")]) for files, command, commits in cells]
-
-
-def git(*arguments):
-    return subprocess.run(["git", "-C", ROOT, *arguments], capture_output=True, text=True, check=False)
 
 
 class Register(unittest.TestCase):
     def test_every_file_is_told_once(self):
-        told = [file for files, _, _ in rows() for file in files]
+        told = [file for row in rows() for file in row.files]
         self.assertEqual(sorted(told), sorted(name for name in os.listdir(FOLDER) if name != "README.md"),
                          "remedy: a row in results/reference/README.md with command and commit")
 
     def test_every_command_is_there(self):
         with open(STUDIES, encoding="utf-8") as stream:
             studies = stream.read()
-        for files, command, _ in rows():
-            for file in re.findall(r"(?:scripts|tests)/[\w/]+\.(?:py|sh)", command):
-                self.assertTrue(os.path.exists(os.path.join(ROOT, file)), (files, file))
-            for study in re.findall(r"lmdbench-study ([\w-]+)", command):
-                self.assertIn(f"add_{study.replace('-', '_')}(", studies, files)
-            self.assertRegex(command, r"lmdbench|scripts/|tests/", files)
+        for row in rows():
+            for file in re.findall(r"(?:scripts|tests)/[\w/]+\.(?:py|sh)", row.command):
+                self.assertTrue(os.path.exists(os.path.join(ROOT, file)), (row.files, file))
+            for study in re.findall(r"lmdbench-study ([\w-]+)", row.command):
+                self.assertIn(f"add_{study.replace('-', '_')}(", studies, row.files)
+            self.assertRegex(row.command, r"lmdbench|scripts/|tests/", row.files)
 
-    def test_every_commit_is_there(self):
+    def test_every_folder_is_there(self):
+        for row in rows():
+            self.assertTrue(row.folders, row.files)
+            for folder in row.folders:
+                self.assertTrue(os.path.isdir(os.path.join(ROOT, folder)), (row.files, folder))
+
+    def whole_history(self):
         if git("rev-parse", "--is-shallow-repository").stdout.strip() != "false":
             self.skipTest("not a whole working copy: commits cannot be looked up")
-        for files, _, commits in rows():
-            for commit in commits:
-                if commit == "the one that added it":  # a file cannot name the commit that it is in
-                    self.assertTrue(git("log", "--format=%h", "--", f"results/reference/{files[0]}").stdout.strip(), files)
+
+    def test_every_commit_is_there(self):
+        self.whole_history()
+        for row in rows():
+            for commit in row.commits:
+                if commit == ADDED:
+                    self.assertTrue(git("log", "--format=%h", "--", f"results/reference/{row.files[0]}").stdout.strip(), row.files)
                     continue
                 # of the history, not only of the store: a clone brings no commit that nothing leads to
-                self.assertEqual(git("merge-base", "--is-ancestor", commit, "HEAD").returncode, 0, (files, commit))
+                self.assertEqual(git("merge-base", "--is-ancestor", commit, "HEAD").returncode, 0, (row.files, commit))
+
+    def test_what_is_older_than_its_code_says_so(self):
+        self.whole_history()
+        self.assertEqual(unmarked([(row, age(row)) for row in rows()]), [], "remedy: scripts/reference_ages.py --mark, or make them again")
 
 
 if __name__ == "__main__":
