@@ -37,7 +37,7 @@ TEST(Cone, DefaultIsAllDirections) {
 }
 
 TEST(Cone, OfOneDirectionHasNoWidth) {
-  const Cone cone = cone_of_direction(Vec3::UnitZ());
+  const Cone cone = cone_of_directions(std::array{Vec3(Vec3::UnitZ())});
   EXPECT_TRUE(cone.contains(Vec3::UnitZ()));
   EXPECT_LT(cone.half_angle(), 1e-14);
 }
@@ -114,7 +114,7 @@ TEST(Cone, MergeContainsBothAndIsNoWiderThanNeeded) {
     const double needed = std::max({phi_a, phi_b, 0.5 * (between + phi_a + phi_b)});
     ASSERT_LE(merged.half_angle(), std::min(PI, needed) + 1e-7) << "round " << round;
   }
-  EXPECT_TRUE(merge_cones(Cone{}, cone_of_direction(Vec3::UnitX())).is_all_directions());
+  EXPECT_TRUE(merge_cones(Cone{}, cone_of_directions(std::array{Vec3(Vec3::UnitX())})).is_all_directions());
 }
 
 }  // namespace

@@ -80,20 +80,5 @@ TEST(BoundingSphere, StandsDegenerateSets) {
   EXPECT_LE(bounding_sphere(on_sphere).radius, 1.0 + 1e-12);
 }
 
-TEST(MergeSpheres, HoldsBoth) {
-  std::mt19937_64 random(5);
-  std::uniform_real_distribution<double> size(0.0, 1.5);
-  for (int round = 0; round < 300; ++round) {
-    const Sphere a{random_point(random), size(random)};
-    const Sphere b{random_point(random), size(random)};
-    const Sphere merged = merge_spheres(a, b);
-    ASSERT_LE((a.centre - merged.centre).norm() + a.radius, merged.radius * (1 + 1e-15));
-    ASSERT_LE((b.centre - merged.centre).norm() + b.radius, merged.radius * (1 + 1e-15));
-    ASSERT_LE(merged.radius,
-              std::max({a.radius, b.radius, 0.5 * ((a.centre - b.centre).norm() + a.radius + b.radius)}) *
-                  (1 + 1e-12));
-  }
-}
-
 }  // namespace
 }  // namespace lmdbench

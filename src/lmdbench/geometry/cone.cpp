@@ -42,11 +42,6 @@ bool Cone::contains(const Vec3& unit_direction) const {
   return is_all_directions() || angle_between(axis, unit_direction) <= half_angle();
 }
 
-Cone cone_of_direction(const Vec3& unit_direction) {
-  LMDBENCH_EXPECTS(is_unit_or_zero(unit_direction), "a direction that was not normalised");
-  return unit_direction.isZero(0.0) ? Cone{} : cone_of_angle(unit_direction, 0.0);
-}
-
 Cone cone_of_directions(std::span<const Vec3> unit_directions) {
   LMDBENCH_EXPECTS(std::ranges::all_of(unit_directions, is_unit_or_zero),
                    "a direction that was not normalised");

@@ -26,9 +26,6 @@ struct Cone {
   bool contains(const Vec3& unit_direction) const;
 };
 
-/// A single direction widened by CONE_WIDENING.
-Cone cone_of_direction(const Vec3& unit_direction);
-
 /// Smallest circular cone around the directions up to rounding; for a set that no half space holds a cone
 /// that holds all of them, perhaps not the smallest. Zero vectors (normals of triangles without area) are
 /// ignored; a set without any direction gives all directions. Every direction is inside; the directions

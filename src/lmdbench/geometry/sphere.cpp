@@ -147,18 +147,4 @@ Sphere bounding_sphere(std::span<const Vec3> points) {
   return best;
 }
 
-Sphere merge_spheres(const Sphere& a, const Sphere& b) {
-  LMDBENCH_EXPECTS(a.radius >= 0.0 && b.radius >= 0.0, "a sphere of no radius");
-  const Vec3 between = b.centre - a.centre;
-  const double distance = between.norm();
-  if (distance + b.radius <= a.radius) return a;
-  if (distance + a.radius <= b.radius) return b;
-  const double radius = 0.5 * (distance + a.radius + b.radius);
-  // Neither contains the other, hence distance > 0. The radius is measured again from the rounded centre.
-  const Vec3 centre = a.centre + between * ((radius - a.radius) / distance);
-  const double needed =
-      std::max((centre - a.centre).norm() + a.radius, (centre - b.centre).norm() + b.radius);
-  return {centre, needed * OUTWARD};
-}
-
 }  // namespace lmdbench

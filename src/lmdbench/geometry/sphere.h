@@ -19,7 +19,4 @@ struct Sphere {
 /// @param points #P by 3, finite; the sphere of no points is a point at the origin
 Sphere bounding_sphere(std::span<const Vec3> points);
 
-/// Smallest sphere around two spheres, rounded outwards.
-Sphere merge_spheres(const Sphere& a, const Sphere& b);
-
 }  // namespace lmdbench

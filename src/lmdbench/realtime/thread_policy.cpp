@@ -61,13 +61,6 @@ std::vector<Grant> apply(const ThreadPolicy& policy, const std::string& thread) 
   return grants;
 }
 
-void restore_normal_policy(const std::vector<int>& cores) {
-  const sched_param parameters{};
-  ::pthread_setschedparam(::pthread_self(), SCHED_OTHER, &parameters);
-  const cpu_set_t set = set_of(cores);
-  ::pthread_setaffinity_np(::pthread_self(), sizeof(set), &set);
-}
-
 std::vector<int> usable_cores() {
   cpu_set_t set;
   CPU_ZERO(&set);

@@ -28,9 +28,6 @@ struct Grant {
 /// Applies the policy to the calling thread.
 std::vector<Grant> apply(const ThreadPolicy& policy, const std::string& thread);
 
-/// Gives the calling thread back the normal policy on any of the cores.
-void restore_normal_policy(const std::vector<int>& cores);
-
 /// Cores that the calling thread may use, ascending; at least one.
 std::vector<int> usable_cores();
 
