@@ -30,7 +30,7 @@ void print_answers(const char* published, const char* remake, const char* owner,
       "Made by `{} > {}`;\n"
       "the answers are checked by the test `{}`.\n\n"
       "## Answers\n\n"
-      "{} pairs a family (experiments/judge/triangle_families.cpp). An error is relative to the\n"
+      "{} pairs a family (experiments/triangles/triangle_families.cpp). An error is relative to the\n"
       "pair's largest coordinate; *wrong* is above {:.0e}, *gross* above {:.0e}, a *false contact*\n"
       "is contact claimed for triangles more than {:.0e} apart. Every distance is known to 2e-17:\n"
       "bounded from above by two points of the triangles and from below by a direction that keeps\n"

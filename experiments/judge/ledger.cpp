@@ -8,10 +8,10 @@
 #include <lmdbench/record/result_reader.h>
 #include <lmdbench/snch/minimum_distance.h>
 
-#include <judge/brute_force_distance.h>
 #include <judge/exact_distance.h>
 #include <judge/feature_boxes.h>
 #include <judge/ledger.h>
+#include <triangles/brute_force_distance.h>
 
 #include <algorithm>
 #include <cmath>

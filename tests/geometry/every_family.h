@@ -3,7 +3,7 @@
 #pragma once
 
 #include <gtest/gtest.h>
-#include <judge/triangle_families.h>
+#include <triangles/triangle_families.h>
 
 #include <cctype>
 #include <string>

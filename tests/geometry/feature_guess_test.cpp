@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 #include <hwy/targets.h>
-#include <judge/triangle_families.h>
+#include <triangles/triangle_families.h>
 
 #include <cmath>
 #include <limits>

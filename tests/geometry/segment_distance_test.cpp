@@ -3,7 +3,7 @@
 #include <lmdbench/geometry/segment_distance.h>
 
 #include <gtest/gtest.h>
-#include <judge/random_triangles.h>
+#include <triangles/random_triangles.h>
 
 #include <algorithm>
 #include <cmath>

@@ -3,7 +3,7 @@
 #include <lmdbench/geometry/sphere.h>
 
 #include <gtest/gtest.h>
-#include <judge/random_triangles.h>
+#include <triangles/random_triangles.h>
 
 #include <array>
 #include <cmath>

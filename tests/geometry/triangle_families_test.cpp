@@ -7,7 +7,7 @@
 
 #include "geometry/every_family.h"
 #include <gtest/gtest.h>
-#include <judge/brute_force_distance.h>
+#include <triangles/brute_force_distance.h>
 
 #include <cmath>
 #include <limits>

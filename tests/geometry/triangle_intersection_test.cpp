@@ -4,8 +4,8 @@
 #include <lmdbench/geometry/triangle_intersection.h>
 
 #include <gtest/gtest.h>
-#include <judge/brute_force_distance.h>
-#include <judge/triangle_families.h>
+#include <triangles/brute_force_distance.h>
+#include <triangles/triangle_families.h>
 
 #include <cmath>
 

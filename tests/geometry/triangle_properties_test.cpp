@@ -4,7 +4,7 @@
 #include <lmdbench/geometry/triangle_distance.h>
 #include <lmdbench/methods/original/feature_points.h>
 
-#include <judge/triangle_families.h>
+#include <triangles/triangle_families.h>
 // RapidCheck's header uses GoogleTest without including it.
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>

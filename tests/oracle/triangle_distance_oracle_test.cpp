@@ -5,9 +5,9 @@
 
 #include "geometry/every_family.h"
 #include <gtest/gtest.h>
-#include <judge/brute_force_distance.h>
 #include <judge/distance_bracket.h>
 #include <judge/exact_distance.h>
+#include <triangles/brute_force_distance.h>
 
 #include <cmath>
 #include <limits>

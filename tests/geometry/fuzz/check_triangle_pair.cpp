@@ -6,7 +6,7 @@
 #include <lmdbench/geometry/triangle_distance.h>
 
 #include <benchmarks/triangle_distance/batch/triangle_distance_batch.h>
-#include <judge/brute_force_distance.h>
+#include <triangles/brute_force_distance.h>
 
 #include <array>
 #include <cmath>

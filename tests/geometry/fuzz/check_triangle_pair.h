@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <judge/triangle_families.h>
+#include <triangles/triangle_families.h>
 
 #include <cstddef>
 #include <cstdint>

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include <Eigen/Geometry>
-#include <judge/random_triangles.h>
+#include <triangles/random_triangles.h>
 
 #include <cmath>
 

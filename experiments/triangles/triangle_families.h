@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <judge/random_triangles.h>
-#include <judge/triangle_pair.h>
+#include <triangles/random_triangles.h>
+#include <triangles/triangle_pair.h>
 
 #include <span>
 #include <string_view>

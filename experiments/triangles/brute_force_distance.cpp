@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include <judge/brute_force_distance.h>
+#include <triangles/brute_force_distance.h>
 
 #include <algorithm>
 #include <array>

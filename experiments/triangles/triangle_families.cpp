@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include <Eigen/Geometry>
-#include <judge/random_triangles.h>
-#include <judge/triangle_families.h>
+#include <triangles/random_triangles.h>
+#include <triangles/triangle_families.h>
 
 #include <array>
 #include <cmath>

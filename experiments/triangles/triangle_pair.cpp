@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include <judge/triangle_pair.h>
+#include <triangles/triangle_pair.h>
 
 #include <algorithm>
 #include <array>
