@@ -322,7 +322,9 @@ TEST_F(QueryCommand, IdentityPoseWithoutPoses) {
 }
 
 TEST_F(QueryCommand, TextIsForPeople) {
-  const Outcome outcome = lmdbench("query --moving sphere --fixed sphere --cutoff 0.5 --method exhaustive");
+  const std::string mesh = cube();
+  const Outcome outcome =
+      lmdbench("query --moving '" + mesh + "' --fixed '" + mesh + "' --cutoff 0.5 --method exhaustive");
   EXPECT_EQ(outcome.code, 0) << outcome.err;
   EXPECT_THAT(outcome.out, HasSubstr("exhaustive: "));
 }

@@ -39,6 +39,13 @@ double distance_to(const Scene& scene, std::size_t instance, const Pose& X_WM) {
       .distance;
 }
 
+/// Of a sphere around the body's origin that holds it.
+double radius_of(const Body& body) {
+  double radius = 0.0;
+  for (const Vec3& vertex : body.surface().mesh.vertices) radius = std::max(radius, vertex.norm());
+  return radius;
+}
+
 std::vector<std::uint32_t> near_of(const BroadPhase& phase) {
   std::vector<std::uint32_t> near;
   for (std::size_t i = 0; i < phase.near_count(); ++i) near.push_back(phase.candidates()[i].instance);
@@ -73,11 +80,13 @@ TEST(BroadPhase, DropsNoInstanceWithinReach) {
       BroadPhase::Work work;
       std::size_t within = 0;
       std::vector<std::uint32_t> all;
+      const double reach = 1.001 * (radius_of(*scene.moving) + radius_of(*scene.fixed.front().body) + cutoff);
       for (const Pose& pose : wander(origin, 9.0, 0.03, 200, 7)) {
         phase.advance(pose, work);
         const std::vector<std::uint32_t> near = near_of(phase);
         phase.look_at_all(pose, all);
         for (std::uint32_t i = 0; i < scene.fixed.size(); ++i) {
+          if ((scene.fixed[i].X_WF.translation - pose.translation).norm() > reach) continue;
           if (!(distance_to(scene, i, pose) <= cutoff)) continue;
           ++within;
           EXPECT_NE(std::find(near.begin(), near.end(), i), near.end()) << "instance " << i;
