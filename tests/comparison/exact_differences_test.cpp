@@ -145,5 +145,28 @@ TEST_F(ExactDifferences, OtherExperimentsAndInputsAreNamed) {
   EXPECT_THAT(experiment_differences(open({}, "a.h5"), open(more, "b.h5")), IsEmpty());
 }
 
+TEST_F(ExactDifferences, AMeshThatDeformsIsAnotherThanARigidOne) {
+  const auto count = [&](const SyntheticResult& base, const SyntheticResult& candidate) {
+    return experiment_differences(open(base, "a.h5"), open(candidate, "b.h5")).size();
+  };
+  SyntheticResult rigid, bent, bent_more, read, read_elsewhere, read_other;
+  rigid.moving = R"({"mesh":"m"})";
+  bent.moving = R"({"mesh":"m","deformation":{"generator":"bend","amplitude":1}})";
+  bent_more.moving = R"({"mesh":"m","deformation":{"generator":"bend","amplitude":2}})";
+  read.moving = R"({"mesh":"m","deformation":{"folder":"a","end":"hold"}})";
+  read.vertices_hash = "cc";
+  read_elsewhere = read_other = read;
+  read_elsewhere.moving = R"({"mesh":"m","deformation":{"folder":"b","end":"hold"}})";
+  read_other.vertices_hash = "dd";
+  EXPECT_EQ(count(rigid, rigid), 0U);
+  EXPECT_EQ(count(rigid, bent), 1U);
+  EXPECT_EQ(count(bent, rigid), 1U);
+  EXPECT_EQ(count(bent, bent), 0U);
+  EXPECT_EQ(count(bent, bent_more), 1U);
+  EXPECT_EQ(count(read, rigid), 1U);
+  EXPECT_EQ(count(read, read_elsewhere), 0U) << "the files' content is what counts";
+  EXPECT_EQ(count(read, read_other), 1U);
+}
+
 }  // namespace
 }  // namespace lmdbench

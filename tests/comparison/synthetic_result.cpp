@@ -115,6 +115,7 @@ void write_method(ResultWriter& writer, const SyntheticResult& result, const std
 
 nlohmann::json experiment_of(const SyntheticResult& result) {
   nlohmann::json experiment{{"name", "synthetic"},
+                            {"moving", nlohmann::json::parse(result.moving)},
                             {"path", {{"file", "path.tum"}}},
                             {"force", {{"cutoff_m", result.cutoff}}},
                             {"driver", {{"repetitions", result.repetitions}}},
@@ -133,8 +134,13 @@ std::filesystem::path SyntheticResult::write(const std::filesystem::path& file) 
   writer.attribute("/provenance/machine", "processor", processor);
   writer.attribute("/provenance", "compiler", "GNU 12");
   writer.write({"/provenance/experiment", "1", "experiment"}, {experiment_of(*this).dump()});
-  writer.write({"/provenance/inputs/role", "1", "role"}, {"path", "mesh:moving"});
-  writer.write({"/provenance/inputs/sha256", "1", "hash"}, {"ff", moving_hash});
+  std::vector<std::string> roles{"path", "mesh:moving"}, hashes{"ff", moving_hash};
+  if (!vertices_hash.empty()) {
+    roles.emplace_back("vertices:moving");
+    hashes.push_back(vertices_hash);
+  }
+  writer.write({"/provenance/inputs/role", "1", "role"}, roles);
+  writer.write({"/provenance/inputs/sha256", "1", "hash"}, hashes);
   writer.attribute("/scene", "cutoff_m", scene_cutoff > 0.0 ? scene_cutoff : cutoff);
   if (sweep) writer.attribute("/sweep", "name", std::string("budget"));
   writer.attribute("/methods", "warm_up_repetitions", std::int64_t{1});

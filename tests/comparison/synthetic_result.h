@@ -18,6 +18,8 @@ struct SyntheticResult {
   double scene_cutoff = 0.0;  ///< As the program took it; 0: as the experiment says
   bool sweep = false;         ///< What `work-precision` writes has a group /sweep
   std::string moving_hash = "aa";
+  std::string moving = "{}";               ///< JSON of /moving in the experiment
+  std::string vertices_hash;               ///< Of the files that deform it; "" for none
   std::map<std::string, double> slowdown;  ///< "original/search": factor on its times
   double process_factor = 1.0;             ///< On all times
   double jitter = 0.0;                     ///< Added to the times of frame 0, to make files differ [s]

@@ -58,6 +58,12 @@ std::string_view to_string(DeformationKind kind) {
   return "crumple";
 }
 
+std::span<const DeformationKind> deformation_kinds() {
+  static constexpr std::array KINDS{DeformationKind::BEND, DeformationKind::TWIST, DeformationKind::DENT,
+                                    DeformationKind::BREATHE, DeformationKind::CRUMPLE};
+  return KINDS;
+}
+
 double Deformation::wave(double phase) {
   return rounded_to_grid(std::sin(2.0 * std::numbers::pi * (phase - std::floor(phase))));
 }

@@ -5,6 +5,7 @@
 #include <lmdbench/mesh/triangle_mesh.h>
 
 #include <cstdint>
+#include <span>
 #include <string_view>
 #include <vector>
 
@@ -22,6 +23,8 @@ enum class DeformationKind : std::uint8_t {
 
 /// "bend", "twist", "dent", "breathe", "crumple".
 std::string_view to_string(DeformationKind kind);
+/// All kinds.
+std::span<const DeformationKind> deformation_kinds();
 
 struct DeformationChoice {
   DeformationKind kind = DeformationKind::BEND;

@@ -4,7 +4,7 @@
 #include <lmdbench/cli/commands.h>
 #include <lmdbench/cli/progress_bar.h>
 #include <lmdbench/cli/talk.h>
-#include <lmdbench/experiment/contact.h>
+#include <lmdbench/experiment/deforming_distance.h>
 #include <lmdbench/experiment/expected_times.h>
 #include <lmdbench/experiment/experiment.h>
 #include <lmdbench/experiment/plan.h>
@@ -48,12 +48,16 @@ void add_plan_command(CLI::App& app) {
       throw UsageError("", "plan", "no experiment file", "name one: lmdbench plan EXPERIMENT.json");
     const Experiment experiment = load_experiment(options->experiment, options->overrides);
     ProgressBar bar(progress_welcome());
-    const PreparedRun prepared = prepare(experiment, [&bar](std::int64_t done, std::int64_t total) {
-      bar.update("path", done, total);
-      return true;
-    });
+    const PreparedRun prepared = prepare(
+        experiment,
+        [&bar](std::int64_t done, std::int64_t total) {
+          bar.update("path", done, total);
+          return true;
+        },
+        Deforming::FOLLOWED);
     Plan plan = make_plan(experiment);
-    const std::vector<bool> in_contact = frames_in_contact(prepared.scene(), prepared.input.poses);
+    const std::vector<bool> in_contact =
+        frames_in_contact(prepared.scene(), prepared.input.deformation, prepared.input.poses);
     plan.scene = look_at(experiment, prepared, in_contact);
     plan.rules =
         decide_rules({experiment, prepared.input.poses, in_contact, truth_frames(experiment, prepared)});

@@ -27,6 +27,16 @@ nlohmann::json deciding_part(const ResultReader& file) {
     experiment["driver"].erase("repetitions");
     experiment["driver"].erase("block_frames");
   }
+  // A mesh without a deformation, as in files from before there were any, is another one than a mesh with one. Which files hold the
+  // vertices does not matter: their SHA-256 is compared.
+  const auto tell_rigid = [](nlohmann::json& mesh) {
+    if (!mesh.is_object()) return;
+    nlohmann::json& deformation = mesh["deformation"];
+    if (!deformation.is_object()) return;
+    if (deformation.erase("files") + deformation.erase("folder") > 0) deformation["files"] = true;
+  };
+  tell_rigid(experiment["moving"]);
+  if (experiment["fixed"].is_array()) std::ranges::for_each(experiment["fixed"], tell_rigid);
   nlohmann::json by_label = nlohmann::json::object();
   for (const nlohmann::json& method : experiment["methods"])
     if (method.is_object()) by_label[method.value("label", method.value("name", ""))] = method;

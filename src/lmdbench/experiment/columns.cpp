@@ -118,6 +118,12 @@ std::vector<Column<LoopFrame>> loop_columns(bool turns) {
   return columns;
 }
 
+DatasetInfo following_time_info(const std::string& group) {
+  return {group + "following_time", "s",
+          "part of local_update_time in which the meshes that deform, and what the method prepared of them, "
+          "followed"};
+}
+
 std::vector<SearchTime> search_times(const MethodDescription& method) {
   std::vector<SearchTime> times;
   if (!method.tracks_locally) return times;

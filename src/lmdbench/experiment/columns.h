@@ -5,6 +5,7 @@
 #include <lmdbench/experiment/experiment.h>
 #include <lmdbench/experiment/records.h>
 #include <lmdbench/lmd/method_description.h>
+#include <lmdbench/record/result_writer.h>
 
 #include <cstdint>
 #include <functional>
@@ -51,6 +52,10 @@ bool is_counter(const std::string& name);
 /// Of a closed loop.
 /// @param turns  whether the device actuates six degrees of freedom
 std::vector<Column<LoopFrame>> loop_columns(bool turns);
+
+/// The time in which bodies that deform follow, by repetition and frame.
+/// @param group of the method, ends in a slash
+DatasetInfo following_time_info(const std::string& group);
 
 /// A time of searches, by repetition and search.
 struct SearchTime {

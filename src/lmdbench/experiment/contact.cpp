@@ -1,43 +1,19 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/experiment/contact.h>
-#include <lmdbench/mesh/radius_about.h>
+#include <lmdbench/experiment/motion_bound.h>
 #include <lmdbench/snch/minimum_distance.h>
 #include <lmdbench/snch/nearest_tracker.h>
 #include <lmdbench/world/nearest_instance.h>
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <optional>
 
 namespace lmdbench {
 namespace {
 
-/// Part of the lengths involved that rounding may take from a bound on a motion.
-constexpr double ROUNDING = 1e-12;
-
-/// How far a point of the moving mesh can get between two poses.
-class MotionBound {
- public:
-  explicit MotionBound(const TriangleMesh& mesh)
-      : centre_(bounding_box_centre(mesh)), radius_(radius_about(mesh, centre_)) {}
-
-  /// The way of the centre, and of the point farthest from it as the mesh turns: a chord.
-  double between(const Pose& a, const Pose& b) const {
-    const double way = (RigidTransform(b).point(centre_) - RigidTransform(a).point(centre_)).norm();
-    const double half_turn_sine = (a.rotation.conjugate() * b.rotation).vec().norm();
-    return way + 2.0 * radius_ * std::min(half_turn_sine, 1.0);
-  }
-  /// Rounding of that, at poses as far out as these.
-  double slack(const Pose& a, const Pose& b) const {
-    return ROUNDING * (radius_ + centre_.norm() + a.translation.norm() + b.translation.norm());
-  }
-
- private:
-  Vec3 centre_;
-  double radius_;
-};
+constexpr double ROUNDING = MotionBound::ROUNDING;
 
 /// One fixed mesh: in contact or not, pose after pose.
 class ContactScan {

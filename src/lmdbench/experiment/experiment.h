@@ -6,6 +6,7 @@
 #include <lmdbench/experiment/defaults.h>
 #include <lmdbench/experiment/instance_choice.h>
 #include <lmdbench/experiment/loop_choice.h>
+#include <lmdbench/experiment/mesh_deformation.h>
 #include <lmdbench/experiment/realtime_choice.h>
 #include <lmdbench/experiment/rules.h>
 #include <lmdbench/force/force_law.h>
@@ -40,6 +41,7 @@ struct MeshChoice {
   OrientationChoice orientation = OrientationChoice::KEEP;  ///< Which side is outside.
   /// Of a fixed mesh: how many of it stand where, about `pose`. The mesh then stays in its own frame.
   std::optional<InstanceChoice> instances;
+  std::optional<MeshDeformation> deformation;  ///< Unset: the mesh is rigid.
 };
 
 /// Constants of the force profile (decision E8: the paper states none of them). Some are relative to the
@@ -123,6 +125,12 @@ struct Experiment {
     return std::any_of(fixed.begin(), fixed.end(),
                        [](const MeshChoice& choice) { return choice.instances.has_value(); });
   }
+  /// Whether the vertices of some mesh move.
+  bool deforms() const {
+    return moving.deformation.has_value() ||
+           std::any_of(fixed.begin(), fixed.end(),
+                       [](const MeshChoice& choice) { return choice.deformation.has_value(); });
+  }
   std::vector<DefaultNote> defaults;  ///< What the file leaves open and no mesh is needed for.
   std::string resolved_json;          ///< The file with overrides and defaults, for the record.
 };
@@ -138,6 +146,9 @@ Experiment load_experiment(const std::filesystem::path& file, const std::vector<
 /// The same from text; `file` serves messages and relative names.
 Experiment parse_experiment(const std::string& text, const std::filesystem::path& file,
                             const std::vector<Override>& overrides = {});
+
+/// @throws UsageError naming the place, where a mesh deforms: for what looks at meshes at rest alone
+void refuse_deformation(const Experiment& experiment);
 
 /// @throws UsageError naming the profile, where one has an aggregation that needs critical pairs
 void refuse_critical_pairs(const Experiment& experiment, const std::string& file, const std::string& problem,

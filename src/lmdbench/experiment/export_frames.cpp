@@ -120,8 +120,10 @@ struct RecordedLmds {
   }
 };
 
-void export_track(Exporter& exporter, const ResultReader& result, const Scene& scene,
+void export_track(Exporter& exporter, const ResultReader& result, const ResultScene& result_scene,
                   const ResultTrack& track) {
+  DeformingScene bodies(result_scene.rest, result_scene.deformation);
+  const Scene& scene = bodies.scene();
   const std::vector<std::string> labels =
       track.method.empty() ? result.groups("/methods") : std::vector<std::string>{track.method};
   const TriangleMesh& mesh = scene.moving->surface().mesh;
@@ -129,11 +131,21 @@ void export_track(Exporter& exporter, const ResultReader& result, const Scene& s
   Series moving(exporter, "moving", track.method), lmds(exporter, "lmds-exact", track.method),
       forces(exporter, "forces", track.method);
   std::vector<std::vector<double>> force_of;
+  std::vector<Series> fixed;
+  std::vector<std::size_t> fixed_index;
+  for (std::size_t i = 0; result_scene.deformation && i < scene.fixed.size(); ++i) {
+    if (result_scene.deformation->find(i + 1) == nullptr) continue;
+    fixed_index.push_back(i);
+    fixed.emplace_back(exporter, fmt::format("fixed_{}", i), track.method);
+  }
   for (const std::string& label : labels) force_of.push_back(result.reals("/methods/" + label + "/force"));
   for (std::size_t i = 0; i < track.frames.size(); ++i) {
     const auto& [time, pose] = track.poses[i];
     const std::size_t frame = track.frames[i];
     const RigidTransform transform(pose);
+    bodies.to_frame(static_cast<std::int64_t>(frame));
+    for (std::size_t k = 0; k < fixed.size(); ++k)
+      fixed[k].add(time, frame, mesh_grid(placed_mesh(scene.fixed[fixed_index[k]]), {}));
     moving.add(time, frame, mesh_grid(mesh, transform));
     VtuGrid pairs = empty_lmd_grid();
     for (const Lmd& lmd : query(*exact, track.poses[i].pose, scene.cutoff).lmds)
@@ -149,6 +161,7 @@ void export_track(Exporter& exporter, const ResultReader& result, const Scene& s
     forces.add(time, frame, middle);
   }
   for (Series* series : {&moving, &lmds, &forces}) series->finish();
+  for (Series& series : fixed) series.finish();
   for (const std::string& label : labels) {
     const std::string group = "/methods/" + label + "/lmds";
     if (!result.has(group + "/frame_offset")) continue;
@@ -191,13 +204,16 @@ void export_polylines(Exporter& exporter, const ResultReader& result, const std:
 
 std::vector<fs::path> export_frames(const ResultReader& result, const fs::path& folder,
                                     std::size_t most_frames) {
-  const Scene scene = scene_of_result(result);
+  const ResultScene result_scene = deforming_scene_of_result(result);
+  const Scene& scene = result_scene.rest;
   Exporter exporter(result.file(), folder);
   const std::vector<ResultTrack> tracks = tracks_of_result(result, most_frames);
   for (const std::size_t i : drawn_bodies(scene, tracks))
-    exporter.write_top(fmt::format("fixed_{}.vtu", i), vtu_text(mesh_grid(placed_mesh(scene.fixed[i]), {})));
+    if (!result_scene.deformation || result_scene.deformation->find(i + 1) == nullptr)
+      exporter.write_top(fmt::format("fixed_{}.vtu", i),
+                         vtu_text(mesh_grid(placed_mesh(scene.fixed[i]), {})));
   for (const ResultTrack& track : tracks) {
-    export_track(exporter, result, scene, track);
+    export_track(exporter, result, result_scene, track);
     export_polylines(exporter, result, track.method);
   }
   return exporter.written();

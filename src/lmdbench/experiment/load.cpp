@@ -39,7 +39,10 @@ MeshChoice mesh_choice(const Json& entry, const std::string& place, const std::s
           Pose{},
           parse_planar_tolerance(text, file, place + "/planar_tolerance"),
           parse_orientation(entry["orient"].get<std::string>(), file, place + "/orient"),
-          std::nullopt};
+          std::nullopt,
+          entry.contains("deformation")
+              ? std::optional(read_mesh_deformation(entry["deformation"], place + "/deformation", file))
+              : std::nullopt};
 }
 
 Pose pose_of(const Json& entry, const std::string& place, const std::string& file) {
@@ -134,6 +137,27 @@ void check_labels(const std::vector<MethodChoice>& methods, std::size_t entries,
   }
 }
 
+/// The first mesh that deforms.
+/// @pre there is one
+const MeshDeformation& first_deformation(const Experiment& experiment) {
+  const MeshChoice* deforming = &experiment.moving;
+  for (const MeshChoice& choice : experiment.fixed)
+    if (!deforming->deformation) deforming = &choice;
+  return *deforming->deformation;
+}
+
+/// What does not go together with meshes that deform.
+void check_deformations(const Experiment& experiment, const std::string& file) {
+  if (!experiment.deforms()) return;
+  const std::string& place = first_deformation(experiment).place;
+  if (experiment.is_world())
+    throw UsageError(file, place, "meshes do not deform in a scene with instances",
+                     "list the fixed meshes without \"instances\", or leave the deformation out");
+  if (experiment.realtime)
+    throw UsageError(file, place, "meshes do not deform under the driver realtime",
+                     "take the driver lockstep (--set /driver/kind=lockstep), or leave the deformation out");
+}
+
 Experiment from_json(Json document, const std::filesystem::path& path) {
   const std::string file = path.string();
   for (Json& method : document["methods"])
@@ -218,6 +242,7 @@ Experiment from_json(Json document, const std::filesystem::path& path) {
                      "set it to 0, or list the fixed meshes without \"instances\"");
   if (experiment.is_world() && experiment.path_file.empty())
     throw UsageError(file, "/path/file", "no path is made among instances", "name a path (paths/README.md)");
+  check_deformations(experiment, file);
   experiment.resolved_json = document.dump(2);
   return experiment;
 }
@@ -226,6 +251,13 @@ Experiment from_json(Json document, const std::filesystem::path& path) {
 
 bool MethodChoice::counts_indices() const {
   return aggregation->needs != AggregationNeeds::MINIMA;
+}
+
+void refuse_deformation(const Experiment& experiment) {
+  if (!experiment.deforms()) return;
+  throw UsageError(experiment.file.string(), first_deformation(experiment).place,
+                   "the mesh deforms, and this looks at meshes at rest",
+                   "leave the deformation out; run, plan, compare, report and export follow it");
 }
 
 void refuse_critical_pairs(const Experiment& experiment, const std::string& file, const std::string& problem,

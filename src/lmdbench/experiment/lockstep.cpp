@@ -61,18 +61,21 @@ class MethodRun {
   MethodRun(const LockstepMethod& method, const LockstepInput& input, const DriverChoice& driver)
       : input_(input),
         profile_(method.profile),
-        contacts_(*method.aggregation, method.scene),
+        bodies_(method.scene, input.deformation),
+        contacts_(*method.aggregation, bodies_.scene()),
         poses_(input.make_poses ? input.make_poses() : std::make_unique<PathPoses>(input.poses)),
         memory_(method.profile.cutoff),
         planted_(method.label) {
-    std::unique_ptr<Method> first = method.make();
+    const auto make = [&] { return bodies_.deforms() ? method.make_on(bodies_.scene()) : method.make(); };
+    std::unique_ptr<Method> first = make();
     // The first repetition alone: the others leave the same.
     keeps_both_laws_ = input.keep_lmds && !first->description().tracks_locally &&
                        first->description().promise == Promise::COMPLETE_SET;
     if (first->description().tracks_locally)
-      two_rate_.emplace(std::move(first), method.make(), driver);
+      two_rate_.emplace(std::move(first), make(), driver);
     else
       every_frame_ = std::move(first);
+    bodies_.prepare_to_deform();
     record_.label = method.label;
     record_.repetitions.resize(1);
     record_.frames.reserve(input.poses.size());
@@ -81,6 +84,7 @@ class MethodRun {
   void step(std::int64_t frame) {
     FrameRecord result;
     frame_counters_ = &result.counters;
+    const double following = bodies_.to_frame(frame);
     if (every_frame_) {
       found_.clear();
       run(Stage::LOCAL_UPDATE,
@@ -93,6 +97,10 @@ class MethodRun {
         result.lmd_count_before_reduction = static_cast<double>(origin->candidates);
         result.lmd_age = static_cast<double>(frame - origin->frame) / input_.frame_rate_hz;
       }
+    }
+    if (bodies_.deforms()) {
+      times().local_update.back() += following;
+      times().following.push_back(following);
     }
     finish_frame(frame, every_frame_ ? found_ : two_rate_->working_set(), std::move(result));
   }
@@ -193,6 +201,7 @@ class MethodRun {
 
   const LockstepInput& input_;
   const ForceProfile profile_;
+  DeformingScene bodies_;  ///< The method's own where they deform.
   ContactFinder contacts_;
   std::unique_ptr<PoseSource> poses_;
   std::optional<TwoRate> two_rate_;      ///< Unset for a method without local tracking, ...

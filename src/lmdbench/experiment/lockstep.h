@@ -5,6 +5,7 @@
 #include <lmdbench/experiment/experiment.h>
 #include <lmdbench/experiment/pose_source.h>
 #include <lmdbench/experiment/records.h>
+#include <lmdbench/experiment/scene_deformation.h>
 #include <lmdbench/force/aggregation.h>
 #include <lmdbench/force/force_law.h>
 #include <lmdbench/geometry/pose.h>
@@ -21,6 +22,8 @@
 /// The lockstep driver: one clock instead of threads, so that results depend on the scene alone, while the
 /// staleness that threads would cause is an explicit number of frames. A frame does what the paper's threads
 /// would (sections 4.3 and 5):
+///  0. Where meshes deform the method's own bodies get this frame's vertices, and what was prepared of them follows: a part of
+///     the frame's local update, whose share of it is kept apart as well.
 ///  1. A search whose latency is over arrives: its set is tracked to this frame's pose (second tracking) and
 ///     replaces the working set.
 ///  2. Every `search_every_frames` a global search starts at this frame's pose, followed by the first
@@ -39,6 +42,8 @@ struct LockstepMethod {
   /// What becomes of its LMDs; needs a method that finds critical pairs where it is not their sum.
   const Aggregation* aggregation = &sum_law();
   Scene scene = {};  ///< For aggregations that need more than the method's set.
+  /// Makes it on another scene of the same meshes: where they deform, each run of a method has bodies of its own.
+  std::function<std::unique_ptr<Method>(const Scene& scene)> make_on = nullptr;
 };
 
 /// All that the driver needs to know of the scene.
@@ -52,6 +57,8 @@ struct LockstepInput {
   Vec3 reference_M = Vec3::Zero();  ///< Point of the moving mesh about which torque is taken.
   VirtualPhantom device;
   std::function<bool(std::int64_t frame)> keep_lmds;  ///< Frames whose LMD sets are to be kept.
+  /// Null where all meshes are rigid; else every method needs `make_on` and a scene.
+  std::shared_ptr<const SceneDeformation> deformation = nullptr;
 };
 
 /// Called after every block, and between slow frames, with frames done and frames to do, over all methods and

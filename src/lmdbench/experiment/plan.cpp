@@ -63,6 +63,23 @@ std::string loop_text(const LoopChoice& loop) {
                      loop.delay_frames);
 }
 
+/// Which meshes deform, and what each method makes of it.
+std::string deformation_text(const Experiment& experiment) {
+  std::vector<std::string> meshes, following, remade;
+  if (experiment.moving.deformation) meshes.push_back("moving " + to_text(*experiment.moving.deformation));
+  for (std::size_t i = 0; i < experiment.fixed.size(); ++i)
+    if (experiment.fixed[i].deformation)
+      meshes.push_back(fmt::format("fixed_{} {}", i, to_text(*experiment.fixed[i].deformation)));
+  for (const MethodChoice& choice : experiment.methods)
+    (method_description(choice.name).follows_deformation ? following : remade).push_back(choice.label);
+  std::string text = fmt::format("{}", fmt::join(meshes, "; "));
+  if (!following.empty()) text += fmt::format("; {}: what is prepared follows", join_labels(following));
+  if (!remade.empty())
+    text +=
+        fmt::format("; {}: made anew in every frame, in the time of the local update", join_labels(remade));
+  return text;
+}
+
 }  // namespace
 
 bool Plan::needs(Part part) const {
@@ -91,6 +108,8 @@ Plan make_plan(const Experiment& experiment) {
   add(Part::FLATTENING, "rounded planes", flattens,
       fmt::format("planar tolerance: {}; `lmdbench mesh info` says what that moves", join_labels(tolerances)),
       "planar_tolerance is off for every mesh");
+  add(Part::DEFORMATION, "meshes that deform", experiment.deforms(), deformation_text(experiment),
+      "no mesh has a deformation: all are rigid");
   add(Part::LOCAL_TRACKING, "global searches and local tracking", !tracking.empty(),
       experiment.realtime
           ? fmt::format("{}: in threads of their own", join_labels(tracking))

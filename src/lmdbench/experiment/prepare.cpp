@@ -44,7 +44,7 @@ std::shared_ptr<const Body> load_body(const MeshChoice& choice, const std::strin
       is_mesh_name(choice.mesh)
           ? resolve_mesh(choice.mesh, experiment.mesh_folder)
           : resolve_mesh((experiment.file.parent_path() / choice.mesh).lexically_normal().string());
-  TriangleMesh mesh = resolved.mesh;
+  TriangleMesh mesh = resolved.mesh;  // `resolved` keeps what vertex files are held against
   // In the file's coordinates, which tell how they were rounded; scaling hides that.
   const double scale = choice.placement.factor(mesh);
   PlanarTolerance tolerance = choice.planar_tolerance;
@@ -55,6 +55,13 @@ std::shared_ptr<const Body> load_body(const MeshChoice& choice, const std::strin
   flattening.tolerance *= scale;
   flattening.largest_move *= scale;
   mesh = placed(std::move(mesh), choice.placement);
+  std::shared_ptr<const FrameVertices> vertices;
+  if (choice.deformation)
+    vertices = std::make_shared<const FrameVertices>(
+        *choice.deformation,
+        DeformingMesh{resolved.mesh, choice.placement, mesh,
+                      role == "moving" ? std::nullopt : std::optional(choice.pose)},
+        experiment.frame_rate_hz);
   const RigidTransform X_WF(choice.pose);
   if (role != "moving" && !choice.instances)
     for (Vec3& vertex : mesh.vertices) vertex = X_WF.point(vertex);
@@ -69,7 +76,8 @@ std::shared_ptr<const Body> load_body(const MeshChoice& choice, const std::strin
                    flattening,
                    orientation,
                    {},
-                   0});
+                   0,
+                   std::move(vertices)});
   return body;
 }
 
@@ -250,6 +258,35 @@ Scene load_scene(const Experiment& experiment, std::vector<MeshNote>& notes) {
 
 namespace {
 
+/// What deforming does to triangles, and what follows meshes that deform.
+void warn_of_deformation(PreparedRun& prepared) {
+  if (!prepared.input.deformation) return;
+  for (const MeshNote& note : prepared.meshes) {
+    if (!note.vertices) continue;
+    const std::vector<DeformationStep>& steps = prepared.input.deformation->find(note.body_index())->steps;
+    const auto warn = [&](const char* what, std::int64_t DeformationStep::*count,
+                          std::int32_t DeformationStep::*first) {
+      std::int64_t all = 0, frames = 0;
+      std::string where;
+      for (std::size_t frame = 0; frame < steps.size(); ++frame) {
+        if (steps[frame].*count == 0) continue;
+        if (frames++ == 0) where = fmt::format("triangle {} in frame {}", steps[frame].*first, frame);
+        all += steps[frame].*count;
+      }
+      if (all > 0)
+        prepared.warnings.emplace_back(fmt::format(
+            "{} mesh {}: as it deforms, triangles {} {} times, in {} of {} frames, first {}; the mesh "
+            "is taken as its vertices say",
+            note.role, note.name, what, all, frames, steps.size(), where));
+    };
+    warn("turn over", &DeformationStep::turned_over, &DeformationStep::first_turned_over);
+    warn("lose their area", &DeformationStep::lost_area, &DeformationStep::first_lost_area);
+  }
+  if (prepared.made_path)
+    prepared.warnings.emplace_back(
+        "the path is made for the meshes at rest: as they deform they may intersect, or not meet");
+}
+
 /// What an aggregation other than the sum cannot keep to.
 void warn_of_aggregation(const Experiment& experiment, PreparedRun& prepared) {
   bool asks_indices = false;
@@ -275,7 +312,17 @@ void warn_of_aggregation(const Experiment& experiment, PreparedRun& prepared) {
 
 }  // namespace
 
-PreparedRun prepare(const Experiment& experiment, const Progress& progress) {
+std::shared_ptr<const SceneDeformation> deformation_of(const Scene& scene, const std::vector<MeshNote>& notes,
+                                                       std::int64_t frames) {
+  std::vector<DeformingBody> bodies;
+  for (const MeshNote& note : notes)
+    if (note.vertices) bodies.push_back({note.body_index(), note.vertices});
+  if (bodies.empty()) return nullptr;
+  return std::make_shared<const SceneDeformation>(scene, std::move(bodies), frames);
+}
+
+PreparedRun prepare(const Experiment& experiment, const Progress& progress, Deforming deforming) {
+  if (deforming == Deforming::REFUSED) refuse_deformation(experiment);
   const Device& device = device_named(experiment.device, experiment.file.string(), "/device");
   std::vector<InputFile> files;
   Path frames;
@@ -309,27 +356,30 @@ PreparedRun prepare(const Experiment& experiment, const Progress& progress) {
     defaults.push_back(note_of(*made_path, hardest->force.cutoff));
   }
 
-  PreparedRun prepared{.profiles = std::move(profiles),
-                       .input = {.poses = {},
-                                 .frame_rate_hz = experiment.frame_rate_hz,
-                                 .make_poses = {},
-                                 .frames = std::nullopt,
-                                 .reference_M = Vec3::Zero(),
-                                 .device = VirtualPhantom(device),
-                                 .keep_lmds = {}},
-                       .times = {},
-                       .meshes = std::move(notes),
-                       .files = std::move(files),
-                       .starts_touching = false,
-                       .warnings = {},
-                       .path_gaps = std::move(gaps),
-                       .made_path = std::move(made_path),
-                       .defaults = std::move(defaults)};
+  PreparedRun prepared{
+      .profiles = std::move(profiles),
+      .input = {.poses = {},
+                .frame_rate_hz = experiment.frame_rate_hz,
+                .make_poses = {},
+                .frames = std::nullopt,
+                .reference_M = Vec3::Zero(),
+                .device = VirtualPhantom(device),
+                .keep_lmds = {},
+                .deformation = deformation_of(scene, notes, static_cast<std::int64_t>(frames.size()))},
+      .times = {},
+      .meshes = std::move(notes),
+      .files = std::move(files),
+      .starts_touching = false,
+      .warnings = {},
+      .path_gaps = std::move(gaps),
+      .made_path = std::move(made_path),
+      .defaults = std::move(defaults)};
   prepared.input.reference_M = bounding_box_centre(prepared.scene().moving->surface().mesh);
   for (const TimedPose& frame : frames) {
     prepared.input.poses.push_back(frame.pose);
     prepared.times.push_back(frame.time);
   }
+  warn_of_deformation(prepared);
   if (experiment.realtime && experiment.realtime->seconds)
     lengthen(prepared.input.poses, prepared.times, experiment.frame_rate_hz, *experiment.realtime->seconds);
   for (const MeshNote& note : prepared.meshes) {
@@ -338,6 +388,9 @@ PreparedRun prepare(const Experiment& experiment, const Progress& progress) {
     });
     if (note.file && !listed)
       prepared.files.push_back({"mesh:" + note.name, *note.file, note.sha256, note.size});
+    if (note.vertices && !note.vertices->sha256().empty())
+      prepared.files.push_back({"vertices:" + note.role, vertex_files(note.vertices->deformation()).front(),
+                                note.vertices->sha256(), note.vertices->file_bytes()});
     if (note.flattening.moved_vertices > 0)
       prepared.warnings.emplace_back(
           fmt::format("{} mesh {}: {}", note.role, note.name, to_text(note.flattening)));
@@ -360,7 +413,9 @@ PreparedRun prepare(const Experiment& experiment, const Progress& progress) {
     };
   warn_of_aggregation(experiment, prepared);
   prepare_hierarchies(prepared.scene());
-  prepared.starts_touching = touches(prepared.scene(), prepared.input.poses.front());
+  DeformingScene first_frame(prepared.scene(), prepared.input.deformation);
+  first_frame.to_frame(0);
+  prepared.starts_touching = touches(first_frame.scene(), prepared.input.poses.front());
   if (prepared.starts_touching)
     prepared.warnings.emplace_back(
         "the meshes touch in the first frame: LMDs at distance 0 have no direction there and exert no force "
@@ -387,6 +442,16 @@ std::vector<std::filesystem::path> input_files(const Experiment& experiment) {
     add(choice);
     if (choice.instances && !choice.instances->file.empty()) files.push_back(choice.instances->file);
   }
+  std::vector<const MeshChoice*> choices{&experiment.moving};
+  for (const MeshChoice& choice : experiment.fixed) choices.push_back(&choice);
+  for (const MeshChoice* choice : choices) {
+    if (!choice->deformation) continue;
+    files.insert(files.end(), choice->deformation->files.begin(), choice->deformation->files.end());
+    std::error_code none;  // A folder that is not there has no file; loading it says so.
+    if (!choice->deformation->folder.empty() &&
+        std::filesystem::is_directory(choice->deformation->folder, none))
+      for (const std::filesystem::path& file : vertex_files(*choice->deformation)) files.push_back(file);
+  }
   return files;
 }
 
@@ -400,7 +465,10 @@ std::vector<LockstepMethod> lockstep_methods(const Experiment& experiment, const
                        [name = choice.name, options = choice.options, scene = profile.scene] {
                          return make_method(name, scene, options);
                        },
-                       force, choice.aggregation, profile.scene});
+                       force, choice.aggregation, profile.scene,
+                       [name = choice.name, options = choice.options](const Scene& scene) {
+                         return make_method(name, scene, options);
+                       }});
   }
   return methods;
 }

@@ -4,6 +4,7 @@
 
 #include <lmdbench/experiment/experiment.h>
 #include <lmdbench/experiment/lockstep.h>
+#include <lmdbench/experiment/scene_deformation.h>
 #include <lmdbench/lmd/scene.h>
 #include <lmdbench/mesh/flatten.h>
 #include <lmdbench/mesh/validity.h>
@@ -12,6 +13,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -30,6 +32,12 @@ struct MeshNote {
   OrientationReport orientation;
   std::vector<Pose> instances;        ///< X_WF of each; empty for a mesh that is in the world frame.
   std::int64_t first_fixed_body = 0;  ///< `Lmd::fixed_body` of the first of a fixed mesh.
+  std::shared_ptr<const FrameVertices> vertices = nullptr;  ///< Of a mesh that deforms, frame by frame.
+
+  /// DeformingBody::index of a mesh without instances.
+  std::size_t body_index() const {
+    return role == "moving" ? 0 : static_cast<std::size_t>(first_fixed_body) + 1;
+  }
 };
 
 /// A force profile with the scene that it reaches into: the meshes under its cutoff, which all profiles share.
@@ -37,6 +45,17 @@ struct PreparedProfile {
   std::string name;    ///< Empty for one alone.
   ForceProfile force;  ///< Its law is each method's own.
   Scene scene;
+};
+
+/// How the bodies of a loaded scene deform in so many frames; null where none does.
+/// @param notes of `load_scene`
+std::shared_ptr<const SceneDeformation> deformation_of(const Scene& scene, const std::vector<MeshNote>& notes,
+                                                       std::int64_t frames);
+
+/// What who prepares a run makes of meshes that deform.
+enum class Deforming : std::uint8_t {
+  REFUSED,  ///< Looks at the meshes at rest alone: an error where one deforms.
+  FOLLOWED  ///< Takes each frame at its shape (LockstepInput::deformation).
 };
 
 /// An experiment's inputs, loaded: all that a run works on.
@@ -65,8 +84,9 @@ Scene load_scene(const Experiment& experiment, std::vector<MeshNote>& notes);
 /// in contact are noted, not refused.
 /// @param progress of making a path; may stop it by returning false, which throws Interrupted
 /// @throws InputError for a mesh or path that cannot be used, UsageError for a profile that does not
-///         fit the mesh
-PreparedRun prepare(const Experiment& experiment, const Progress& progress = {});
+///         fit the mesh, and for meshes that deform where they are refused
+PreparedRun prepare(const Experiment& experiment, const Progress& progress = {},
+                    Deforming deforming = Deforming::REFUSED);
 
 /// Frames that the truth probe looks at; empty where it is off.
 std::vector<std::int64_t> truth_frames(const Experiment& experiment, const PreparedRun& prepared);

@@ -49,7 +49,9 @@ struct SearchRecord {
 
 /// Times of one repetition [s]; NaN for what did not happen.
 struct RepetitionTimes {
-  std::vector<double> local_update;   ///< one a frame
+  std::vector<double> local_update;  ///< one a frame
+  std::vector<double>
+      following;  ///< The part of it in which bodies that deform got the frame's shape; empty without such.
   std::vector<double> global_search;  ///< one a search, as the next two
   std::vector<double> first_reduction;
   std::vector<double> second_tracking;

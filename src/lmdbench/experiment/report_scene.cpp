@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/base/atomic_file.h>
+#include <lmdbench/base/error.h>
 #include <lmdbench/catalogue/off_file.h>
 #include <lmdbench/experiment/report_scene.h>
 #include <lmdbench/experiment/result_scene.h>
@@ -22,7 +23,11 @@ constexpr std::size_t MOST_FRAMES = 600;
 }  // namespace
 
 void write_report_scene(const ResultReader& result, const std::filesystem::path& folder) {
-  const Scene scene = scene_of_result(result);
+  const ResultScene result_scene = deforming_scene_of_result(result);
+  if (result_scene.deformation)
+    throw UsageError(result.file().string(), "", "the view does not draw meshes that deform",
+                     "lmdbench export writes the shape of each frame, for ParaView");
+  const Scene& scene = result_scene.rest;
   write_off(folder / "moving.off", scene.moving->surface().mesh);
   const std::vector<ResultTrack> tracks = tracks_of_result(result, MOST_FRAMES);
   for (const std::size_t i : drawn_bodies(scene, tracks))

@@ -59,18 +59,47 @@ ResultTrack track_of(const ResultReader& result, const std::string& method, std:
 
 }  // namespace
 
+namespace {
+
+Experiment experiment_of_result(const ResultReader& result) {
+  return parse_experiment(result.texts("/provenance/experiment").at(0),
+                          result.text_attribute("/provenance", "experiment_file").value_or(""));
+}
+
+/// Vertex files must be those that were run.
+void check_vertex_files(const std::vector<MeshNote>& notes, const ResultReader& result) {
+  const std::vector<std::string> roles = result.texts("/provenance/inputs/role");
+  const std::vector<std::string> hashes = result.texts("/provenance/inputs/sha256");
+  for (const MeshNote& note : notes) {
+    if (!note.vertices || note.vertices->sha256().empty()) continue;
+    const auto found = std::ranges::find(roles, "vertices:" + note.role);
+    if (found == roles.end() ||
+        hashes[static_cast<std::size_t>(found - roles.begin())] != note.vertices->sha256())
+      throw InputError(vertex_files(note.vertices->deformation()).front().string(), "",
+                       "this or another vertex file has changed since the run",
+                       "give them back their content, or run the experiment again");
+  }
+}
+
+}  // namespace
+
 Scene scene_of_result(const ResultReader& result) {
-  Experiment experiment =
-      parse_experiment(result.texts("/provenance/experiment").at(0),
-                       result.text_attribute("/provenance", "experiment_file").value_or(""));
+  refuse_deformation(experiment_of_result(result));
+  return deforming_scene_of_result(result).rest;
+}
+
+ResultScene deforming_scene_of_result(const ResultReader& result) {
+  Experiment experiment = experiment_of_result(result);
   use_recorded_files(experiment, result);
   std::vector<MeshNote> notes;
   Scene scene = load_scene(experiment, notes);
+  check_vertex_files(notes, result);
   scene.cutoff = result.real_attribute("/scene", "cutoff_m").value();
   for (const std::string& label : result.groups("/methods"))
     scene.cutoff =
         std::max(scene.cutoff, result.real_attribute("/methods/" + label, "cutoff_m").value_or(0.0));
-  return scene;
+  const auto frames = static_cast<std::int64_t>(result.reals("/path/time").size());
+  return {scene, deformation_of(scene, notes, frames)};
 }
 
 std::vector<ResultTrack> tracks_of_result(const ResultReader& result, std::size_t most_frames) {

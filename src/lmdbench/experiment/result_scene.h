@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <lmdbench/experiment/scene_deformation.h>
 #include <lmdbench/lmd/method.h>
 #include <lmdbench/lmd/scene.h>
 #include <lmdbench/motion/path.h>
@@ -17,8 +18,15 @@ namespace lmdbench {
 
 /// The meshes of a result as they stood in the scene, under the largest cutoff of its methods.
 /// @throws InputError where a mesh is not to be had any more or is no longer what was run; UsageError where the result's
-/// experiment is none
+/// experiment is none, or a mesh of it deforms
 Scene scene_of_result(const ResultReader& result);
+
+/// The same with how its bodies deform; null where none does.
+struct ResultScene {
+  Scene rest;
+  std::shared_ptr<const SceneDeformation> deformation;
+};
+ResultScene deforming_scene_of_result(const ResultReader& result);
 
 /// Poses that methods of a result went through.
 struct ResultTrack {

@@ -13,6 +13,8 @@
 namespace lmdbench {
 namespace {
 
+constexpr const char* DEFORMS = "a mesh deforms: the same pose is not the same scene";
+
 RuleVerdict shared_mesh(const RuleFacts& facts) {
   for (std::size_t i = 0; i < facts.experiment.fixed.size(); ++i)
     if (same_body(facts.experiment, i))
@@ -56,6 +58,7 @@ RuleVerdict repeated_pose(const RuleFacts& facts) {
   const std::vector<std::int64_t> fcl_frames =
       probed_frames(static_cast<std::int64_t>(facts.poses.size()), facts.experiment.fcl_stride_frames);
   if (facts.truth_frames.empty() && fcl_frames.empty()) return {false, "no frame is probed"};
+  if (facts.experiment.deforms()) return {false, DEFORMS};
   // What a closed loop's encoders will tell nobody knows, but they count in steps.
   if (facts.experiment.loop.closed) {
     const bool steps = facts.experiment.loop.resolution_m > 0.0;
@@ -76,6 +79,7 @@ RuleVerdict repeated_pose(const RuleFacts& facts) {
 
 RuleVerdict warm_crosscheck(const RuleFacts& facts) {
   if (facts.experiment.fcl_stride_frames == 0) return {false, "nothing is compared with FCL"};
+  if (facts.experiment.deforms()) return {false, DEFORMS};
   return {true,
           fmt::format("minimum distances every {} frames of one path", facts.experiment.fcl_stride_frames)};
 }
@@ -175,7 +179,7 @@ nlohmann::ordered_json rules_json(const std::vector<RuleDecision>& decisions) {
 
 bool same_mesh(const MeshChoice& a, const MeshChoice& b) {
   return a.mesh == b.mesh && a.placement == b.placement && a.planar_tolerance == b.planar_tolerance &&
-         a.orientation == b.orientation;
+         a.orientation == b.orientation && !a.deformation && !b.deformation;
 }
 
 bool same_body(const Experiment& experiment, std::size_t index) {

@@ -91,7 +91,7 @@ std::string rules_text(const std::vector<RuleDecision>& decisions);
 /// [{"name", "on", "effect", "saving", "reason"}]
 nlohmann::ordered_json rules_json(const std::vector<RuleDecision>& decisions);
 
-/// Whether two choices make one mesh of the same file in the same way; poses aside.
+/// Whether two choices make one rigid mesh of the same file in the same way; poses aside.
 bool same_mesh(const MeshChoice& a, const MeshChoice& b);
 
 /// Whether moving and fixed mesh `index` are one and the same at the same place, so that one preparation serves both.

@@ -4,7 +4,7 @@
 #include <lmdbench/base/error.h>
 #include <lmdbench/base/file_hash.h>
 #include <lmdbench/base/output_guard.h>
-#include <lmdbench/experiment/contact.h>
+#include <lmdbench/experiment/deforming_distance.h>
 #include <lmdbench/experiment/realtime_driver.h>
 #include <lmdbench/experiment/run.h>
 #include <lmdbench/experiment/write_realtime.h>
@@ -125,8 +125,17 @@ RunResult run_and_keep(const Experiment& experiment, const RunProgress& progress
     if (!progress) return {};
     return [&progress, name](std::int64_t done, std::int64_t total) { return progress(name, done, total); };
   };
-  RunResult result{
-      make_plan(experiment), prepare(experiment, phase("path")), {}, {}, {}, {}, {}, false, {}, {}, 0};
+  RunResult result{make_plan(experiment),
+                   prepare(experiment, phase("path"), Deforming::FOLLOWED),
+                   {},
+                   {},
+                   {},
+                   {},
+                   {},
+                   false,
+                   {},
+                   {},
+                   0};
   make_tracks(experiment, result);
   PreparedRun& prepared = result.prepared;
   result.warnings = prepared.warnings;
@@ -143,7 +152,8 @@ RunResult run_and_keep(const Experiment& experiment, const RunProgress& progress
   const std::unique_ptr<RunKeeper> keeper =
       make_keeper ? make_keeper(result, prepared.input.frames.value_or(frame_count)) : nullptr;
   const bool forecast = allowed(experiment.rules, Rule::CONTACT_FORECAST);
-  result.in_contact = frames_in_contact(prepared.scene(), prepared.input.poses, forecast);
+  result.in_contact =
+      frames_in_contact(prepared.scene(), prepared.input.deformation, prepared.input.poses, forecast);
   result.plan.scene = look_at(experiment, prepared, result.in_contact);
   for (const SceneWarning& warning : result.plan.scene->warnings) result.warnings.push_back(to_text(warning));
   result.plan.rules = decide_rules({experiment, prepared.input.poses, result.in_contact, probed});
@@ -170,8 +180,9 @@ RunResult run_and_keep(const Experiment& experiment, const RunProgress& progress
     LockstepInput input = prepared.input;
     input.make_poses = nullptr;
     if (experiment.loop.closed) input.poses = result.records[track.methods.front()].poses;
-    track.in_contact =
-        result.one_track ? result.in_contact : frames_in_contact(profile.scene, input.poses, forecast);
+    track.in_contact = result.one_track
+                           ? result.in_contact
+                           : frames_in_contact(profile.scene, input.deformation, input.poses, forecast);
     if (result.plan.needs(Part::TRUTH_PROBE))
       track.truth = probe_truth(
           profile.scene, input, profile.force, *experiment.profiles[track.profile].aggregation, probed,

@@ -101,6 +101,9 @@ void RunKeeper::for_each_dataset(Visit&& visit) {
     visit(kept.local_update_time,
           DatasetInfo{group + "local_update_time", "s", "time of the frame's local part, by repetition"},
           ElementKind::REAL, std::vector{repetitions, frames_}, std::size_t{1});
+    if (deforms_)
+      visit(kept.following_time, following_time_info(group), ElementKind::REAL,
+            std::vector{repetitions, frames_}, std::size_t{1});
   }
 }
 
@@ -110,7 +113,8 @@ RunKeeper::RunKeeper(PartFile& part, const Experiment& experiment, std::int64_t 
       repetitions_(experiment.driver.repetitions),
       frames_(static_cast<std::size_t>(frames)),
       searches_(static_cast<std::size_t>((frames + experiment.driver.search_every_frames - 1) /
-                                         experiment.driver.search_every_frames)) {
+                                         experiment.driver.search_every_frames)),
+      deforms_(experiment.deforms()) {
   for (const MethodChoice& choice : experiment.methods) {
     const MethodDescription method = described(experiment, choice.name);
     KeptMethod kept;
@@ -187,6 +191,7 @@ void RunKeeper::keep(std::int64_t repetition, std::size_t method, MethodRecord& 
   if (frame < known) {
     if (repetition == 0) check_force(frame, kept, record);
     times.local_update.back() = kept.local_update_time.real(row);
+    if (deforms_) times.following.back() = kept.following_time.real(row);
     if (frame + 1 == known) adopt_searches(repetition, kept, times);
     return;
   }
@@ -198,6 +203,7 @@ void RunKeeper::keep(std::int64_t repetition, std::size_t method, MethodRecord& 
     }
   }
   if (search_changed) keep_searches(repetition, kept, record);
+  if (deforms_) kept.following_time.set_real(row, times.following.back());
   // The frame counts from here on; the compiler must not store this any earlier.
   std::atomic_signal_fence(std::memory_order_seq_cst);
   kept.local_update_time.set_real(row, times.local_update.back());
@@ -251,6 +257,8 @@ RepetitionTimes RunKeeper::times(std::int64_t repetition, std::size_t method, st
   RepetitionTimes times;
   for (std::size_t frame = 0; frame < frames_; ++frame)
     times.local_update.push_back(kept.local_update_time.real(first * frames_ + frame));
+  for (std::size_t frame = 0; deforms_ && frame < frames_; ++frame)
+    times.following.push_back(kept.following_time.real(first * frames_ + frame));
   for (std::vector<double>* of_searches :
        {&times.global_search, &times.first_reduction, &times.second_tracking})
     of_searches->assign(searches, UNSET);

@@ -71,6 +71,7 @@ class RunKeeper {
     std::vector<SearchTime> search_times;
     std::vector<ReservedDataset> search_time_values;  ///< Rows: repetition by repetition.
     ReservedDataset local_update_time;                ///< Likewise.
+    ReservedDataset following_time;                   ///< Likewise; where meshes deform.
     std::vector<std::int64_t> known_frames;           ///< By repetition, from the start.
   };
   template <typename Visit>
@@ -83,6 +84,7 @@ class RunKeeper {
   std::int64_t repetitions_;
   std::size_t frames_;
   std::size_t searches_;  ///< Room for so many.
+  bool deforms_;
   std::vector<std::string> labels_;
   std::vector<KeptMethod> methods_;
   std::optional<PartialResult> file_;

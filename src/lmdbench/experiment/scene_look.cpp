@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/experiment/deforming_distance.h>
 #include <lmdbench/experiment/prepare.h>
 #include <lmdbench/experiment/scene_look.h>
 #include <lmdbench/mesh/winding_number.h>
@@ -63,15 +64,17 @@ void look_at_cutoff(SceneLook& look) {
 /// Distances do not tell inside from outside.
 void look_inside(SceneLook& look, const PreparedRun& prepared) {
   if (prepared.scene().is_world()) return;  // where meshes may well be in each other
-  const BoxedMesh moving(look.meshes.front(), prepared.scene().moving->surface().mesh);
+  DeformingScene bodies(prepared.scene(), prepared.input.deformation);
   const std::vector<Pose>& poses = prepared.input.poses;
   const auto count = static_cast<std::int64_t>(poses.size());
   const std::int64_t samples = std::min(INSIDE_SAMPLES, count);
   for (std::size_t i = 0; i < prepared.scene().fixed.size(); ++i) {
-    const BoxedMesh fixed(look.meshes[i + 1], prepared.scene().fixed[i]->surface().mesh);
     std::int64_t enclosed = 0, inside = 0, first_enclosed = -1, first_inside = -1;
     for (std::int64_t k = 0; k < samples; ++k) {
       const std::int64_t frame = samples == 1 ? 0 : k * (count - 1) / (samples - 1);
+      bodies.to_frame(frame);
+      const BoxedMesh moving(look.meshes.front(), bodies.scene().moving->surface().mesh);
+      const BoxedMesh fixed(look.meshes[i + 1], bodies.scene().fixed[i]->surface().mesh);
       const RigidTransform X_WM(poses[static_cast<std::size_t>(frame)]);
       const Pose& pose = poses[static_cast<std::size_t>(frame)];
       const Vec3 fixed_M = pose.rotation.conjugate() * (fixed.mesh.vertices.front() - pose.translation);
@@ -116,13 +119,25 @@ void look_at_path(SceneLook& look, const PreparedRun& prepared) {
   double bound = std::numeric_limits<double>::infinity();
   std::optional<BroadPhase> phase;
   if (prepared.scene().is_world()) phase.emplace(prepared.scene());
+  std::optional<DeformingDistance> deforming;
+  if (prepared.input.deformation) deforming.emplace(prepared.scene(), prepared.input.deformation);
   for (std::size_t frame = 0; frame < prepared.input.poses.size(); ++frame) {
+    const auto at = static_cast<std::int64_t>(frame);
+    if (deforming) {
+      const Pose& pose = prepared.input.poses[frame];
+      if (deforming->known(at, pose).least >= bound) continue;
+      const double distance = deforming->look(at, pose);
+      if (!(distance < bound)) continue;
+      bound = distance;
+      look.nearest_frame = at;
+      continue;
+    }
     if (phase) {
       const double least =
           nearest_instance(prepared.scene(), *phase, prepared.input.poses[frame], bound).distance;
       if (!(least < bound)) continue;
       bound = least;
-      look.nearest_frame = static_cast<std::int64_t>(frame);
+      look.nearest_frame = at;
       continue;
     }
     for (const auto& fixed : prepared.scene().fixed) {
@@ -131,7 +146,7 @@ void look_at_path(SceneLook& look, const PreparedRun& prepared) {
                        fixed->surface(), fixed->prepared<Hierarchy>(), prepared.input.poses[frame], bound);
       if (pair.triangle_moving < 0 || !(pair.distance < bound)) continue;
       bound = pair.distance;
-      look.nearest_frame = static_cast<std::int64_t>(frame);
+      look.nearest_frame = at;
     }
   }
   look.nearest = bound;

@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/catalogue/deformation.h>
 #include <lmdbench/experiment/rules.h>
 #include <lmdbench/experiment/schema.h>
 #include <lmdbench/experiment/schema_text.h>
@@ -38,6 +39,12 @@ void add_aggregations(Json& choice) {
   choice["description"] = text;
 }
 
+/// The generators that there are.
+void add_generators(Json& choice) {
+  choice["enum"] = Json::array();
+  for (const DeformationKind kind : deformation_kinds()) choice["enum"].push_back(to_string(kind));
+}
+
 }  // namespace
 
 const Json& experiment_schema() {
@@ -45,6 +52,7 @@ const Json& experiment_schema() {
     Json text = Json::parse(experiment_schema_text());
     add_method_options(text["properties"]["methods"]["items"]);
     add_aggregations(text["properties"]["force"]["properties"]["aggregation"]);
+    add_generators(text["definitions"]["deformation"]["properties"]["generator"]);
     text["properties"]["plan"] = rules_schema();
     return text;
   }();

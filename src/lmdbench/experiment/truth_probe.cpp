@@ -31,8 +31,10 @@ std::vector<TruthFrame> probe_truth(const Scene& scene, const LockstepInput& inp
                                     const ForceProfile& profile, const Aggregation& aggregation,
                                     const std::vector<std::int64_t>& frames, const Progress& progress,
                                     const std::vector<bool>* in_contact, bool reuse_repeated) {
-  const std::unique_ptr<Method> exhaustive = make_method("exhaustive", scene);
-  ContactFinder contacts(aggregation, scene);
+  DeformingScene bodies(scene, input.deformation);
+  reuse_repeated = reuse_repeated && !bodies.deforms();
+  const std::unique_ptr<Method> exhaustive = make_method("exhaustive", bodies.scene());
+  ContactFinder contacts(aggregation, bodies.scene());
   WorkCounters ignored;
   /// Set and rendered forces of a frame.
   struct Found {
@@ -46,6 +48,7 @@ std::vector<TruthFrame> probe_truth(const Scene& scene, const LockstepInput& inp
     if (in_contact != nullptr && !(*in_contact)[at]) return {};
     const Pose& X_WM = input.poses[at];
     if (reuse_repeated && searched && same_pose(*searched, X_WM)) return last;
+    bodies.to_frame(frame);
     Found found;
     contacts.search(*exhaustive, X_WM, found.lmds, ignored);
     const Vec3 reference_W = RigidTransform(X_WM).point(input.reference_M);

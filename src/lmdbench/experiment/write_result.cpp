@@ -78,6 +78,8 @@ void write_frames(ResultWriter& writer, const std::string& group, const MethodCh
   if (experiment.record_timings)
     write_times(writer, {group + "/local_update_time", "s", "time of the frame's local part, by repetition"},
                 record.repetitions, &RepetitionTimes::local_update);
+  if (experiment.record_timings && experiment.deforms())
+    write_times(writer, following_time_info(group + "/"), record.repetitions, &RepetitionTimes::following);
 }
 
 /// What only a method with a search of its own rate has.

@@ -5,6 +5,9 @@
 #include <nlohmann/json.hpp>
 
 #include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
 
 namespace lmdbench {
 
@@ -35,6 +38,28 @@ void write_instances(ResultWriter& writer, const std::string& group, const MeshN
                std::span<const double>(orientation), {mesh.instances.size(), 4});
 }
 
+/// How a mesh deforms, and what each frame changes of it.
+void write_deformation(ResultWriter& writer, const std::string& group, const MeshNote& mesh,
+                       const DeformingBody& body) {
+  writer.attribute(group, "deformation", to_text(mesh.vertices->deformation()));
+  writer.attribute(group, "farthest_m", body.farthest);
+  const auto integers = [&](const char* name, const char* long_name, std::int64_t DeformationStep::*value) {
+    std::vector<std::int64_t> values;
+    for (const DeformationStep& step : body.steps) values.push_back(step.*value);
+    writer.write({group + "/deformation/" + name, "1", long_name}, std::span<const std::int64_t>(values),
+                 {values.size()});
+  };
+  integers("moved_vertices", "vertices that moved since the frame before, in the first frame since rest",
+           &DeformationStep::moved_vertices);
+  integers("turned_over", "triangles whose normal turned by more than a right angle since then",
+           &DeformationStep::turned_over);
+  integers("lost_area", "triangles that had an area then and have none", &DeformationStep::lost_area);
+  std::vector<double> moves;
+  for (const DeformationStep& step : body.steps) moves.push_back(step.largest_move);
+  writer.write({group + "/deformation/largest_move", "m", "longest way of a vertex since then"},
+               std::span<const double>(moves), {moves.size()});
+}
+
 }  // namespace
 
 void write_scene(ResultWriter& writer, const RunResult& result) {
@@ -60,6 +85,8 @@ void write_scene(ResultWriter& writer, const RunResult& result) {
     writer.attribute(group, "turned_triangles", mesh.orientation.turned_triangles);
     writer.attribute(group, "validity", to_json(mesh.report).dump());
     if (!mesh.instances.empty()) write_instances(writer, group, mesh);
+    if (mesh.vertices)
+      write_deformation(writer, group, mesh, *prepared.input.deformation->find(mesh.body_index()));
   }
   writer.attribute("/scene", "starts_touching", std::int64_t{prepared.starts_touching});
   writer.write({"/scene/warnings", "1", "what a reader of this result must know"}, result.warnings);
