@@ -106,6 +106,16 @@ std::unique_ptr<Method> make_method(std::string_view name, const Scene& scene, c
   return std::make_unique<RemadeMethod>(scene, make);
 }
 
+std::function<std::unique_ptr<Method>(const Scene&)> method_maker(std::string_view name,
+                                                                  const Json& options) {
+  const MethodDescription& description = method_description(name);
+  const Json complete = complete_options(description, options, "options of " + description.name);
+  return [&description, complete](const Scene& scene) {
+    refuse_two_hubs(scene);
+    return description.make(scene, complete);
+  };
+}
+
 std::string methods_help() {
   std::string text = "Methods and their options:\n";
   for (const MethodDescription& description : method_descriptions()) {

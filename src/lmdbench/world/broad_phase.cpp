@@ -1,6 +1,5 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include <lmdbench/lmd/contact_tolerance.h>
 #include <lmdbench/world/broad_phase.h>
 
 #include <algorithm>
@@ -10,13 +9,6 @@
 namespace lmdbench {
 
 namespace {
-
-/// At least what the definition knows a mesh to, with the largest coordinate bounded by the sphere.
-double known_at_most(const Body& body) {
-  const auto& bounds = body.prepared<MeshBounds>();
-  return std::max(body.surface().mesh.planar_tolerance,
-                  LEAST_TOLERANCE * (bounds.centre.norm() + bounds.radius));
-}
 
 std::vector<Eigen::AlignedBox3d> boxes_of(const Scene& scene) {
   std::vector<Eigen::AlignedBox3d> boxes;
@@ -63,12 +55,12 @@ BroadPhase::BroadPhase(const Scene& scene, double slack)
       meshes_.push_back(fixed.body);
       bounds_.push_back(&fixed->prepared<MeshBounds>());
       outlines_.push_back(&fixed->prepared<MeshOutline>());
-      known_fixed = std::max(known_fixed, known_at_most(*fixed));
+      known_fixed = std::max(known_fixed, bounds_.back()->known);
     }
     mesh_.push_back(place->second);
     poses_.push_back(fixed.X_WF);
   }
-  reach_ = scene.cutoff + 2.0 * (known_at_most(*scene.moving) + known_fixed);
+  reach_ = scene.cutoff + 2.0 * (moving_.known + known_fixed);
 }
 
 double BroadPhase::room_of(std::uint32_t instance, const RigidTransform& X_WM,

@@ -23,6 +23,11 @@ using FloatPoint = bg::model::point<float, 3, bg::cs::cartesian>;
 using FloatBox = bg::model::box<FloatPoint>;
 using Entry = std::pair<FloatBox, std::uint32_t>;
 
+/// An instance has one box.
+struct SameInstance {
+  bool operator()(const Entry& a, const Entry& b) const { return a.second == b.second; }
+};
+
 /// The next number of single precision that is not above x, or not below it.
 float rounded_outwards(double x, bool down) {
   const auto near = static_cast<float>(x);
@@ -55,7 +60,9 @@ constexpr double ORDER_ROUNDING = 1e-6;
 class InstanceTree::Tree {
  public:
   explicit Tree(const std::vector<Entry>& entries) : entries_(entries.begin(), entries.end()) {}
-  bg::index::rtree<Entry, bg::index::rstar<8>> entries_;
+  // How nodes are split matters only for what is moved: packing does not ask. (GCC 12 takes the R*-tree's insertion for a write beyond its
+  // nodes.)
+  bg::index::rtree<Entry, bg::index::quadratic<8>, bg::index::indexable<Entry>, SameInstance> entries_;
 };
 
 InstanceTree::InstanceTree(std::span<const Eigen::AlignedBox3d> boxes) {
@@ -69,6 +76,12 @@ InstanceTree::InstanceTree(std::span<const Eigen::AlignedBox3d> boxes) {
 InstanceTree::~InstanceTree() = default;
 InstanceTree::InstanceTree(InstanceTree&& other) noexcept = default;
 InstanceTree& InstanceTree::operator=(InstanceTree&& other) noexcept = default;
+
+void InstanceTree::move(std::uint32_t instance, const Eigen::AlignedBox3d& from,
+                        const Eigen::AlignedBox3d& to) {
+  tree_->entries_.remove(Entry(grown(from), instance));
+  tree_->entries_.insert(Entry(grown(to), instance));
+}
 
 void InstanceTree::touching(const Eigen::AlignedBox3d& box, std::vector<std::uint32_t>& instances) const {
   instances.clear();

@@ -24,6 +24,10 @@ class InstanceTree {
   InstanceTree(InstanceTree&& other) noexcept;
   InstanceTree& operator=(InstanceTree&& other) noexcept;
 
+  /// Gives an instance another box.
+  /// @param from the box that it has
+  void move(std::uint32_t instance, const Eigen::AlignedBox3d& from, const Eigen::AlignedBox3d& to);
+
   /// Those whose boxes share a point with `box`, ascending; a few beside it, by the rounding of single precision.
   void touching(const Eigen::AlignedBox3d& box, std::vector<std::uint32_t>& instances) const;
 

@@ -1,7 +1,10 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/lmd/contact_tolerance.h>
 #include <lmdbench/mesh/radius_about.h>
 #include <lmdbench/world/mesh_bounds.h>
+
+#include <algorithm>
 
 namespace lmdbench {
 
@@ -9,10 +12,13 @@ MeshBounds MeshBounds::of(const Surface& surface) {
   Eigen::AlignedBox3d box;
   for (const Vec3& vertex : surface.mesh.vertices) box.extend(vertex);
   MeshBounds bounds;
+  bounds.known = surface.mesh.planar_tolerance;
   if (box.isEmpty()) return bounds;
   bounds.centre = box.center();
   bounds.half_sides = 0.5 * box.sizes();
   bounds.radius = radius_about(surface.mesh, bounds.centre);
+  // The largest coordinate is bounded by the sphere.
+  bounds.known = std::max(bounds.known, LEAST_TOLERANCE * (bounds.centre.norm() + bounds.radius));
   return bounds;
 }
 

@@ -14,6 +14,7 @@ struct MeshBounds {
   Vec3 centre = Vec3::Zero();      ///< Of both.
   Vec3 half_sides = Vec3::Zero();  ///< [m]
   double radius = 0.0;             ///< Of the farthest vertex about the centre [m].
+  double known = 0.0;  ///< At least what the definition knows the mesh to (lmd/contact_tolerance.h) [m].
 
   static MeshBounds of(const Surface& surface);
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include <lmdbench/lmd/near_frame.h>
 #include <lmdbench/world/broad_phase.h>
+#include <lmdbench/world/mesh_pair.h>
 #include <lmdbench/world/world_method.h>
 
 #include <algorithm>
@@ -18,26 +18,21 @@ enum class WorldCounter : std::uint8_t {
   INSTANCES_SEARCHED
 };
 
-using MakeMethod = std::function<std::unique_ptr<Method>(const Scene&)>;
-
 class WorldMethod : public Method {
  public:
-  WorldMethod(const Scene& scene, const MethodDescription& description, MakeMethod make)
+  WorldMethod(const Scene& scene, const MethodDescription& description, MeshPair::Make make)
       : broad_phase_(scene), description_(in_world(description)), make_(std::move(make)) {
-    for (const auto& mesh : broad_phase_.meshes()) {
-      meshes_.emplace_back(NearFrame({scene.moving, {mesh}, scene.cutoff}));
-      // Now, not in the frame in which the first instance comes near.
-      meshes_.back().idle.push_back(make_(meshes_.back().frame.scene()));
-    }
+    for (const auto& mesh : broad_phase_.meshes())
+      meshes_.emplace_back(Scene{scene.moving, {mesh}, scene.cutoff}, make_);
   }
 
   const MethodDescription& description() const override { return description_; }
 
   void search(const Pose& X_WM, LmdSet& lmds, WorkCounters& counters) override {
     lmds.clear();
-    for_each_near(X_WM, counters, [&](Method& method, const Place& place) {
+    for_each_near(X_WM, counters, [&](Method& method, std::uint32_t instance, const PlacedPair& place) {
       method.search(place.X_FM, found_, counters);
-      for (Lmd& lmd : found_) place.to_world(lmd);
+      for (Lmd& lmd : found_) place.to_world(lmd, instance);
       lmds.insert(lmds.end(), found_.begin(), found_.end());
     });
     std::sort(lmds.begin(), lmds.end(), lmd_less);
@@ -53,12 +48,12 @@ class WorldMethod : public Method {
     for (std::size_t begin = 0, end = 0; begin < lmds.size(); begin = end) {
       const auto instance = static_cast<std::uint32_t>(lmds[begin].fixed_body);
       while (end < lmds.size() && lmds[end].fixed_body == lmds[begin].fixed_body) ++end;
-      const Place place = place_of(instance, X_WM);
+      const PlacedPair place = place_of(instance, X_WM);
       found_.assign(lmds.begin() + static_cast<std::ptrdiff_t>(begin),
                     lmds.begin() + static_cast<std::ptrdiff_t>(end));
       for (Lmd& lmd : found_) place.to_mesh(lmd);
-      meshes_[broad_phase_.mesh_of(instance)].idle.front()->track(place.X_FM, found_, counters);
-      for (Lmd& lmd : found_) place.to_world(lmd);
+      mesh_of(instance).shared().track(place.X_FM, found_, counters);
+      for (Lmd& lmd : found_) place.to_world(lmd, instance);
       tracked_.insert(tracked_.end(), found_.begin(), found_.end());
     }
     lmds = tracked_;
@@ -67,57 +62,28 @@ class WorldMethod : public Method {
   void find_critical(const Pose& X_WM, CriticalSet& critical, WorkCounters& counters) override {
     critical.clear();
     CriticalSet found;
-    for_each_near(X_WM, counters, [&](Method& method, const Place& place) {
+    for_each_near(X_WM, counters, [&](Method& method, std::uint32_t instance, const PlacedPair& place) {
       method.find_critical(place.X_FM, found, counters);
-      for (CriticalPair& pair : found) place.to_world(pair.pair);
+      for (CriticalPair& pair : found) place.to_world(pair.pair, instance);
       critical.insert(critical.end(), found.begin(), found.end());
     });
     sort_critical(critical);
   }
 
  private:
-  /// A mesh with the methods for the pair of it and the moving one.
-  struct Mesh {
-    explicit Mesh(NearFrame of_pair) : frame(std::move(of_pair)) {}
-    NearFrame frame;
-    /// Not given to any instance. The first one is never given away while methods keep nothing.
-    std::vector<std::unique_ptr<Method>> idle;
-  };
-
-  /// Where an instance is in a frame.
-  struct Place {
-    std::uint32_t instance;
-    RigidTransform X_WF;
-    Vec3 origin_F;  ///< Of the near frame.
-    Pose X_FM;      ///< Between the near frames.
-
-    void to_world(Lmd& lmd) const {
-      lmd.fixed_body = static_cast<std::int32_t>(instance);
-      lmd.point_moving = X_WF.point(lmd.point_moving + origin_F);
-      lmd.point_fixed = X_WF.point(lmd.point_fixed + origin_F);
-      lmd.direction = X_WF.direction(lmd.direction);
-    }
-    void to_mesh(Lmd& lmd) const {
-      lmd.fixed_body = 0;
-      lmd.point_moving = X_WF.rotation.transpose() * (lmd.point_moving - X_WF.translation) - origin_F;
-      lmd.point_fixed = X_WF.rotation.transpose() * (lmd.point_fixed - X_WF.translation) - origin_F;
-      lmd.direction = X_WF.rotation.transpose() * lmd.direction;
-    }
-  };
-
   /// An instance that was near, with the method that has been given to it.
   struct Given {
     std::uint32_t instance;
     std::unique_ptr<Method> method;
   };
 
-  Place place_of(std::uint32_t instance, const Pose& X_WM) const {
-    const Pose& X_WF = broad_phase_.pose_of(instance);
-    const NearFrame& frame = meshes_[broad_phase_.mesh_of(instance)].frame;
-    return {instance, RigidTransform(X_WF), frame.origin_W(), frame.to_near(relative_pose(X_WF, X_WM))};
+  MeshPair& mesh_of(std::uint32_t instance) { return meshes_[broad_phase_.mesh_of(instance)]; }
+
+  PlacedPair place_of(std::uint32_t instance, const Pose& X_WM) const {
+    return meshes_[broad_phase_.mesh_of(instance)].placed(broad_phase_.pose_of(instance), X_WM);
   }
 
-  /// Calls ask(method, place) for each instance that may be within reach.
+  /// Calls ask(method, instance, place) for each instance that may be within reach.
   template <class Ask>
   void for_each_near(const Pose& X_WM, WorkCounters& counters, Ask&& ask) {
     near_.clear();
@@ -133,20 +99,15 @@ class WorldMethod : public Method {
         near_.push_back(broad_phase_.candidates()[i].instance);
     }
     counters[WorldCounter::INSTANCES_SEARCHED] += near_.size();
-    for (const std::uint32_t instance : near_) ask(method_for(instance), place_of(instance, X_WM));
+    for (const std::uint32_t instance : near_) ask(method_for(instance), instance, place_of(instance, X_WM));
   }
 
   Method& method_for(std::uint32_t instance) {
-    auto& idle = meshes_[broad_phase_.mesh_of(instance)].idle;
-    if (!description_.frame_coherent) return *idle.front();
+    if (!mesh_of(instance).keeps_frames()) return mesh_of(instance).shared();
     const auto has = [&](const Given& given) { return given.instance == instance; };
     const auto found = std::find_if(given_.begin(), given_.end(), has);
     if (found != given_.end()) return *found->method;
-    // What it keeps of another instance of the mesh is as good as what it keeps of an earlier pose: the meshes are the same, and a
-    // certificate knows how far the relative pose has moved since.
-    if (idle.empty()) idle.push_back(make_(meshes_[broad_phase_.mesh_of(instance)].frame.scene()));
-    given_.push_back({instance, std::move(idle.back())});
-    idle.pop_back();
+    given_.push_back({instance, mesh_of(instance).take(make_)});
     return *given_.back().method;
   }
 
@@ -158,14 +119,14 @@ class WorldMethod : public Method {
     };
     const auto gone = std::stable_partition(given_.begin(), given_.end(), is_candidate);
     for (auto given = gone; given != given_.end(); ++given)
-      meshes_[broad_phase_.mesh_of(given->instance)].idle.push_back(std::move(given->method));
+      mesh_of(given->instance).give_back(std::move(given->method));
     given_.erase(gone, given_.end());
   }
 
   BroadPhase broad_phase_;
   MethodDescription description_;
-  MakeMethod make_;
-  std::vector<Mesh> meshes_;
+  MeshPair::Make make_;
+  std::vector<MeshPair> meshes_;
   std::vector<Given> given_;
   std::vector<std::uint32_t> near_;
   LmdSet found_, tracked_;
