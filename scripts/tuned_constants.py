@@ -21,6 +21,7 @@ ROOT = os.path.abspath(os.path.join(os.path.dirname(os.path.abspath(__file__)), 
 TREE = os.path.join(ROOT, "build", "tuned", "tree")
 FORECAST = "src/lmdbench/methods/certified/coherence/motion_forecast.cpp"
 TOUCHING = "src/lmdbench/methods/certified/touching_pairs.cpp"
+REFIT = "src/lmdbench/methods/certified/hierarchy/wide_refit.cpp"
 TRAVERSAL = "src/lmdbench/methods/certified/hierarchy/wide_traversal.h"
 # name: file, text around the value, values
 CONSTANTS = {
@@ -28,6 +29,8 @@ CONSTANTS = {
     "LARGEST_HORIZON": (FORECAST, "LARGEST_HORIZON = {},", ("1.0", "2.0", "4.0", "8.0", "16.0")),
     "HORIZON_CUTOFFS": (FORECAST, "HORIZON_CUTOFFS = {},", ("0.25", "0.5", "1.0", "2.0", "4.0")),
     "MOST_CORNER_PAIRS": (TOUCHING, "MOST_CORNER_PAIRS = {};", ("0", "16", "64", "1024")),  # experiments/extreme/peg-square.json moves it
+    # Of meshes that deform: --only MOST_GROWTH experiments/deforming.json
+    "MOST_GROWTH": (REFIT, "MOST_GROWTH = {};", ("1.05", "1.15", "1.3", "1.6", "4.0")),
     "HORIZON_TURN": (FORECAST, "HORIZON_TURN = {};", ("0.0025", "0.005", "0.01", "0.02", "0.04")),
 }
 SCENE = ("--set", '/methods=[{"name":"certified","force_law":"exponential"}]', "--set", "/driver/repetitions=1", "--set",
@@ -57,6 +60,7 @@ def instructions(program, experiment, frames, folder):
     """(instructions of so many frames, hash of their LMD sets and forces)"""
     out = os.path.join(folder, "r.h5")
     done = run(["valgrind", "--tool=callgrind", "--toggle-collect=lmdbench::Certified::search*",
+                "--toggle-collect=lmdbench::WideHierarchy::follow*",
                 f"--callgrind-out-file={folder}/callgrind.out", program, "--quiet", "run", experiment,
                 *SCENE, "--set", f"/frames={frames}", "--out", out], env=os.environ | {"OPENSSL_ia32cap": ":~0x0"})
     counted = re.search(r"Collected : (\d+)", done.stderr)

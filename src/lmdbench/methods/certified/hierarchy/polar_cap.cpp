@@ -34,6 +34,7 @@ std::array<bool, 2> clearly_rejected(const std::vector<Constraint>& constraints,
     const double along = constraint.direction.dot(x);
     highest = std::max(highest, along);
     lowest = std::min(lowest, along);
+    if (highest > LIMIT && lowest < -LIMIT) break;  // nothing can take that back
   }
   return {highest > LIMIT, -lowest > LIMIT};
 }

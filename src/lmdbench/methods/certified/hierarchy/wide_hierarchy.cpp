@@ -342,7 +342,7 @@ void WideHierarchy::follow(const Body& body, const SurfaceChange& change) {
   changes.bounds.assign(nodes.size(), changes.now);
   changes.lanes = changes.bounds;
   shape_times_ = shape.times_made_anew();
-  refit_ = std::make_shared<WideRefit>(*this, body.surface());
+  refit_ = std::make_shared<WideRefit>(*this, body.surface(), shape);
 }
 
 WideHierarchy WideHierarchy::of(const Body& body) {
