@@ -9,6 +9,7 @@
 #include <study/worlds/broad_phases.h>
 #include <study/worlds/completeness.h>
 #include <study/worlds/cost.h>
+#include <study/worlds/pile.h>
 #include <support/bodies.h>
 #include <support/context.h>
 #include <support/poses.h>
@@ -18,10 +19,11 @@
 #include <algorithm>
 #include <cstdio>
 #include <memory>
+#include <numeric>
 
 /// What a world of many instances costs and whether `certified` is complete in it: frames among 1 to 10,000 instances of one mesh at the
-/// same contact, memory and preparation, six kinds of worlds against `exhaustive`, and the broad phases that one could take. Exit code 1
-/// when a set is wrong.
+/// same contact, memory and preparation, ten kinds of worlds against `exhaustive`, the broad phases that one could take, and piles of
+/// moving spheres. Exit code 1 when a set is wrong.
 namespace lmdbench::study {
 namespace {
 
@@ -30,9 +32,13 @@ struct WorldsChoice {
   std::filesystem::path meshes = "meshes";
   double diagonal = 0.15, cutoff = 0.005;
   std::size_t frames = 1500, world_frames = 1000, phase_frames = 2000;
+  std::vector<std::string> worlds;  ///< Whose completeness is judged; all where none is named.
   std::vector<double> world_cutoffs = {0.005, 0.05, 0.3}, slacks = {0.05, 0.1, 0.25, 0.5, 1.0};
   worlds::CostChoice cost;
-  std::vector<std::string> parts = {"cost", "completeness", "broad-phase", "slack"};
+  worlds::PileChoice pile;
+  std::vector<double> swing_speeds = {0.0, 0.002, 0.02};
+  std::vector<double> pile_slacks = {0.05, 0.1, 0.25, 0.5}, pack_shares = {0.0, 0.05, 0.1, 0.25, 1.0};
+  std::vector<std::string> parts = {"cost", "completeness", "broad-phase", "slack", "pile", "pile-slack"};
   std::string json;
 };
 
@@ -113,30 +119,37 @@ void study_cost(const WorldsChoice& choice, nlohmann::json& report) {
 
 std::size_t study_completeness(const WorldsChoice& choice, nlohmann::json& report) {
   fmt::print(
-      "| world | instances | cutoff [m] | frames | true LMDs | missed | wrong | wrong frames | distance off "
+      "| world | movers | instances | cutoff [m] | frames | true LMDs | missed | wrong | wrong frames | "
+      "distance off "
       "[m] |\n"
-      "|---|---|---|---|---|---|---|---|---|\n");
+      "|---|---|---|---|---|---|---|---|---|---|\n");
   std::size_t wrong = 0;
-  for (const worlds::World& world : worlds::small_worlds(choice.world_frames, choice.cost.seed))
+  const auto judge_all = [&](const auto& scene, std::size_t movers, std::size_t instances, auto&& judge) {
+    if (!choice.worlds.empty() && std::ranges::find(choice.worlds, scene.name) == choice.worlds.end()) return;
     for (const double cutoff : choice.world_cutoffs) {
       std::size_t complaints = 0;
-      const auto judgement = judge_world(world, cutoff, [&](const std::string& what) {
-        if (++complaints <= 5) fmt::print(stderr, "wrong: {}, cutoff {:g}: {}\n", world.name, cutoff, what);
+      const auto judgement = judge(scene, cutoff, [&](const std::string& what) {
+        if (++complaints <= 5) fmt::print(stderr, "wrong: {}, cutoff {:g}: {}\n", scene.name, cutoff, what);
       });
       wrong += judgement.wrong_poses;
-      fmt::print("| {} | {} | {:g} | {} | {} | {} | {} | {} | {:.1e} |\n", world.name,
-                 world.scene.fixed.size(), cutoff, judgement.poses, judgement.same.true_lmds,
-                 judgement.same.missed(), judgement.same.wrong(), judgement.wrong_poses,
-                 judgement.worst_distance_difference);
+      fmt::print("| {} | {} | {} | {:g} | {} | {} | {} | {} | {} | {:.1e} |\n", scene.name, movers, instances,
+                 cutoff, judgement.poses, judgement.same.true_lmds, judgement.same.missed(),
+                 judgement.same.wrong(), judgement.wrong_poses, judgement.worst_distance_difference);
       std::fflush(stdout);
       report["completeness"].push_back(
-          {{"world", world.name},
-           {"instances", world.scene.fixed.size()},
+          {{"world", scene.name},
+           {"movers", movers},
+           {"instances", instances},
            {"cutoff_m", cutoff},
            {"frames", judgement.poses},
            {"wrong_frames", judgement.wrong_poses},
            {"set", experiments::error_json(judgement.same, judgement.neighbours)}});
     }
+  };
+  for (const worlds::World& world : worlds::small_worlds(choice.world_frames, choice.cost.seed))
+    judge_all(world, 1, world.scene.fixed.size(), worlds::judge_world);
+  for (const worlds::Play& play : worlds::small_plays(choice.world_frames, choice.cost.seed))
+    judge_all(play, play.movers.size(), play.standing.size(), worlds::judge_play);
   fmt::print("\n");
   return wrong;
 }
@@ -194,6 +207,106 @@ void study_slack(const WorldsChoice& choice, nlohmann::json& report) {
   fmt::print("\n");
 }
 
+nlohmann::json pile_json(const worlds::PileRow& row, double swing_speed, double pairs) {
+  return {{"motion", to_string(row.motion)},
+          {"swing_speed_m_s", swing_speed},
+          {"movers", row.movers},
+          {"triangles", row.triangles},
+          {"contact_pairs_per_frame", pairs},
+          {"lmds_per_frame", row.lmds},
+          {"seconds_per_contact_pair", row.seconds_per_contact_pair()},
+          {"median_s", median(row.seconds)},
+          {"p99_s", quantile(row.seconds, P99)},
+          {"largest_s", maximum(row.seconds)},
+          {"first_s", row.first_seconds},
+          {"frames_above_1ms", row.frames_above(1e-3)},
+          {"frames", row.seconds.size()},
+          {"searched_per_frame", row.searched},
+          {"touched_per_frame", row.touched},
+          {"anchored_per_frame", row.anchored},
+          {"node_pairs_per_frame", row.node_pairs},
+          {"candidates", row.candidates},
+          {"methods", row.methods},
+          {"bytes", row.bytes}};
+}
+
+void study_piles(const WorldsChoice& choice, nlohmann::json& report) {
+  worlds::PileChoice pile = choice.pile;
+  fmt::print(
+      "Piles of spheres of radius {:g} m, {:g} m apart, cutoff {:g} m, {} frames of a millisecond, the least "
+      "of {} "
+      "passes, sizes in turns pass by pass; one thread. Settling from {:g} % farther apart; stirred at {:g} "
+      "m/s.\n\n"
+      "| motion | swing [mm/s] | spheres | contact pairs a frame | us a contact pair | median [ms] | p99 "
+      "[ms] | worst "
+      "[ms] | above 1 ms | first frame [ms] | searched | touched | anchored | node pairs a search | "
+      "candidates | "
+      "methods | kB a method |\n|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|\n",
+      pile.radius, 0.5 * pile.cutoff, pile.cutoff, pile.frames, pile.passes, 100.0 * pile.looseness,
+      pile.stirring_speed);
+  std::string slopes;
+  const auto study = [&](worlds::PileMotion motion, double swing_speed) {
+    pile.swing_speed = swing_speed;
+    std::vector<double> counts, costs;
+    for (const worlds::PileRow& row : worlds::measure_piles(motion, pile)) {
+      const double pairs = std::accumulate(row.contact_pairs.begin(), row.contact_pairs.end(), 0.0) /
+                           static_cast<double>(row.contact_pairs.size());
+      const double each = row.seconds_per_contact_pair();
+      fmt::print(
+          "| {} | {:g} | {} | {:.1f} | {:.2f} | {:.3f} | {:.3f} | {:.3f} | {} of {} | {:.2f} | {:.1f} | "
+          "{:.1f} | "
+          "{:.2f} | {:.1f} | {} | {} | {:.0f} |\n",
+          to_string(motion), 1e3 * swing_speed, row.movers, pairs, 1e6 * each, 1e3 * median(row.seconds),
+          1e3 * quantile(row.seconds, P99), 1e3 * maximum(row.seconds), row.frames_above(1e-3),
+          row.seconds.size(), 1e3 * row.first_seconds, row.searched, row.touched, row.anchored,
+          row.searched > 0.0 ? row.node_pairs / row.searched : 0.0, row.candidates, row.methods,
+          1e-3 * row.bytes / std::max<double>(1.0, static_cast<double>(row.methods)));
+      std::fflush(stdout);
+      report["pile"].push_back(pile_json(row, swing_speed, pairs));
+      if (!(each > 0.0)) continue;
+      counts.push_back(static_cast<double>(row.movers));
+      costs.push_back(each);
+    }
+    if (counts.size() < 2) return;
+    slopes +=
+        fmt::format("Slope of the time a contact pair over {:g} to {:g} spheres, {}, {:g} mm/s: {:.3f}.\n",
+                    counts.front(), counts.back(), to_string(motion), 1e3 * swing_speed,
+                    experiments::log_slope(counts, costs));
+  };
+  for (const double speed : choice.swing_speeds) study(worlds::PileMotion::JOSTLING, speed);
+  study(worlds::PileMotion::SETTLING, choice.pile.swing_speed);
+  study(worlds::PileMotion::STIRRED, choice.pile.swing_speed);
+  fmt::print("\n{}\n", slopes);
+}
+
+void study_pile_slack(const WorldsChoice& choice, nlohmann::json& report) {
+  worlds::PileChoice pile = choice.pile;
+  pile.counts = {*std::max_element(pile.counts.begin(), pile.counts.end())};
+  fmt::print(
+      "Slack of movers, and the share of them that leave theirs in a frame above which the tree is packed "
+      "anew; {} "
+      "spheres, stirred:\n\n| slack, radii | share | anchored a frame | touched a frame | candidates | "
+      "median [ms] | "
+      "p99 [ms] |\n|---|---|---|---|---|---|---|\n",
+      pile.counts[0]);
+  const auto print = [&](double slack, double share) {
+    const worlds::PileRow row =
+        measure_piles(worlds::PileMotion::STIRRED, pile, {.slack = slack, .pack_share = share}).front();
+    fmt::print("| {:g} | {:g} | {:.2f} | {:.1f} | {} | {:.3f} | {:.3f} |\n", slack, share, row.anchored,
+               row.touched, row.candidates, 1e3 * median(row.seconds), 1e3 * quantile(row.seconds, P99));
+    std::fflush(stdout);
+    report["pile_slack"].push_back({{"slack_radii", slack},
+                                    {"pack_share", share},
+                                    {"anchored_per_frame", row.anchored},
+                                    {"touched_per_frame", row.touched},
+                                    {"median_s", median(row.seconds)},
+                                    {"p99_s", quantile(row.seconds, P99)}});
+  };
+  for (const double slack : choice.pile_slacks) print(slack, MoverGroup::Tuning{}.pack_share);
+  for (const double share : choice.pack_shares) print(MoverGroup::Tuning{}.slack, share);
+  fmt::print("\n");
+}
+
 int study_worlds(const WorldsChoice& choice) {
   nlohmann::json report = {
       {"format", "lmdbench-worlds"}, {"format_version", 1}, {"context", experiments::run_context()}};
@@ -205,6 +318,8 @@ int study_worlds(const WorldsChoice& choice) {
   if (asked("completeness")) wrong += study_completeness(choice, report);
   if (asked("broad-phase")) wrong += study_broad_phases(choice, report);
   if (asked("slack")) study_slack(choice, report);
+  if (asked("pile")) study_piles(choice, report);
+  if (asked("pile-slack")) study_pile_slack(choice, report);
   report["wrong"] = wrong;
   experiments::write_report(choice.json, report);
   return wrong == 0 ? 0 : 1;
@@ -216,8 +331,8 @@ void add_worlds(CLI::App& app, Run& chosen) {
   const auto choice = std::make_shared<WorldsChoice>();
   CLI::App* command = app.add_subcommand(
       "worlds", "What do thousands of instances of a mesh cost, and is every set complete?");
-  command->add_option("--part", choice->parts, "cost, completeness, broad-phase or slack")
-      ->check(CLI::IsMember({"cost", "completeness", "broad-phase", "slack"}));
+  command->add_option("--part", choice->parts, "cost, completeness, broad-phase, slack, pile or pile-slack")
+      ->check(CLI::IsMember({"cost", "completeness", "broad-phase", "slack", "pile", "pile-slack"}));
   command->add_option("--mesh", choice->mesh, "What moves and what stands")->capture_default_str();
   command->add_option("--meshes", choice->meshes, "Folder of the manifest")->capture_default_str();
   command->add_option("--path", choice->path, "Path along the instance in the middle")->capture_default_str();
@@ -234,8 +349,23 @@ void add_worlds(CLI::App& app, Run& chosen) {
   command->add_option("--world-frames", choice->world_frames, "Of each world whose completeness is judged")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
+  command->add_option("--world", choice->worlds, "Only this one is judged, by its name in the table");
   command->add_option("--world-cutoff", choice->world_cutoffs, "There [m]; meshes are about 1 m large")
       ->capture_default_str();
+  command->add_option("--spheres", choice->pile.counts, "Sizes of the piles")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  command->add_option("--swing-speed", choice->swing_speeds, "Of the spheres where they jostle [m/s]")
+      ->capture_default_str();
+  command->add_option("--pile-frames", choice->pile.frames, "Of each motion of a pile")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  command->add_option("--pile-passes", choice->pile.passes, "Times that they are run")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  command->add_option("--pile-slack", choice->pile_slacks, "Slacks of movers, in their radii")
+      ->capture_default_str();
+  command->add_option("--pack-share", choice->pack_shares, "Shares of the movers")->capture_default_str();
   command->add_option("--passes", choice->cost.passes, "Times that frames are run")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();

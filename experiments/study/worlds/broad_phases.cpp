@@ -9,8 +9,8 @@
 #include <fcl/broadphase/broadphase_dynamic_AABB_tree.h>
 #include <fcl/geometry/shape/box.h>
 #include <fcl/narrowphase/collision_object.h>
-#include <malloc.h>
 #include <study/worlds/broad_phases.h>
+#include <study/worlds/heap.h>
 #include <support/random.h>
 #ifdef LMDBENCH_HAS_EMBREE
 #include <embree3/rtcore.h>
@@ -243,11 +243,6 @@ class Embree : public Answers {
 };
 #endif
 
-double heap_bytes() {
-  const struct mallinfo2 info = mallinfo2();
-  return static_cast<double>(info.uordblks) + static_cast<double>(info.hblkhd);
-}
-
 double seconds_of(const std::function<void()>& run) {
   const auto begin = std::chrono::steady_clock::now();
   run();
@@ -281,9 +276,9 @@ std::vector<BroadPhaseRow> compare_broad_phases(std::size_t instances, std::size
     BroadPhaseRow row{one.name, instances, never, 0.0, {}, {}, 0};
     for (int k = 0; k < 3; ++k) {
       std::unique_ptr<Answers> made;
-      const double before = heap_bytes();
+      const double before = heap_in_use();
       row.build_seconds = std::min(row.build_seconds, seconds_of([&] { made = one.make(input); }));
-      row.bytes = (heap_bytes() - before) / static_cast<double>(instances);
+      row.bytes = (heap_in_use() - before) / static_cast<double>(instances);
       if (k == 2) all.push_back(std::move(made));
     }
     row.seconds.assign(frames, never);

@@ -15,4 +15,8 @@ namespace lmdbench::worlds {
 completeness::Judgement judge_world(const World& world, double cutoff,
                                     const std::function<void(const std::string&)>& complain);
 
+/// `certified` in a group of movers against `exhaustive` on every pair whose spheres are near enough, in every frame.
+completeness::Judgement judge_play(const Play& play, double cutoff,
+                                   const std::function<void(const std::string&)>& complain);
+
 }  // namespace lmdbench::worlds

@@ -3,8 +3,8 @@
 #include <lmdbench/lmd/method_description.h>
 #include <lmdbench/methods/registry.h>
 
-#include <malloc.h>
 #include <study/worlds/cost.h>
+#include <study/worlds/heap.h>
 #include <study/worlds/scenes.h>
 #include <support/random.h>
 
@@ -20,12 +20,6 @@ std::uint64_t counted(const Method& method, const WorkCounters& counters, const 
   for (const CounterDescription& counter : method.description().counters)
     if (counter.name == name) return counters.values[counter.index];
   return 0;  // one instance in the world frame needs no broad phase
-}
-
-/// Bytes of the heap that are in use.
-double heap_in_use() {
-  const struct mallinfo2 info = mallinfo2();
-  return static_cast<double>(info.uordblks) + static_cast<double>(info.hblkhd);
 }
 
 /// A world of some size along the path.

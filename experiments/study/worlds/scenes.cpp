@@ -120,6 +120,58 @@ std::vector<World> small_worlds(std::size_t frames, std::uint64_t seed) {
   return worlds;
 }
 
+std::vector<Play> small_plays(std::size_t frames, std::uint64_t seed) {
+  const auto blob = body("blob", make_blob(1.0, 0.3, 2), 1.0),
+             torus = body("torus", make_torus(1.0, 0.4, 14, 8), 1.2),
+             box = body("box", make_box({1.0, 0.8, 0.6}, 2), 0.9),
+             shell = body("unequal", make_unequal(1.0, 5, 30.0), 1.0),
+             hull = body("hull", make_sphere(1.0, 2), 5.2);
+  TriangleMesh inwards = hull->surface().mesh;
+  for (auto& corners : inwards.triangles) std::swap(corners[1], corners[2]);
+  const auto wall = body("wall", std::move(inwards), 5.0);
+  experiments::Random random(seed + 7);
+  const auto& bounds = torus->prepared<MeshBounds>();
+  std::vector<Play> plays;
+  const auto start = [&](const std::string& name) -> Play& {
+    plays.push_back({name, {}, {}, std::vector<std::vector<Pose>>(frames)});
+    return plays.back();
+  };
+  const auto add_mover = [&](Play& play, const std::shared_ptr<const Body>& mesh,
+                             const std::vector<Pose>& path) {
+    play.movers.push_back(mesh);
+    for (std::size_t frame = 0; frame < frames; ++frame) play.frames[frame].push_back(path[frame]);
+  };
+  const std::vector<std::shared_ptr<const Body>> kinds{blob, torus, box, shell};
+
+  for (const bool is_far : {false, true}) {
+    Play& play = start(is_far ? "movers far" : "movers");
+    const Vec3 away = is_far ? Vec3(700.0, -500.0, 600.0) : Vec3(Vec3::Zero());
+    for (std::size_t i = 0; i < 10; ++i) add_mover(play, kinds[i % 4], path_about(away, 3.5, frames, random));
+    for (const auto& mesh : {torus, box})
+      for (Pose pose :
+           scatter({.rule = Scatter::Rule::RANDOM, .count = 10, .spacing = 1.4, .seed = 8}, bounds)) {
+        pose.translation += away;
+        play.standing.emplace_back(mesh, pose);
+      }
+  }
+
+  Play& nested = start("movers nested");
+  const std::vector<Pose> of_hollow = path_about(Vec3::Zero(), 1.0, frames, random);
+  for (const auto& mesh : {wall, hull}) add_mover(nested, mesh, of_hollow);
+  for (std::size_t i = 0; i < 6; ++i)
+    add_mover(nested, kinds[i % 4], path_about(Vec3::Zero(), 3.0, frames, random));
+  for (const Pose& pose : scatter({.counts = {2, 2, 2}, .spacing = 1.5}, bounds))
+    nested.standing.emplace_back(torus, pose);
+
+  Play& coincident = start("movers coincident");
+  for (std::size_t i = 0; i < 4; ++i) {
+    const std::vector<Pose> path = path_about(Vec3::Zero(), 2.5, frames, random);
+    for (int copy = 0; copy < 2; ++copy) add_mover(coincident, kinds[i], path);
+    coincident.standing.emplace_back(kinds[i], path[frames / 2]);
+  }
+  return plays;
+}
+
 std::vector<FixedBody> crowd(const std::shared_ptr<const Body>& mesh, std::size_t count, double spacing,
                              std::uint64_t seed) {
   std::vector<FixedBody> fixed;

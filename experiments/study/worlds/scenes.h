@@ -6,6 +6,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -17,6 +18,19 @@ struct World {
   Scene scene;
   std::vector<Pose> poses;
 };
+
+/// Movers with all their poses, among what stands.
+struct Play {
+  std::string name;
+  std::vector<std::shared_ptr<const Body>> movers;
+  std::vector<FixedBody> standing;
+  std::vector<std::vector<Pose>> frames;  ///< One a mover.
+};
+
+/// Several movers of about 1 m on which completeness is judged: "movers" among instances, "movers nested" (in a hollow that moves),
+/// "movers coincident" (each twice, and now and then where an instance stands) and "movers far" (a kilometre from the origin). Paths as
+/// those of worlds, one a mover.
+std::vector<Play> small_plays(std::size_t frames, std::uint64_t seed);
 
 /// Worlds of small meshes on which completeness is judged, 30 to 120 instances each: "grid", "random" (meshes in each other), "pile",
 /// "nested" (a mesh inside another one's hollow), "coincident" (each instance three times) and "far" (a kilometre from the origin). The

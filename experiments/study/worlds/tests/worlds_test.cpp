@@ -7,8 +7,10 @@
 #include <study/worlds/broad_phases.h>
 #include <study/worlds/completeness.h>
 #include <study/worlds/cost.h>
+#include <study/worlds/pile.h>
 
 #include <cmath>
+#include <memory>
 
 namespace lmdbench::worlds {
 namespace {
@@ -26,6 +28,58 @@ TEST(Worlds, AreAllLookedAtAndComplete) {
     ++worlds;
   }
   EXPECT_EQ(worlds, 6u);
+}
+
+TEST(Plays, AreAllLookedAtAndComplete) {
+  constexpr std::size_t FRAMES = 60;
+  std::size_t plays = 0;
+  for (const Play& play : small_plays(FRAMES, 1)) {
+    ASSERT_EQ(play.frames.size(), FRAMES);
+    for (const auto& poses : play.frames) ASSERT_EQ(poses.size(), play.movers.size());
+    const completeness::Judgement judgement =
+        judge_play(play, 0.05, [&](const std::string& what) { ADD_FAILURE() << play.name << ": " << what; });
+    EXPECT_EQ(judgement.poses, FRAMES);
+    EXPECT_GT(judgement.same.true_lmds, 100u) << play.name;
+    ++plays;
+  }
+  EXPECT_EQ(plays, 4u);
+}
+
+TEST(Piles, AreMeasuredInEveryMotion) {
+  PileChoice choice;
+  choice.counts = {10, 40};
+  choice.subdivisions = 2;
+  choice.cutoff = 0.005;  // what coarse spheres' faces are nearer to the centre than their corners is less
+  choice.looseness = 0.1;
+  choice.stirring_speed = 1.0;
+  choice.frames = 60;
+  choice.passes = 2;
+  for (const PileMotion motion : {PileMotion::JOSTLING, PileMotion::SETTLING, PileMotion::STIRRED}) {
+    const std::vector<PileRow> rows = measure_piles(motion, choice);
+    ASSERT_EQ(rows.size(), 2u);
+    for (const PileRow& row : rows) {
+      EXPECT_EQ(row.triangles, 320u);
+      ASSERT_EQ(row.seconds.size(), 60u);
+      EXPECT_GT(row.seconds_per_contact_pair(), 0.0) << to_string(motion);
+      EXPECT_GE(row.searched, row.lmds);  // spheres have one LMD
+      EXPECT_GT(row.methods, 0u);
+      EXPECT_GT(row.bytes, 0.0);
+      EXPECT_EQ(row.frames_above(1e9), 0u);
+      EXPECT_EQ(row.frames_above(0.0), 60u);
+    }
+    const std::vector<std::size_t>& pairs = rows[1].contact_pairs;
+    if (motion == PileMotion::JOSTLING) {
+      EXPECT_GT(pairs.front(), 60u);  // each with three others and more
+      EXPECT_EQ(rows[1].anchored, 0.0);
+    }
+    if (motion == PileMotion::SETTLING) {
+      EXPECT_EQ(pairs.front(), 0u);
+      EXPECT_GT(pairs.back(), 60u);
+    }
+    if (motion == PileMotion::STIRRED) {
+      EXPECT_GT(rows[1].anchored, 0.0);
+    }
+  }
 }
 
 TEST(Crowd, HasOneInTheMiddleAndFewerAreTheInnerOnes) {
