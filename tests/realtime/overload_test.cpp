@@ -49,8 +49,8 @@ TEST(Overload, ASearchThatSleepsMakesSetsOldAndNoTickLate) {
 TEST(Overload, AStalledRecorderLosesRecordsAndSaysHowMany) {
   constexpr std::int64_t FRAMES = 1000;
   RealtimeSettings settings = quick();
-  settings.choice.plant.recorder_stall_s = 0.4;
-  settings.choice.queue_ticks = 64;
+  settings.choice.plant.recorder_stall_s = 0.7;
+  settings.choice.queue_ticks = 32;
   LockstepInput input = straight_path(FRAMES);
   input.keep_lmds = [](std::int64_t) { return true; };
   const RealtimeRun run = run_realtime({clock_method(false)}, input, settings, {});

@@ -143,6 +143,14 @@ class RealResultTest(unittest.TestCase):
                         "/force/aggregation=shared"], check=True, capture_output=True, stdin=subprocess.DEVNULL)
         return result
 
+    def deforming(self):
+        """Meshes that deform: the time in which they follow."""
+        result = self.path("deforming.h5")
+        deforming = os.path.join(os.path.dirname(check_format.README), "..", "experiments", "deforming.json")
+        subprocess.run([PROGRAM, "run", deforming, "--out", result, "--set", "/frames=20"], check=True, capture_output=True,
+                       stdin=subprocess.DEVNULL)
+        return result
+
     def printed(self, main, *arguments):
         stream = io.StringIO()
         with contextlib.redirect_stdout(stream):
@@ -151,14 +159,14 @@ class RealResultTest(unittest.TestCase):
 
     def test_results_have_the_described_format(self):
         text = self.printed(check_format.main, self.hard, self.soft, self.both, self.closed(), self.on_the_clock(),
-                            self.with_saddles())
+                            self.with_saddles(), self.deforming())
         self.assertIn(" 0 differences", text)
 
     def test_everything_described_is_there(self):
         with open(check_format.README, encoding="utf-8") as stream:
             described = set(check_format.described(stream.read()))
         found = set()
-        for file in (self.hard, self.both, self.closed(), self.on_the_clock(), self.with_saddles()):
+        for file in (self.hard, self.both, self.closed(), self.on_the_clock(), self.with_saddles(), self.deforming()):
             Result(file).h5.visit(lambda name: found.add(check_format.documented_path("/" + name)))
         self.assertEqual(described - found, set())
 
