@@ -7,6 +7,7 @@
 #include <lmdbench/methods/certified/hierarchy/wide_bounds.h>
 #include <lmdbench/methods/certified/hierarchy/wide_hierarchy.h>
 #include <lmdbench/methods/certified/hierarchy/wide_items.h>
+#include <lmdbench/methods/certified/hierarchy/wide_lane.h>
 #include <lmdbench/methods/certified/hierarchy/wide_partition.h>
 #include <lmdbench/methods/certified/hierarchy/wide_refit.h>
 
@@ -169,21 +170,11 @@ class Builder {
     bool all_have_cones = true;
     for (std::size_t i = 0; i < lanes.size(); ++i) {
       // All directions have the axis zero.
-      axes.x[i] = to_single(caps[i].axis[0]);
-      axes.y[i] = to_single(caps[i].axis[1]);
-      axes.z[i] = to_single(caps[i].axis[2]);
-      node.axis[0][i] = axes.x[i];
-      node.axis[1][i] = axes.y[i];
-      node.axis[2][i] = axes.z[i];
-      const bool has_axis = !caps[i].is_all_directions();
-      if (!lanes[i].carries_lmd) {
-        node.cosine[i] = NO_LMD_COSINE;
-        node.sine[i] = 0.0F;
-        continue;
-      }
-      node.cosine[i] = has_axis ? std::max(0.0F, static_cast<float>(caps[i].cosine - CONE_ROUNDING)) : 0.0F;
-      node.sine[i] = has_axis ? std::min(1.0F, static_cast<float>(caps[i].sine + CONE_ROUNDING)) : 1.0F;
-      all_have_cones = all_have_cones && has_axis;
+      store_cap(node, static_cast<std::uint32_t>(i), caps[i], lanes[i].carries_lmd);
+      axes.x[i] = node.axis[0][i];
+      axes.y[i] = node.axis[1][i];
+      axes.z[i] = node.axis[2][i];
+      all_have_cones = all_have_cones && !(lanes[i].carries_lmd && caps[i].is_all_directions());
     }
     bound_bodies(node, lanes, axes, steps, scratch);
     return all_have_cones;
