@@ -3,6 +3,7 @@
 #include <lmdbench/base/error.h>
 #include <lmdbench/base/file_hash.h>
 #include <lmdbench/base/input_file.h>
+#include <lmdbench/base/number_lines.h>
 #include <lmdbench/catalogue/import.h>
 #include <lmdbench/experiment/frame_vertices.h>
 #include <lmdbench/mesh/surface_change.h>
@@ -11,8 +12,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
-#include <sstream>
 #include <utility>
 
 namespace lmdbench {
@@ -54,29 +53,12 @@ std::vector<Vec3> vertices_of_file(const FileContent& content, const TriangleMes
 
 std::vector<Vec3> parse_vertex_list(const std::string& text, const std::string& name) {
   std::vector<Vec3> vertices;
-  std::istringstream lines(text);
-  std::size_t number = 0;
-  for (std::string line; std::getline(lines, line);) {
-    ++number;
-    line.resize(std::min(line.find('#'), line.size()));
-    std::replace(line.begin(), line.end(), ',', ' ');
-    std::istringstream words(line);
-    Vec3 vertex;
-    int count = 0;
-    for (std::string word; words >> word; ++count) {
-      char* end = nullptr;
-      const double value = std::strtod(word.c_str(), &end);
-      if (*end != '\0' || !std::isfinite(value))
-        throw InputError(name, fmt::format("line {}", number),
-                         fmt::format("\"{}\" is no finite number", word),
-                         "write x y z, in the units of the mesh's file");
-      if (count < 3) vertex[count] = value;
-    }
-    if (count == 0) continue;
-    if (count != 3)
-      throw InputError(name, fmt::format("line {}", number), fmt::format("{} numbers", count), "write x y z");
-    vertices.push_back(vertex);
-  }
+  for_each_number_line(text, name, "write x y z, in the units of the mesh's file",
+                       [&](const std::string& place, std::span<const double> n) {
+                         if (n.size() != 3)
+                           throw InputError(name, place, fmt::format("{} numbers", n.size()), "write x y z");
+                         vertices.emplace_back(n[0], n[1], n[2]);
+                       });
   return vertices;
 }
 
