@@ -106,8 +106,7 @@ FclCheck probe_fcl(const Scene& scene, const LockstepInput& input, const std::ve
                    const Progress& progress, const ProbeShortcuts& shortcuts) {
   DeformingScene bodies(scene, input.deformation);
   std::vector<std::unique_ptr<Method>> instances;
-  for (const LockstepMethod& method : methods)
-    instances.push_back(bodies.deforms() ? method.make_on(bodies.scene()) : method.make());
+  for (const LockstepMethod& method : methods) instances.push_back(method.make_for(bodies));
 
   // Where meshes deform FCL's models are built anew in each frame: its refit from the leaves up gives wrong distances for RSS and
   // OBBRSS, since RSS::operator+ takes one axis of the sum from an operand, so that its frame is not orthonormal (FCL 0.7.0).

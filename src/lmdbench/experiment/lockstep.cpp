@@ -66,13 +66,12 @@ class MethodRun {
         poses_(input.make_poses ? input.make_poses() : std::make_unique<PathPoses>(input.poses)),
         memory_(method.profile.cutoff),
         planted_(method.label) {
-    const auto make = [&] { return bodies_.deforms() ? method.make_on(bodies_.scene()) : method.make(); };
-    std::unique_ptr<Method> first = make();
+    std::unique_ptr<Method> first = method.make_for(bodies_);
     // The first repetition alone: the others leave the same.
     keeps_both_laws_ = input.keep_lmds && !first->description().tracks_locally &&
                        first->description().promise == Promise::COMPLETE_SET;
     if (first->description().tracks_locally)
-      two_rate_.emplace(std::move(first), make(), driver);
+      two_rate_.emplace(std::move(first), method.make_for(bodies_), driver);
     else
       every_frame_ = std::move(first);
     bodies_.prepare_to_deform();

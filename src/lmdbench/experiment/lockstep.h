@@ -44,6 +44,10 @@ struct LockstepMethod {
   Scene scene = {};  ///< For aggregations that need more than the method's set.
   /// Makes it on another scene of the same meshes: where they deform, each run of a method has bodies of its own.
   std::function<std::unique_ptr<Method>(const Scene& scene)> make_on = nullptr;
+
+  std::unique_ptr<Method> make_for(const DeformingScene& bodies) const {
+    return bodies.deforms() ? make_on(bodies.scene()) : make();
+  }
 };
 
 /// All that the driver needs to know of the scene.

@@ -57,10 +57,6 @@ ResultTrack track_of(const ResultReader& result, const std::string& method, std:
   return track;
 }
 
-}  // namespace
-
-namespace {
-
 Experiment experiment_of_result(const ResultReader& result) {
   return parse_experiment(result.texts("/provenance/experiment").at(0),
                           result.text_attribute("/provenance", "experiment_file").value_or(""));
@@ -81,15 +77,7 @@ void check_vertex_files(const std::vector<MeshNote>& notes, const ResultReader& 
   }
 }
 
-}  // namespace
-
-Scene scene_of_result(const ResultReader& result) {
-  refuse_deformation(experiment_of_result(result));
-  return deforming_scene_of_result(result).rest;
-}
-
-ResultScene deforming_scene_of_result(const ResultReader& result) {
-  Experiment experiment = experiment_of_result(result);
+ResultScene scene_of_experiment(Experiment experiment, const ResultReader& result) {
   use_recorded_files(experiment, result);
   std::vector<MeshNote> notes;
   Scene scene = load_scene(experiment, notes);
@@ -100,6 +88,18 @@ ResultScene deforming_scene_of_result(const ResultReader& result) {
         std::max(scene.cutoff, result.real_attribute("/methods/" + label, "cutoff_m").value_or(0.0));
   const auto frames = static_cast<std::int64_t>(result.reals("/path/time").size());
   return {scene, deformation_of(scene, notes, frames)};
+}
+
+}  // namespace
+
+Scene scene_of_result(const ResultReader& result) {
+  Experiment experiment = experiment_of_result(result);
+  refuse_deformation(experiment);
+  return scene_of_experiment(std::move(experiment), result).rest;
+}
+
+ResultScene deforming_scene_of_result(const ResultReader& result) {
+  return scene_of_experiment(experiment_of_result(result), result);
 }
 
 std::vector<ResultTrack> tracks_of_result(const ResultReader& result, std::size_t most_frames) {
