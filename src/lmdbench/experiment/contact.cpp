@@ -78,6 +78,17 @@ class DistanceScan {
 
 }  // namespace
 
+double nearest_distance(const Scene& scene, const Pose& X_WM, double bound) {
+  double least = std::numeric_limits<double>::infinity();
+  for (const FixedBody& fixed : scene.fixed) {
+    const NearestPair pair =
+        nearest_pair(scene.moving->surface(), scene.moving->prepared<Hierarchy>(), fixed->surface(),
+                     fixed->prepared<Hierarchy>(), X_WM, std::min(bound, least));
+    if (pair.triangle_moving >= 0) least = std::min(least, pair.distance);
+  }
+  return least;
+}
+
 std::vector<bool> frames_in_contact(const Scene& scene, const std::vector<Pose>& poses, bool forecast) {
   if (scene.is_world()) {
     const BroadPhase phase(scene);

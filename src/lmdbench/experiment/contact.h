@@ -20,6 +20,12 @@ namespace lmdbench {
 ///                  search: the answer is the same
 std::vector<bool> frames_in_contact(const Scene& scene, const std::vector<Pose>& poses, bool forecast = true);
 
+/// Exact minimum distance to the fixed meshes, none of which is placed [m]; 0 where triangles touch or intersect, infinite where none
+/// is within the bound.
+/// @param bound distances above this are not looked for [m]
+double nearest_distance(const Scene& scene, const Pose& X_WM,
+                        double bound = std::numeric_limits<double>::infinity());
+
 /// Distances of the meshes along a path.
 struct Clearance {
   double least_m =

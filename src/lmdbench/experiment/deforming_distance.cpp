@@ -2,9 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/experiment/contact.h>
 #include <lmdbench/experiment/deforming_distance.h>
-#include <lmdbench/snch/minimum_distance.h>
 
-#include <algorithm>
 #include <cstddef>
 #include <utility>
 
@@ -19,13 +17,7 @@ double DeformingDistance::look(std::int64_t frame, const Pose& X_WM) {
   bodies_.to_frame(frame);
   looked_at_ = X_WM;
   frame_ = frame;
-  distance_ = std::numeric_limits<double>::infinity();
-  const Scene& scene = bodies_.scene();
-  for (const FixedBody& fixed : scene.fixed) {
-    const NearestPair pair = nearest_pair(scene.moving->surface(), scene.moving->prepared<Hierarchy>(),
-                                          fixed->surface(), fixed->prepared<Hierarchy>(), X_WM, distance_);
-    if (pair.triangle_moving >= 0) distance_ = std::min(distance_, pair.distance);
-  }
+  distance_ = nearest_distance(bodies_.scene(), X_WM);
   return distance_;
 }
 

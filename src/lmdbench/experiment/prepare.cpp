@@ -6,6 +6,7 @@
 #include <lmdbench/base/parallel.h>
 #include <lmdbench/base/statistics.h>
 #include <lmdbench/catalogue/manifest.h>
+#include <lmdbench/experiment/contact.h>
 #include <lmdbench/experiment/prepare.h>
 #include <lmdbench/experiment/realtime_driver.h>
 #include <lmdbench/experiment/truth_probe.h>
@@ -18,7 +19,7 @@
 #include <lmdbench/motion/mesh_scene.h>
 #include <lmdbench/motion/tum_file.h>
 #include <lmdbench/phantom/device.h>
-#include <lmdbench/snch/minimum_distance.h>
+#include <lmdbench/snch/hierarchy.h>
 #include <lmdbench/world/nearest_instance.h>
 
 #include <fmt/format.h>
@@ -207,12 +208,7 @@ void prepare_hierarchies(const Scene& scene) {
 
 bool touches(const Scene& scene, const Pose& X_WM) {
   if (scene.is_world()) return nearest_instance(scene, BroadPhase(scene), X_WM, scene.cutoff).distance == 0.0;
-  for (const auto& fixed : scene.fixed) {
-    const NearestPair pair = nearest_pair(scene.moving->surface(), scene.moving->prepared<Hierarchy>(),
-                                          fixed->surface(), fixed->prepared<Hierarchy>(), X_WM, scene.cutoff);
-    if (pair.triangle_moving >= 0 && pair.distance == 0.0) return true;
-  }
-  return false;
+  return nearest_distance(scene, X_WM, scene.cutoff) == 0.0;
 }
 
 /// The instances of an entry. Meshes that are the same are read and prepared once, whether they move or stand.
@@ -436,21 +432,17 @@ std::vector<std::filesystem::path> input_files(const Experiment& experiment) {
   const auto add = [&](const MeshChoice& choice) {
     files.push_back(is_mesh_name(choice.mesh) ? experiment.mesh_folder / (choice.mesh + ".off")
                                               : folder / choice.mesh);
+    if (!choice.deformation) return;
+    std::error_code none;  // A folder that is not there has no file; loading it says so.
+    if (!choice.deformation->folder.empty() &&
+        !std::filesystem::is_directory(choice.deformation->folder, none))
+      return;
+    for (const std::filesystem::path& file : vertex_files(*choice.deformation)) files.push_back(file);
   };
   add(experiment.moving);
   for (const MeshChoice& choice : experiment.fixed) {
     add(choice);
     if (choice.instances && !choice.instances->file.empty()) files.push_back(choice.instances->file);
-  }
-  std::vector<const MeshChoice*> choices{&experiment.moving};
-  for (const MeshChoice& choice : experiment.fixed) choices.push_back(&choice);
-  for (const MeshChoice* choice : choices) {
-    if (!choice->deformation) continue;
-    files.insert(files.end(), choice->deformation->files.begin(), choice->deformation->files.end());
-    std::error_code none;  // A folder that is not there has no file; loading it says so.
-    if (!choice->deformation->folder.empty() &&
-        std::filesystem::is_directory(choice->deformation->folder, none))
-      for (const std::filesystem::path& file : vertex_files(*choice->deformation)) files.push_back(file);
   }
   return files;
 }
@@ -461,14 +453,11 @@ std::vector<LockstepMethod> lockstep_methods(const Experiment& experiment, const
     const PreparedProfile& profile = prepared.profiles[choice.profile];
     ForceProfile force = profile.force;
     force.law = choice.force_law;
-    methods.push_back({choice.label,
-                       [name = choice.name, options = choice.options, scene = profile.scene] {
-                         return make_method(name, scene, options);
-                       },
-                       force, choice.aggregation, profile.scene,
-                       [name = choice.name, options = choice.options](const Scene& scene) {
-                         return make_method(name, scene, options);
-                       }});
+    const auto make_on = [name = choice.name, options = choice.options](const Scene& scene) {
+      return make_method(name, scene, options);
+    };
+    methods.push_back({choice.label, [make_on, scene = profile.scene] { return make_on(scene); }, force,
+                       choice.aggregation, profile.scene, make_on});
   }
   return methods;
 }

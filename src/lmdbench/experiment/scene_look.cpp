@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/experiment/contact.h>
 #include <lmdbench/experiment/deforming_distance.h>
 #include <lmdbench/experiment/prepare.h>
 #include <lmdbench/experiment/scene_look.h>
 #include <lmdbench/mesh/winding_number.h>
-#include <lmdbench/snch/minimum_distance.h>
 #include <lmdbench/world/nearest_instance.h>
 
 #include <Eigen/Geometry>
@@ -20,16 +20,28 @@ namespace lmdbench {
 namespace {
 
 /// A mesh and its box, outside of which nothing is inside the mesh.
-struct BoxedMesh {
-  const SceneLook::Mesh& note;
-  const TriangleMesh& mesh;
-  Eigen::AlignedBox3d box;
-
-  BoxedMesh(const SceneLook::Mesh& look, const TriangleMesh& triangles) : note(look), mesh(triangles) {
-    for (const Vec3& vertex : mesh.vertices) box.extend(vertex);
+class BoxedMesh {
+ public:
+  BoxedMesh(const SceneLook::Mesh& look, const TriangleMesh& mesh) : closed_(look.closed), mesh_(&mesh) {
+    for (const Vec3& vertex : mesh.vertices) box_.extend(vertex);
   }
   [[nodiscard]] bool encloses(const Vec3& point) const {
-    return note.closed && box.contains(point) && std::abs(winding_number(point, mesh)) > 0.5;
+    return closed_ && box_.contains(point) && std::abs(winding_number(point, *mesh_)) > 0.5;
+  }
+  [[nodiscard]] const Vec3& first_vertex() const { return mesh_->vertices.front(); }
+
+ private:
+  bool closed_;
+  const TriangleMesh* mesh_;
+  Eigen::AlignedBox3d box_;
+};
+
+/// Of the frames that are looked at: those of them in which something holds, and the first.
+struct FramesOf {
+  std::int64_t count = 0, first = -1;
+
+  void add(std::int64_t frame) {
+    if (count++ == 0) first = frame;
   }
 };
 
@@ -65,38 +77,52 @@ void look_at_cutoff(SceneLook& look) {
 void look_inside(SceneLook& look, const PreparedRun& prepared) {
   if (prepared.scene().is_world()) return;  // where meshes may well be in each other
   DeformingScene bodies(prepared.scene(), prepared.input.deformation);
+  const std::size_t fixed_count = bodies.scene().fixed.size();
+  std::vector<BoxedMesh> boxed;  // the moving mesh, then the fixed ones
+  const auto box_them = [&] {
+    boxed.clear();
+    boxed.emplace_back(look.meshes.front(), bodies.scene().moving->surface().mesh);
+    for (std::size_t i = 0; i < fixed_count; ++i)
+      boxed.emplace_back(look.meshes[i + 1], bodies.scene().fixed[i]->surface().mesh);
+  };
+  box_them();
+  std::vector<FramesOf> enclosed_by_moving(fixed_count), moving_inside(fixed_count);
   const std::vector<Pose>& poses = prepared.input.poses;
   const auto count = static_cast<std::int64_t>(poses.size());
   const std::int64_t samples = std::min(INSIDE_SAMPLES, count);
-  for (std::size_t i = 0; i < prepared.scene().fixed.size(); ++i) {
-    std::int64_t enclosed = 0, inside = 0, first_enclosed = -1, first_inside = -1;
-    for (std::int64_t k = 0; k < samples; ++k) {
-      const std::int64_t frame = samples == 1 ? 0 : k * (count - 1) / (samples - 1);
+  for (std::int64_t k = 0; k < samples; ++k) {
+    const std::int64_t frame = samples == 1 ? 0 : k * (count - 1) / (samples - 1);
+    if (bodies.deforms()) {
       bodies.to_frame(frame);
-      const BoxedMesh moving(look.meshes.front(), bodies.scene().moving->surface().mesh);
-      const BoxedMesh fixed(look.meshes[i + 1], bodies.scene().fixed[i]->surface().mesh);
-      const RigidTransform X_WM(poses[static_cast<std::size_t>(frame)]);
-      const Pose& pose = poses[static_cast<std::size_t>(frame)];
-      const Vec3 fixed_M = pose.rotation.conjugate() * (fixed.mesh.vertices.front() - pose.translation);
-      if (moving.encloses(fixed_M) && enclosed++ == 0) first_enclosed = frame;
-      if (fixed.encloses(X_WM.point(moving.mesh.vertices.front())) && inside++ == 0) first_inside = frame;
+      box_them();
     }
+    const Pose& pose = poses[static_cast<std::size_t>(frame)];
+    const RigidTransform X_WM(pose);
+    for (std::size_t i = 0; i < fixed_count; ++i) {
+      const BoxedMesh &moving = boxed.front(), &fixed = boxed[i + 1];
+      const Vec3 fixed_M = pose.rotation.conjugate() * (fixed.first_vertex() - pose.translation);
+      if (moving.encloses(fixed_M)) enclosed_by_moving[i].add(frame);
+      if (fixed.encloses(X_WM.point(moving.first_vertex()))) moving_inside[i].add(frame);
+    }
+  }
+  for (std::size_t i = 0; i < fixed_count; ++i) {
+    const FramesOf &enclosed = enclosed_by_moving[i], &inside = moving_inside[i];
     const std::string& name = look.meshes[i + 1].name;
-    if (enclosed > 0)
+    if (enclosed.count > 0)
       look.warnings.push_back(
           {fmt::format(
                "the moving mesh ({:.4g} m) encloses a vertex of {} {} ({:.4g} m) in {} of {} frames looked "
                "at, first in frame {}",
                look.meshes.front().diagonal, look.meshes[i + 1].role, name, look.meshes[i + 1].diagonal,
-               enclosed, samples, first_enclosed),
+               enclosed.count, samples, enclosed.first),
            "check the units of both (scale, diagonal_m) and the path; without a path one is made that stays "
            "outside"});
-    if (inside > 0)
+    if (inside.count > 0)
       look.warnings.push_back(
           {fmt::format(
                "the path is inside {} {} in {} of {} frames looked at, first in frame {}: LMDs there are "
                "those of two surfaces that have passed through each other",
-               look.meshes[i + 1].role, name, inside, samples, first_inside),
+               look.meshes[i + 1].role, name, inside.count, samples, inside.first),
            "move the path outside; without a path one is made that stays there"});
   }
 }
@@ -123,31 +149,14 @@ void look_at_path(SceneLook& look, const PreparedRun& prepared) {
   if (prepared.input.deformation) deforming.emplace(prepared.scene(), prepared.input.deformation);
   for (std::size_t frame = 0; frame < prepared.input.poses.size(); ++frame) {
     const auto at = static_cast<std::int64_t>(frame);
-    if (deforming) {
-      const Pose& pose = prepared.input.poses[frame];
-      if (deforming->known(at, pose).least >= bound) continue;
-      const double distance = deforming->look(at, pose);
-      if (!(distance < bound)) continue;
-      bound = distance;
-      look.nearest_frame = at;
-      continue;
-    }
-    if (phase) {
-      const double least =
-          nearest_instance(prepared.scene(), *phase, prepared.input.poses[frame], bound).distance;
-      if (!(least < bound)) continue;
-      bound = least;
-      look.nearest_frame = at;
-      continue;
-    }
-    for (const auto& fixed : prepared.scene().fixed) {
-      const NearestPair pair =
-          nearest_pair(prepared.scene().moving->surface(), prepared.scene().moving->prepared<Hierarchy>(),
-                       fixed->surface(), fixed->prepared<Hierarchy>(), prepared.input.poses[frame], bound);
-      if (pair.triangle_moving < 0 || !(pair.distance < bound)) continue;
-      bound = pair.distance;
-      look.nearest_frame = at;
-    }
+    const Pose& pose = prepared.input.poses[frame];
+    if (deforming && deforming->known(at, pose).least >= bound) continue;
+    const double least = deforming ? deforming->look(at, pose)
+                         : phase   ? nearest_instance(prepared.scene(), *phase, pose, bound).distance
+                                   : nearest_distance(prepared.scene(), pose, bound);
+    if (!(least < bound)) continue;
+    bound = least;
+    look.nearest_frame = at;
   }
   look.nearest = bound;
   look.warnings.push_back(
