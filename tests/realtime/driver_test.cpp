@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/base/error.h>
-#include <lmdbench/experiment/realtime_driver.h>
+#include <lmdbench/run/realtime_driver.h>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include <lmdbench/experiment/method_summary.h>
-#include <lmdbench/experiment/times.h>
+#include <lmdbench/metrics/method_summary.h>
+#include <lmdbench/metrics/times.h>
 #include <lmdbench/sweep/point_result.h>
 #include <lmdbench/sweep/step_numbers.h>
 #include <lmdbench/sweep/time_numbers.h>

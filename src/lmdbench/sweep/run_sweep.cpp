@@ -2,13 +2,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/base/error.h>
 #include <lmdbench/base/output_guard.h>
-#include <lmdbench/experiment/contact.h>
-#include <lmdbench/experiment/errors.h>
 #include <lmdbench/methods/registry.h>
+#include <lmdbench/metrics/errors.h>
 #include <lmdbench/record/node_watch.h>
 #include <lmdbench/record/own_result.h>
 #include <lmdbench/record/provenance.h>
 #include <lmdbench/record/result_writer.h>
+#include <lmdbench/run/contact.h>
 #include <lmdbench/sweep/point_key.h>
 #include <lmdbench/sweep/run_sweep.h>
 #include <lmdbench/sweep/step_numbers.h>

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/base/statistics.h>
-#include <lmdbench/experiment/errors.h>
 #include <lmdbench/force/aggregate.h>
+#include <lmdbench/metrics/errors.h>
 #include <lmdbench/sweep/step_numbers.h>
 
 #include <algorithm>

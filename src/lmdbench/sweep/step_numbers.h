@@ -3,9 +3,9 @@
 #pragma once
 
 #include <lmdbench/base/metric.h>
-#include <lmdbench/experiment/prepare.h>
-#include <lmdbench/experiment/records.h>
-#include <lmdbench/experiment/truth_probe.h>
+#include <lmdbench/run/prepare.h>
+#include <lmdbench/run/records.h>
+#include <lmdbench/run/truth_probe.h>
 
 #include <cstdint>
 #include <span>

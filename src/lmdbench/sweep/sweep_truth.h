@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <lmdbench/experiment/prepare.h>
-#include <lmdbench/experiment/truth_probe.h>
+#include <lmdbench/run/prepare.h>
+#include <lmdbench/run/truth_probe.h>
 
 #include <cstdint>
 #include <vector>

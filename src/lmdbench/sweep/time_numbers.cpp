@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/base/statistics.h>
-#include <lmdbench/experiment/times.h>
+#include <lmdbench/metrics/times.h>
 #include <lmdbench/sweep/time_numbers.h>
 
 #include <algorithm>

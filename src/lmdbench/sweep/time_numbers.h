@@ -3,7 +3,7 @@
 #pragma once
 
 #include <lmdbench/base/metric.h>
-#include <lmdbench/experiment/records.h>
+#include <lmdbench/run/records.h>
 
 #include <span>
 #include <vector>
