@@ -18,12 +18,12 @@ Pose pose_with_point(const Vec3& p_W, const Eigen::Quaterniond& R_WM, const Vec3
 
 HeldMesh::HeldMesh(const LoopChoice& loop, double period, const Pose& start, const Vec3& reference_M,
                    const Vec3& push_W, const Vec3& push_torque_W)
-    : place_(loop.dynamics, loop.integration, period,
-             point_of(start, loop.rotation ? reference_M : Vec3::Zero()), push_W, loop.resolution_m),
+    : place_(loop.dynamics, period, point_of(start, loop.rotation ? reference_M : Vec3::Zero()), push_W,
+             loop.resolution_m),
       held_M_(loop.rotation ? reference_M : Vec3::Zero()),
       path_orientation_(start.rotation) {
   if (loop.rotation)
-    gimbal_.emplace(loop.rotation->dynamics, loop.integration, period, start.rotation, push_torque_W,
+    gimbal_.emplace(loop.rotation->dynamics, period, start.rotation, push_torque_W,
                     loop.rotation->resolution_rad);
 }
 
