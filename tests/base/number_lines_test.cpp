@@ -13,9 +13,9 @@
 namespace lmdbench {
 namespace {
 
-using testing::ElementsAre;
-using testing::HasSubstr;
-using testing::Pair;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::Pair;
 
 using Lines = std::vector<std::pair<std::string, std::vector<double>>>;
 
