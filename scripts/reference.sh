@@ -136,7 +136,7 @@ part() {
       sweep budget-short
       ;;
     worlds)
-      study worlds --part time
+      study worlds --part cost --part broad-phase --part slack --part pile-slack
       study worlds --part completeness --world-frames 1000
       study worlds --part pile --pile-frames 100 --pile-passes 2
       ;;
