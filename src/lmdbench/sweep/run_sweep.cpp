@@ -4,6 +4,8 @@
 #include <lmdbench/base/output_guard.h>
 #include <lmdbench/methods/registry.h>
 #include <lmdbench/metrics/errors.h>
+#include <lmdbench/metrics/step_numbers.h>
+#include <lmdbench/metrics/time_numbers.h>
 #include <lmdbench/record/node_watch.h>
 #include <lmdbench/record/own_result.h>
 #include <lmdbench/record/provenance.h>
@@ -11,10 +13,8 @@
 #include <lmdbench/run/contact.h>
 #include <lmdbench/sweep/point_key.h>
 #include <lmdbench/sweep/run_sweep.h>
-#include <lmdbench/sweep/step_numbers.h>
 #include <lmdbench/sweep/sweep_parts.h>
 #include <lmdbench/sweep/sweep_truth.h>
-#include <lmdbench/sweep/time_numbers.h>
 #include <lmdbench/sweep/write_sweep.h>
 
 #include <fmt/format.h>

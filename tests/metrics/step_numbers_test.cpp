@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/catalogue/shapes.h>
+#include <lmdbench/metrics/step_numbers.h>
 #include <lmdbench/phantom/device.h>
-#include <lmdbench/sweep/step_numbers.h>
 #include <lmdbench/sweep/sweep_truth.h>
 
 #include <gtest/gtest.h>

@@ -3,7 +3,7 @@
 #include <lmdbench/base/statistics.h>
 #include <lmdbench/force/aggregate.h>
 #include <lmdbench/metrics/errors.h>
-#include <lmdbench/sweep/step_numbers.h>
+#include <lmdbench/metrics/step_numbers.h>
 
 #include <algorithm>
 #include <array>
@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::array STEP_NUMBERS = {
 #define NUMBER(name, units, ...) StepNumber{#name, units, &StepNumbers::name, __VA_ARGS__},
-#include <lmdbench/sweep/step_numbers.def>
+#include <lmdbench/metrics/step_numbers.def>
 #undef NUMBER
 };
 

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/base/statistics.h>
+#include <lmdbench/metrics/time_numbers.h>
 #include <lmdbench/metrics/times.h>
-#include <lmdbench/sweep/time_numbers.h>
 
 #include <algorithm>
 #include <array>
@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::array TIME_NUMBERS = {
 #define NUMBER(name, units, ...) TimeNumber{#name, units, &TimeNumbers::name, __VA_ARGS__},
-#include <lmdbench/sweep/time_numbers.def>
+#include <lmdbench/metrics/time_numbers.def>
 #undef NUMBER
 };
 

@@ -11,7 +11,7 @@
 #include <span>
 #include <vector>
 
-/// What truth in every frame lets a sweep say beyond the summary of a run (experiment/method_summary.h): events from
+/// What truth in every frame lets a sweep say beyond the summary of a run (metrics/method_summary.h): events from
 /// one frame to the next, counted, so that they have intervals, and torque.
 namespace lmdbench {
 
@@ -25,7 +25,7 @@ struct StepNumbers {
   double jumps = UNSET;  ///< Steps that change the force by more than JUMP_SHARE of F_max (errors.h); among
   double true_jumps = UNSET;  ///< the numbers of the summary, like the same of the true force.
 #define NUMBER(name, ...) double name = UNSET;
-#include <lmdbench/sweep/step_numbers.def>
+#include <lmdbench/metrics/step_numbers.def>
 #undef NUMBER
 };
 

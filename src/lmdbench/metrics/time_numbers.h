@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-/// Times beyond those of a run's summary (experiment/times.h): what all of a second costs, and what an update costs
+/// Times beyond those of a run's summary (metrics/times.h): what all of a second costs, and what an update costs
 /// per LMD that it carries.
 namespace lmdbench {
 
@@ -16,7 +16,7 @@ namespace lmdbench {
 /// the median of its measured repetitions.
 struct TimeNumbers {
 #define NUMBER(name, ...) double name = UNSET;
-#include <lmdbench/sweep/time_numbers.def>
+#include <lmdbench/metrics/time_numbers.def>
 #undef NUMBER
 };
 
