@@ -3,7 +3,7 @@
 #include <lmdbench/catalogue/shapes.h>
 #include <lmdbench/metrics/step_numbers.h>
 #include <lmdbench/phantom/device.h>
-#include <lmdbench/sweep/sweep_truth.h>
+#include <lmdbench/run/true_sets.h>
 
 #include <gtest/gtest.h>
 #include <support/scenes.h>
@@ -40,7 +40,7 @@ PreparedRun approach(const std::vector<double>& gaps) {
 
 struct Judged {
   StepNumbers numbers;
-  SweepTruth truth;
+  TrueSets truth;
 };
 
 /// Numbers of a method that has the true sets but for the frames that are listed, in which it has none.
@@ -64,9 +64,9 @@ Judged blind_in(const PreparedRun& run, const std::vector<std::size_t>& blind,
   return judged;
 }
 
-TEST(SweepTruth, IsTheExhaustiveSetAndSaysWhereItWasChecked) {
+TEST(TrueSets, IsTheExhaustiveSetAndSaysWhereItWasChecked) {
   const PreparedRun run = approach({0.04, 0.03, 0.02, 0.06, 0.01, 0.02, 0.03, 0.04, 0.045, 0.04});
-  const SweepTruth truth = true_sets(run, 5, {});
+  const TrueSets truth = true_sets(run, 5, {});
   ASSERT_EQ(truth.sets.size(), 10u);
   EXPECT_EQ(truth.checked_frames, 5);
   EXPECT_EQ(truth.wrong_frames, 0);

@@ -11,10 +11,10 @@
 #include <lmdbench/record/provenance.h>
 #include <lmdbench/record/result_writer.h>
 #include <lmdbench/run/contact.h>
+#include <lmdbench/run/true_sets.h>
 #include <lmdbench/sweep/point_key.h>
 #include <lmdbench/sweep/run_sweep.h>
 #include <lmdbench/sweep/sweep_parts.h>
-#include <lmdbench/sweep/sweep_truth.h>
 #include <lmdbench/sweep/write_sweep.h>
 
 #include <fmt/format.h>
@@ -47,7 +47,7 @@ class SharedScene {
 
   struct Truth {
     std::unique_ptr<PreparedRun> other;  ///< Unset where truth is of the same meshes.
-    SweepTruth sets;
+    TrueSets sets;
     std::vector<TruthFrame> frames;
   };
 

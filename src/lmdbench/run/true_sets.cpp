@@ -2,18 +2,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/force/aggregate.h>
 #include <lmdbench/methods/registry.h>
-#include <lmdbench/sweep/sweep_truth.h>
+#include <lmdbench/run/true_sets.h>
 
 #include <algorithm>
 #include <memory>
 
 namespace lmdbench {
 
-SweepTruth true_sets(const PreparedRun& run, std::int64_t checks, const Progress& progress) {
+TrueSets true_sets(const PreparedRun& run, std::int64_t checks, const Progress& progress) {
   const std::unique_ptr<Method> certified = make_method("certified", run.scene());
   const std::unique_ptr<Method> exhaustive = make_method("exhaustive", run.scene());
   const auto frames = static_cast<std::int64_t>(run.input.poses.size());
-  SweepTruth truth;
+  TrueSets truth;
   WorkCounters ignored;
   LmdSet other;
   for (std::int64_t frame = 0; frame < frames; ++frame) {
@@ -32,7 +32,7 @@ SweepTruth true_sets(const PreparedRun& run, std::int64_t checks, const Progress
   return truth;
 }
 
-std::vector<TruthFrame> truth_frames(const SweepTruth& truth, const PreparedRun& run, std::int64_t first) {
+std::vector<TruthFrame> truth_frames(const TrueSets& truth, const PreparedRun& run, std::int64_t first) {
   const auto rendered = [&](std::size_t frame, ForceLaw law) {
     ForceProfile profile = run.profiles.front().force;
     profile.law = law;

@@ -13,7 +13,7 @@
 /// shares no search code with it, is asked at some frames whether that stands in this scene, too.
 namespace lmdbench {
 
-struct SweepTruth {
+struct TrueSets {
   std::vector<LmdSet> sets;         ///< One a frame.
   std::int64_t checked_frames = 0;  ///< Compared with the exhaustive set.
   std::int64_t wrong_frames = 0;    ///< Of these, with another set of feature pairs.
@@ -21,10 +21,10 @@ struct SweepTruth {
 
 /// @param checks   frames to compare with the exhaustive set, evenly spread; all where there are fewer
 /// @param progress may stop by returning false, which throws Interrupted
-SweepTruth true_sets(const PreparedRun& run, std::int64_t checks, const Progress& progress);
+TrueSets true_sets(const PreparedRun& run, std::int64_t checks, const Progress& progress);
 
 /// The true forces of the sets at the frames from `first` on that have a next one.
 /// @param run whose profile and device render
-std::vector<TruthFrame> truth_frames(const SweepTruth& truth, const PreparedRun& run, std::int64_t first);
+std::vector<TruthFrame> truth_frames(const TrueSets& truth, const PreparedRun& run, std::int64_t first);
 
 }  // namespace lmdbench
