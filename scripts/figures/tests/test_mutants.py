@@ -1,0 +1,34 @@
+# SPDX-FileCopyrightText: The lmdbench authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Every planted defect of scripts/mutants.txt fits the code as it is: scripts/mutants.sh, which takes hours, can plant it."""
+
+import os
+import re
+import unittest
+
+ROOT = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "..")
+
+
+def mutants():
+    with open(os.path.join(ROOT, "scripts", "mutants.txt"), encoding="utf-8") as stream:
+        entries = [dict(re.findall(r"^(name|file|from|to|test|only|equivalent): (.*)$", entry, re.M)) for entry in stream.read().split("\n\n")]
+    return [entry for entry in entries if "name" in entry]
+
+
+class Mutants(unittest.TestCase):
+    def test_each_has_a_name_of_its_own(self):
+        names = [mutant["name"] for mutant in mutants()]
+        self.assertGreater(len(names), 200)
+        self.assertEqual(sorted(names), sorted(set(names)))
+
+    def test_each_fits_the_code(self):
+        for mutant in mutants():
+            with self.subTest(mutant["name"]):
+                with open(os.path.join(ROOT, mutant["file"]), encoding="utf-8") as stream:
+                    lines = [line for line in stream if mutant["from"] in line]
+                self.assertEqual(len(lines), 1, (mutant["file"], mutant["from"]))
+                self.assertNotEqual(mutant["from"], mutant.get("to", ""))
+
+
+if __name__ == "__main__":
+    unittest.main()
