@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 namespace lmdbench {
 
@@ -55,17 +56,6 @@ const RegionShape* shape_of(const ShapeSide& side, const FeatureId& face) {
   const std::int32_t region = side.shape.region_of(face.index);
   return region < 0 ? nullptr : side.shape.shapes.of_region(region);
 }
-
-/// The bar that holds a region, in the world.
-struct Bar {
-  Vec3 centre, half;
-  double radius;
-
-  Bar(const ShapeSide& side, const RegionShape& shape)
-      : centre(side.is_moving ? side.X_WS.point(shape.bar_centre) : shape.bar_centre),
-        half(side.direction(shape.bar_half)),
-        radius(shape.bar_radius) {}
-};
 
 /// Gap of two bars, square to the longer one: walls of a peg and of its bore stand side by side, and a disc round a wall meets half
 /// of the others.
@@ -159,6 +149,7 @@ std::span<const Certificate> TouchingPairs::decide(Frame& frame, std::span<const
   const bool is_joined = moving.shape.is_joined || fixed.shape.is_joined;
   const double margin = MARGIN_IN_TOUCHES * frame.touch;
   certificates_.assign(pairs.size(), Certificate{});
+  ++calls_;
   Batch batch, not_crossing;
   for (std::size_t k = 0; k < pairs.size(); ++k) {
     const FeatureId on_moving = pairs[k].a.feature_id(), on_fixed = pairs[k].b.feature_id();
@@ -166,7 +157,7 @@ std::span<const Certificate> TouchingPairs::decide(Frame& frame, std::span<const
     const RegionShape* const shape_moving = is_joined ? shape_of(moving, on_moving) : nullptr;
     const RegionShape* const shape_fixed = is_joined ? shape_of(fixed, on_fixed) : nullptr;
     if (shape_moving != nullptr && shape_fixed != nullptr) {
-      const ClearGap gap = gap_of_bars(Bar(moving, *shape_moving), Bar(fixed, *shape_fixed));
+      const ClearGap gap = gap_of_bars(moving_bar(moving, *shape_moving), shape_fixed->bar);
       if (gap.gap > margin) {
         certificates_[k] = {gap.gap - margin, gap.axis};
         continue;
@@ -183,6 +174,15 @@ std::span<const Certificate> TouchingPairs::decide(Frame& frame, std::span<const
   decide_batch(frame, batch, not_crossing);
   decide_not_crossing(frame, not_crossing);
   return certificates_;
+}
+
+const Bar& TouchingPairs::moving_bar(const ShapeSide& moving, const RegionShape& shape) {
+  const std::vector<RegionShape>& shapes = moving.shape.shapes.shapes;
+  moving_bars_.resize(shapes.size());
+  auto& [made_in, bar] = moving_bars_[static_cast<std::size_t>(&shape - shapes.data())];
+  if (std::exchange(made_in, calls_) != calls_)
+    bar = {moving.X_WS.point(shape.bar.centre), moving.X_WS.direction(shape.bar.half), shape.bar.radius};
+  return bar;
 }
 
 void TouchingPairs::decide_batch(Frame& frame, Batch& batch, Batch& not_crossing) {
@@ -271,12 +271,11 @@ Certificate TouchingPairs::decide_regions(Frame& frame, const WidePair& pair) {
   };
   const RegionShape* const shape_m = shape_of(moving, on_moving);
   const RegionShape* const shape_f = shape_of(fixed, on_fixed);
-  const auto collect = [](const ShapeSide& side, const FeatureId& lead, std::vector<std::int32_t>& corners,
-                          std::vector<Vec3>& points) {
-    corners.clear();
+  const auto collect = [&](const ShapeSide& side, const FeatureId& lead, std::vector<Vec3>& points) {
+    corners_.clear();
     points.clear();
-    side.shape.append_corners(side.surface, lead, corners);
-    for (const std::int32_t v : corners) points.push_back(side.vertex(v));
+    side.shape.append_corners(side.surface, lead, corners_);
+    for (const std::int32_t v : corners_) points.push_back(side.vertex(v));
   };
   // A triangle without area has no plane and separates nothing.
   const auto clear_of = [&](const ShapeSide& with_plane, std::int32_t region, const ShapeSide& other,
@@ -289,16 +288,17 @@ Certificate TouchingPairs::decide_regions(Frame& frame, const WidePair& pair) {
     return clear(gap, 1.0);
   if (const ClearGap gap = clear_of(moving, region_m, fixed, on_fixed, shape_f); gap.gap > margin)
     return clear(gap, -1.0);
-  collect(moving, on_moving, corners_moving_, points_moving_);
-  collect(fixed, on_fixed, corners_fixed_, points_fixed_);
-  const std::size_t count_m = points_moving_.size(), count_f = points_fixed_.size();
-  if (region_m >= 0 && region_f >= 0 && count_m * count_f <= MOST_CORNER_PAIRS)
+  const std::size_t count_m = shape_m != nullptr ? shape_m->corners.size() : 3,
+                    count_f = shape_f != nullptr ? shape_f->corners.size() : 3;
+  const bool moving_is_large = count_m > count_f, both_are_small = count_m * count_f <= MOST_CORNER_PAIRS;
+  if (both_are_small || !moving_is_large) collect(moving, on_moving, points_moving_);
+  if (both_are_small || moving_is_large) collect(fixed, on_fixed, points_fixed_);
+  if (both_are_small && region_m >= 0 && region_f >= 0)
     if (const ClearGap gap =
             gap_along_side_products(moving, region_m, points_moving_, fixed, region_f, points_fixed_);
         gap.gap > margin)
       return clear(gap, 1.0);
 
-  const bool moving_is_large = count_m > count_f;
   const ShapeSide& large = moving_is_large ? moving : fixed;
   const ShapeSide& small = moving_is_large ? fixed : moving;
   const std::int32_t region_large = moving_is_large ? region_m : region_f;
