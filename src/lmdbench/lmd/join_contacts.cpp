@@ -99,11 +99,12 @@ class Joining {
   void run(std::span<const Intersection> intersections, LmdSet& lmds) {
     drop_intersecting(intersections);
     sort_contacts();
-    // The same pair of points may have been asked for twice.
+    // The same pair of features may have been asked for twice.
     contacts_.erase(std::unique(contacts_.begin(), contacts_.end(),
                                 [](const Contact& a, const Contact& b) {
-                                  return a.dimension == 0 && b.dimension == 0 && name_of(a) == name_of(b) &&
-                                         a.distance == b.distance && a.is_minimum == b.is_minimum;
+                                  return a.dimension == b.dimension && name_of(a) == name_of(b) &&
+                                         a.distance == b.distance && a.is_minimum == b.is_minimum &&
+                                         a.point_moving == b.point_moving;
                                 }),
                     contacts_.end());
     find_company();

@@ -32,6 +32,12 @@ Triangle triangle_of(const ShapeSide& side, std::int32_t face) {
   return side.is_moving ? side.X_WS.triangle(t) : t;
 }
 
+/// From end to end of a chain.
+Vec3 from_end_to_end(const ShapeSide& side, std::int32_t chain) {
+  const auto& ends = side.shape.ends_of_chain(chain);
+  return side.vertex(ends[1]) - side.vertex(ends[0]);
+}
+
 /// Gap between points and a plane, with the axis from the points towards it.
 ClearGap gap_to(const Plane& plane, std::span<const Vec3> points) {
   Extent heights;
@@ -75,15 +81,11 @@ ClearGap gap_of_bars(const Bar& a, const Bar& b) {
 ClearGap gap_along_side_products(const ShapeSide& moving, std::int32_t region_moving,
                                  std::span<const Vec3> corners_moving, const ShapeSide& fixed,
                                  std::int32_t region_fixed, std::span<const Vec3> corners_fixed) {
-  const auto side_of = [](const ShapeSide& side, std::int32_t chain) {
-    const auto& ends = side.shape.ends_of_chain(chain);
-    return Vec3(side.vertex(ends[1]) - side.vertex(ends[0]));
-  };
   ClearGap widest;
   for (const std::int32_t s : moving.shape.regions.straight_edges_of_region[region_moving]) {
-    const Vec3 u = side_of(moving, s);
+    const Vec3 u = from_end_to_end(moving, s);
     for (const std::int32_t t : fixed.shape.regions.straight_edges_of_region[region_fixed]) {
-      const Vec3 product = u.cross(side_of(fixed, t));
+      const Vec3 product = u.cross(from_end_to_end(fixed, t));
       const double length = product.norm();
       if (!(length > 0.0)) continue;
       const Vec3 axis = product / length;
@@ -121,6 +123,20 @@ void ask_corners(const TouchingPairs::Frame& frame, const ShapeSide& of_corners,
       if (const std::int32_t chain = other.shape.chain_of(e); chain >= 0)
         ask(corner, {FeatureKind::EDGE, other.shape.lead_of_chain(chain)});
   }
+}
+
+/// Asks for what parallel chains of two triangles within touch share: its direction is one between points, too.
+void ask_parallel_chains(const TouchingPairs::Frame& frame, std::int32_t t_moving, std::int32_t t_fixed) {
+  const ShapeSide &moving = frame.pair.moving, &fixed = frame.pair.fixed;
+  for (const std::int32_t e : moving.surface.adjacency.triangle_edges[static_cast<std::size_t>(t_moving)])
+    for (const std::int32_t f : fixed.surface.adjacency.triangle_edges[static_cast<std::size_t>(t_fixed)]) {
+      const std::int32_t c = moving.shape.chain_of(e), d = fixed.shape.chain_of(f);
+      if (c < 0 || d < 0) continue;
+      const Vec3 u = from_end_to_end(moving, c), v = from_end_to_end(fixed, d);
+      if (u.cross(v).norm() > 2.0 * frame.pair.tolerance.largest_tilt * u.norm() * v.norm()) continue;
+      decide(frame.pair, {FeatureKind::EDGE, moving.shape.lead_of_chain(c)},
+             {FeatureKind::EDGE, fixed.shape.lead_of_chain(d)}, frame.contacts);
+    }
 }
 
 }  // namespace
@@ -240,6 +256,7 @@ Certificate TouchingPairs::decide_triangles(Frame& frame, std::int32_t t_moving,
   if (distance <= frame.touch) {
     ask_corners(frame, moving, t_moving, fixed, t_fixed);
     ask_corners(frame, fixed, t_fixed, moving, t_moving);
+    ask_parallel_chains(frame, t_moving, t_fixed);
     return {};
   }
   return {distance - MARGIN_IN_TOUCHES * frame.touch, (nearest.point_b - nearest.point_a) / distance};
