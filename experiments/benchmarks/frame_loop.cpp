@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/base/error.h>
-#include <lmdbench/experiment/prepare.h>
 #include <lmdbench/methods/registry.h>
+#include <lmdbench/run/prepare.h>
 
 #include <benchmarks/frame_loop.h>
 #include <fmt/core.h>

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <lmdbench/experiment/lockstep.h>
+#include <lmdbench/run/lockstep.h>
 
 #include <support/lmd_error.h>
 

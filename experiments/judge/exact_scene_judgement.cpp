@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/experiment/experiment.h>
-#include <lmdbench/experiment/prepare.h>
 #include <lmdbench/methods/registry.h>
+#include <lmdbench/run/prepare.h>
 
 #include <fmt/format.h>
 #include <judge/exact_scene.h>

@@ -13,11 +13,11 @@
 #include <support/context.h>
 #include <support/poses.h>
 #include <support/program.h>
+#include <support/timing.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <ctime>
 #include <memory>
 #include <numbers>
 #include <optional>
@@ -122,14 +122,9 @@ bool same_bits(const LmdSet& a, const LmdSet& b) {
 /// Processor time [s] of all threads: other programs on the machine count as little as they can.
 template <class Work>
 double processor_seconds_of(Work&& work) {
-  const auto now = [] {
-    std::timespec time{};
-    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
-    return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
-  };
-  const double start = now();
+  const double start = experiments::process_seconds();
   work();
-  return now() - start;
+  return experiments::process_seconds() - start;
 }
 
 std::shared_ptr<const Body> body_of(const TriangleMesh& mesh) {

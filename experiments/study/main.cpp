@@ -23,12 +23,10 @@ int main(int argc, char** argv) {
   study::add_completeness(app, chosen);
   study::add_continuous_force(app, chosen);
   study::add_scaling(app, chosen);
-  study::add_builders(app, chosen);
   study::add_compare(app, chosen);
   study::add_deform(app, chosen);
   study::add_depth(app, chosen);
   study::add_flat(app, chosen);
-  study::add_integrators(app, chosen);
   study::add_stability(app, chosen);
   study::add_passivity(app, chosen);
   study::add_leave_out(app, chosen);

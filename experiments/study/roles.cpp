@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/base/error.h>
 #include <lmdbench/base/statistics.h>
-#include <lmdbench/experiment/prepare.h>
 #include <lmdbench/force/aggregate.h>
+#include <lmdbench/run/prepare.h>
 
 #include <CLI/CLI.hpp>
 #include <fmt/core.h>

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/base/error.h>
-#include <lmdbench/experiment/stability_map.h>
+#include <lmdbench/stability/stability_map.h>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>

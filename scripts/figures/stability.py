@@ -209,7 +209,7 @@ def main(argv):
 TEXT = """# Stability of the closed loop
 
 Made by `scripts/figures/stability.py`. Each critical stiffness was found by simulation through meshes, method, force law,
-zero-order hold and delay; what counts as clean stands in `src/lmdbench/experiment/cleanliness.h`, how a stiffness is tried in
+zero-order hold and delay; what counts as clean stands in `src/lmdbench/metrics/cleanliness.h`, how a stiffness is tried in
 `stability_trial.h` beside it.
 
 ![largest clean stiffness over delay](stability.png)

@@ -164,7 +164,7 @@ def draw(points, directory):
 TEXT = """# Stability maps
 
 Made by `scripts/figures/stability_map.py` from {runs} closed loops of `lmdbench-study stability`{commit} (what a run is and what is measured
-stands in `src/lmdbench/experiment/stability_map.h`). A device of 0.075 kg in the hand `postural-arm` at 1 kHz is pressed into the
+stands in `src/lmdbench/stability/stability_map.h`). A device of 0.075 kg in the hand `postural-arm` at 1 kHz is pressed into the
 contact by {load} N while the hand trembles, {seeds} tremors a point. Stiffness is K_eff of the exact set at the first pose; all methods get
 the same F_max. Age: a search starts every so many frames and its set arrives as many later; `certified` and `nearest` search in
 every frame. Shakes: contact lost after it had settled, or more than a tenth of the load above 30 Hz. Through: the meshes touch, so

@@ -1,10 +1,10 @@
 # SPDX-FileCopyrightText: The lmdbench authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Writes a rough sheet of very many triangles (no two in one plane) as OFF and lets the program read it: with the usual
-limits it must be refused by name, with the limit raised it must be read. Prints processor time and peak memory of each
-as a table.
+"""Writes a sheet of very many triangles as OFF and lets the program read it: with the usual limits it must be refused by name, with
+the limit raised it must be read. A rough sheet has no two triangles in one plane; one of strips is a zigzag of flat ones, each of very
+many triangles. Prints processor time and peak memory of each as a table.
 
-    large_mesh.py PROGRAM [--triangles N] [--folder FOLDER]
+    large_mesh.py PROGRAM [--triangles N] [--shape rough|strips] [--folder FOLDER]
 """
 
 import argparse
@@ -20,7 +20,7 @@ BYTES_PER_TRIANGLE = 60  # of the text, vertices included
 MEMORY_PER_TRIANGLE = 500  # what `query` may need; `mesh info` takes about 260
 
 
-def write_sheet(path, triangles):
+def write_sheet(path, triangles, shape):
     side = round((triangles / 2) ** 0.5)
     with open(path, "w", encoding="ascii", buffering=1 << 22) as file:
         file.write(f"OFF\n{(side + 1) ** 2} {2 * side * side} 0\n")
@@ -28,7 +28,10 @@ def write_sheet(path, triangles):
         columns = [f"{j / side:.7f}" for j in range(side + 1)]
         for i in range(side + 1):
             row = columns[i]
-            file.write("".join(f"{row} {columns[j]} {heights[(31 * i + j) % (side + 1)]}\n" for j in range(side + 1)))
+            if shape == "strips":
+                file.write("".join(f"{row} {column} {0.01 * (i % 2)}\n" for column in columns))
+            else:
+                file.write("".join(f"{row} {columns[j]} {heights[(31 * i + j) % (side + 1)]}\n" for j in range(side + 1)))
         for i in range(side):
             a, b = i * (side + 1), (i + 1) * (side + 1)
             file.write("".join(f"3 {a + j} {b + j} {b + j + 1}\n3 {a + j} {b + j + 1} {a + j + 1}\n" for j in range(side)))
@@ -48,6 +51,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n\n")[0])
     parser.add_argument("program")
     parser.add_argument("--triangles", type=int, default=40_000_000)
+    parser.add_argument("--shape", choices=["rough", "strips"], default="rough")
     parser.add_argument("--folder", default=tempfile.gettempdir())
     arguments = parser.parse_args()
     memory = os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES")
@@ -61,7 +65,7 @@ def main():
     failures = []
     with tempfile.TemporaryDirectory(prefix="lmdbench-large-", dir=arguments.folder) as folder:
         mesh = os.path.join(folder, "sheet.off")
-        triangles = write_sheet(mesh, arguments.triangles)
+        triangles = write_sheet(mesh, arguments.triangles, arguments.shape)
         print(f"{triangles} triangles, {os.path.getsize(mesh)} bytes\n")
         print("| command | exit code | processor time [s] | peak memory [GB] |\n|---|---|---|---|")
         raised = ["--limit", f"triangles={triangles}"]

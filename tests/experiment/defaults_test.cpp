@@ -1,12 +1,12 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/base/error.h>
-#include <lmdbench/experiment/new_experiment.h>
-#include <lmdbench/experiment/prepare.h>
-#include <lmdbench/experiment/run.h>
-#include <lmdbench/experiment/summary.h>
 #include <lmdbench/methods/registry.h>
+#include <lmdbench/metrics/summary.h>
 #include <lmdbench/motion/tum_file.h>
+#include <lmdbench/run/new_experiment.h>
+#include <lmdbench/run/prepare.h>
+#include <lmdbench/run/run.h>
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>

@@ -3,8 +3,8 @@
 #include <lmdbench/base/error.h>
 #include <lmdbench/experiment/experiment.h>
 #include <lmdbench/experiment/rules.h>
-#include <lmdbench/experiment/run.h>
 #include <lmdbench/experiment/schema.h>
+#include <lmdbench/run/run.h>
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/base/error.h>
 #include <lmdbench/experiment/experiment.h>
-#include <lmdbench/experiment/run.h>
+#include <lmdbench/result/run_to_file.h>
 
 #include "record/result_reading.h"
 #include <gmock/gmock.h>

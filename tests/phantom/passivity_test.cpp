@@ -25,8 +25,7 @@ RC_GTEST_PROP(Passivity, WallWithinColgatesConditionNeverGivesEnergy, ()) {
   const Hand hand{"pulls", within(0.0, 1.0, *rc::gen::inRange(0, 101)),
                   0.0,     within(10.0, 2000.0, *rc::gen::inRange(0, 101)),
                   0.0,     0.0};
-  SimulatedDevice device({0.05, damping, 0.0, hand}, Integration::EXACT, period, Vec3::Zero(), Vec3::Zero(),
-                         0.0);
+  SimulatedDevice device({0.05, damping, 0.0, hand}, period, Vec3::Zero(), Vec3::Zero(), 0.0);
   const std::vector<int> pulls = *rc::gen::container<std::vector<int>>(200, rc::gen::inRange(-20, 21));
   double path = 0.0;
   for (const int pull : pulls) {

@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <lmdbench/experiment/realtime_driver.h>
 #include <lmdbench/lmd/method_description.h>
 #include <lmdbench/methods/registry.h>
+#include <lmdbench/run/realtime_driver.h>
 
 #include <support/scenes.h>
 

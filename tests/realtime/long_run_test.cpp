@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include <lmdbench/experiment/realtime_driver.h>
+#include <lmdbench/run/realtime_driver.h>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>

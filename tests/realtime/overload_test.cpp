@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include <lmdbench/experiment/realtime_driver.h>
 #include <lmdbench/realtime/servo_clock.h>
+#include <lmdbench/run/realtime_driver.h>
 
 #include <gtest/gtest.h>
 #include <realtime/clock_scene.h>

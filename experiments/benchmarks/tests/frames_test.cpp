@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include <lmdbench/experiment/lockstep.h>
 #include <lmdbench/methods/registry.h>
 #include <lmdbench/phantom/device.h>
+#include <lmdbench/run/lockstep.h>
 
 #include <benchmarks/local_tracking/implementation.h>
 #include <benchmarks/whole_frame/implementation.h>

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include <lmdbench/experiment/two_rate.h>
+#include <lmdbench/run/two_rate.h>
 
 #include <benchmarks/whole_frame/implementation.h>
 #include <benchmarks/whole_frame/rendered.h>

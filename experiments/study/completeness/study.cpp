@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/experiment/experiment.h>
-#include <lmdbench/experiment/prepare.h>
 #include <lmdbench/lmd/near_frame.h>
 #include <lmdbench/methods/certified/certified.h>
 #include <lmdbench/motion/tum_file.h>
+#include <lmdbench/run/prepare.h>
 
 #include <fmt/format.h>
 #include <study/completeness/study.h>

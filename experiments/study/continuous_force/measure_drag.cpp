@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include <lmdbench/experiment/cleanliness.h>
 #include <lmdbench/experiment/experiment.h>
-#include <lmdbench/experiment/prepare.h>
+#include <lmdbench/metrics/cleanliness.h>
+#include <lmdbench/run/prepare.h>
 
 #include <study/continuous_force/measures.h>
 #include <support/random.h>

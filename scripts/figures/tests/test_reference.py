@@ -5,6 +5,7 @@ its code where it is."""
 
 import os
 import re
+import subprocess
 import sys
 import unittest
 
@@ -30,6 +31,14 @@ class Register(unittest.TestCase):
             for study in re.findall(r"lmdbench-study ([\w-]+)", row.command):
                 self.assertIn(f"add_{study.replace('-', '_')}(", studies, row.files)
             self.assertRegex(row.command, r"lmdbench|scripts/|tests/", row.files)
+
+    def test_one_command_makes_every_table(self):
+        parts = subprocess.run([os.path.join(ROOT, "scripts", "reference.sh"), "--list"], capture_output=True, text=True, check=True).stdout.split()
+        tables = [file for row in rows() for file in row.files if file.endswith(".md") and file != "verdicts.md"]
+        for table in tables:
+            self.assertTrue(any(table.startswith(part) for part in parts), (table, "remedy: a part in scripts/reference.sh"))
+        for part in parts:
+            self.assertTrue(part == "figures" or any(table.startswith(part) for table in tables), (part, "makes no table"))
 
     def test_every_folder_is_there(self):
         for row in rows():

@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/base/error.h>
 #include <lmdbench/cli/anatomy_command.h>
-#include <lmdbench/experiment/anatomy.h>
-#include <lmdbench/experiment/contact.h>
 #include <lmdbench/experiment/experiment.h>
-#include <lmdbench/experiment/prepare.h>
+#include <lmdbench/run/contact.h>
+#include <lmdbench/run/prepare.h>
+#include <lmdbench/view/anatomy.h>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/cli/export_command.h>
-#include <lmdbench/experiment/export_frames.h>
+#include <lmdbench/view/export_frames.h>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>

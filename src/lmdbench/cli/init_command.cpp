@@ -4,7 +4,7 @@
 #include <lmdbench/cli/commands.h>
 #include <lmdbench/cli/progress_bar.h>
 #include <lmdbench/cli/talk.h>
-#include <lmdbench/experiment/new_experiment.h>
+#include <lmdbench/run/new_experiment.h>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>

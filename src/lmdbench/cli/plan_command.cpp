@@ -4,13 +4,13 @@
 #include <lmdbench/cli/commands.h>
 #include <lmdbench/cli/progress_bar.h>
 #include <lmdbench/cli/talk.h>
-#include <lmdbench/experiment/deforming_distance.h>
-#include <lmdbench/experiment/expected_times.h>
 #include <lmdbench/experiment/experiment.h>
-#include <lmdbench/experiment/plan.h>
-#include <lmdbench/experiment/prepare.h>
 #include <lmdbench/experiment/schema.h>
 #include <lmdbench/methods/registry.h>
+#include <lmdbench/run/deforming_distance.h>
+#include <lmdbench/run/expected_times.h>
+#include <lmdbench/run/plan.h>
+#include <lmdbench/run/prepare.h>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>

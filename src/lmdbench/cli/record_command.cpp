@@ -4,8 +4,8 @@
 #include <lmdbench/cli/commands.h>
 #include <lmdbench/cli/progress_bar.h>
 #include <lmdbench/cli/talk.h>
-#include <lmdbench/experiment/record_path.h>
 #include <lmdbench/motion/tum_file.h>
+#include <lmdbench/run/record_path.h>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>

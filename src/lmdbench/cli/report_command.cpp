@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/cli/commands.h>
-#include <lmdbench/experiment/report.h>
+#include <lmdbench/view/report.h>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>

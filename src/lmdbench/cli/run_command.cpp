@@ -6,10 +6,11 @@
 #include <lmdbench/cli/stop_signals.h>
 #include <lmdbench/cli/talk.h>
 #include <lmdbench/experiment/experiment.h>
-#include <lmdbench/experiment/run.h>
-#include <lmdbench/experiment/summary.h>
-#include <lmdbench/experiment/write_realtime.h>
 #include <lmdbench/methods/registry.h>
+#include <lmdbench/metrics/summary.h>
+#include <lmdbench/result/run_to_file.h>
+#include <lmdbench/result/write_realtime.h>
+#include <lmdbench/run/run.h>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>

@@ -4,7 +4,7 @@
 #include <lmdbench/cli/commands.h>
 #include <lmdbench/cli/progress_bar.h>
 #include <lmdbench/cli/talk.h>
-#include <lmdbench/experiment/stability_search.h>
+#include <lmdbench/stability/stability_search.h>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>

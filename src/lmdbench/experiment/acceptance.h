@@ -12,7 +12,6 @@
 namespace lmdbench {
 
 struct Experiment;
-struct RunSummary;
 
 /// "limits" of an experiment file: what a run must keep to.
 struct Acceptance {
@@ -27,8 +26,5 @@ struct Acceptance {
 /// @throws UsageError for a label that no method has and for a limit on what is not measured
 Acceptance read_acceptance(const nlohmann::json& entry, const Experiment& experiment,
                            const std::string& file);
-
-/// A sentence a broken limit, with the figure. A figure that could not be measured breaks its limit.
-std::vector<std::string> broken_limits(const Acceptance& acceptance, const RunSummary& summary);
 
 }  // namespace lmdbench

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/base/significant_digits.h>
 #include <lmdbench/experiment/defaults.h>
-#include <lmdbench/experiment/fcl_probe.h>
+#include <lmdbench/experiment/fcl_part.h>
 #include <lmdbench/lmd/scene.h>
 #include <lmdbench/mesh/triangle_mesh.h>
 #include <lmdbench/methods/registry.h>

@@ -2,16 +2,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/base/error.h>
 #include <lmdbench/base/input_file.h>
+#include <lmdbench/base/number_lines.h>
 #include <lmdbench/experiment/instance_choice.h>
 #include <lmdbench/motion/tum_file.h>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include <algorithm>
 #include <cmath>
-#include <cstdlib>
-#include <sstream>
 
 namespace lmdbench {
 
@@ -19,21 +17,6 @@ namespace {
 
 /// More are no world for a test, but a mistake in a count.
 constexpr std::int64_t MOST_INSTANCES = 1000000;
-
-std::vector<double> numbers_of_line(std::string line, const std::string& name, std::size_t number) {
-  std::replace(line.begin(), line.end(), ',', ' ');
-  std::istringstream words(line);
-  std::vector<double> numbers;
-  for (std::string word; words >> word;) {
-    char* end = nullptr;
-    const double value = std::strtod(word.c_str(), &end);
-    if (*end != '\0' || !std::isfinite(value))
-      throw InputError(name, fmt::format("line {}", number), fmt::format("\"{}\" is no finite number", word),
-                       "write x y z qx qy qz qw, in metres and as a unit quaternion");
-    numbers.push_back(value);
-  }
-  return numbers;
-}
 
 }  // namespace
 
@@ -72,28 +55,24 @@ InstanceChoice read_instance_choice(const nlohmann::json& entry, const std::stri
 
 std::vector<Pose> parse_pose_list(const std::string& text, const std::string& name) {
   std::vector<Pose> poses;
-  std::istringstream lines(text);
-  std::size_t number = 0;
-  for (std::string line; std::getline(lines, line);) {
-    ++number;
-    line.resize(std::min(line.find('#'), line.size()));
-    if (!line.empty() && line.back() == '\r') line.pop_back();
-    std::vector<double> n = numbers_of_line(line, name, number);
-    if (n.empty()) continue;
-    if (n.size() == 8) n.erase(n.begin());
-    if (n.size() != 7)
-      throw InputError(name, fmt::format("line {}", number), fmt::format("{} numbers", n.size()),
-                       "write x y z qx qy qz qw, or a time before them");
-    Pose pose{Vec3(n[0], n[1], n[2]), Eigen::Quaterniond(n[6], n[3], n[4], n[5])};
-    if (!(std::abs(pose.rotation.norm() - 1.0) <= QUATERNION_LENGTH_TOLERANCE))
-      throw InputError(
-          name, fmt::format("line {}", number),
-          fmt::format("quaternion of length {:.6g}: an instance has no scale of its own",
-                      pose.rotation.norm()),
-          "give a unit quaternion in the order x, y, z, w; scale the mesh (\"scale\", \"diagonal_m\")");
-    pose.rotation.normalize();
-    poses.push_back(pose);
-  }
+  for_each_number_line(
+      text, name, "write x y z qx qy qz qw, in metres and as a unit quaternion",
+      [&](const std::string& place, std::span<const double> n) {
+        const std::size_t count = n.size();
+        if (count == 8) n = n.subspan(1);
+        if (n.size() != 7)
+          throw InputError(name, place, fmt::format("{} numbers", count),
+                           "write x y z qx qy qz qw, or a time before them");
+        Pose pose{Vec3(n[0], n[1], n[2]), Eigen::Quaterniond(n[6], n[3], n[4], n[5])};
+        if (!(std::abs(pose.rotation.norm() - 1.0) <= QUATERNION_LENGTH_TOLERANCE))
+          throw InputError(
+              name, place,
+              fmt::format("quaternion of length {:.6g}: an instance has no scale of its own",
+                          pose.rotation.norm()),
+              "give a unit quaternion in the order x, y, z, w; scale the mesh (\"scale\", \"diagonal_m\")");
+        pose.rotation.normalize();
+        poses.push_back(pose);
+      });
   if (poses.empty()) throw InputError(name, "", "has no pose", "write one a line: x y z qx qy qz qw");
   return poses;
 }

@@ -5,7 +5,7 @@
 #include <lmdbench/base/json_document.h>
 #include <lmdbench/base/json_schema.h>
 #include <lmdbench/experiment/experiment.h>
-#include <lmdbench/experiment/fcl_probe.h>
+#include <lmdbench/experiment/fcl_part.h>
 #include <lmdbench/experiment/schema.h>
 #include <lmdbench/force/aggregation.h>
 #include <lmdbench/methods/registry.h>

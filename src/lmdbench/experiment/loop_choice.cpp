@@ -94,9 +94,6 @@ LoopChoice loop_choice(Json& entry, const Device& device, const std::string& fil
   loop.delay_frames = entry["delay_frames"].get<std::int64_t>();
   for (int axis = 0; axis < 3; ++axis)
     loop.push_n[axis] = entry["push_n"][static_cast<std::size_t>(axis)].get<double>();
-  const auto names = integration_names();
-  const auto chosen = std::find(names.begin(), names.end(), entry["integrator"].get<std::string>());
-  loop.integration = static_cast<Integration>(chosen - names.begin());
   loop.rotation = rotation_choice(entry, loop, device, file);
   return loop;
 }

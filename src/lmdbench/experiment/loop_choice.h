@@ -3,7 +3,6 @@
 #pragma once
 
 #include <lmdbench/geometry/types.h>
-#include <lmdbench/phantom/axis_integrator.h>
 #include <lmdbench/phantom/axis_model.h>
 #include <lmdbench/phantom/device.h>
 
@@ -30,7 +29,6 @@ struct LoopChoice {
   double resolution_m = 0.0;      ///< Of the encoders; 0: exact.
   std::int64_t delay_frames = 0;  ///< The force of frame n is rendered from frame n + delay_frames on.
   Vec3 push_n = Vec3::Zero();     ///< A constant force on the device, world frame.
-  Integration integration = Integration::EXACT;
   /// Set: six actuated degrees of freedom. Unset: three, and the orientation is the path's.
   std::optional<RotationChoice> rotation = std::nullopt;
 };

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/base/error.h>
 #include <lmdbench/experiment/experiment.h>
+#include <lmdbench/experiment/probed_frames.h>
 #include <lmdbench/experiment/rules.h>
-#include <lmdbench/experiment/truth_probe.h>
 #include <lmdbench/methods/registry.h>
 
 #include <fmt/format.h>

@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -62,12 +63,20 @@ class BoxTree {
   std::size_t build(std::size_t begin, std::size_t end) {
     const std::size_t index = nodes_.size();
     nodes_.emplace_back();
-    Box box;
-    for (std::size_t k = begin; k < end; ++k) box.extend(boxes_[static_cast<std::size_t>(order_[k])]);
+    Box box, centres;
+    Vec3 extents = Vec3::Zero();
+    for (std::size_t k = begin; k < end; ++k) {
+      const Box& own = boxes_[static_cast<std::size_t>(order_[k])];
+      box.extend(own);
+      centres.extend(own.center());
+      extents += own.sizes();
+    }
     std::size_t left = 0, right = 0;
     if (end - begin > LEAF_TRIANGLES) {
+      // Where boxes lie apart, not where they are long: halves of spikes side by side, parted by height, would overlap nearly all.
       Eigen::Index axis = 0;
-      box.sizes().maxCoeff(&axis);
+      const double least = std::numeric_limits<double>::min();
+      centres.sizes().cwiseQuotient((extents.array() + least).matrix()).maxCoeff(&axis);
       const std::size_t middle = begin + (end - begin) / 2;
       const auto at = [this](std::size_t k) { return order_.begin() + static_cast<std::ptrdiff_t>(k); };
       std::nth_element(at(begin), at(middle), at(end), [&](std::int32_t a, std::int32_t b) {

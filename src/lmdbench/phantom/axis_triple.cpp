@@ -18,11 +18,9 @@ EnergyAccount& EnergyAccount::operator+=(const EnergyAccount& other) {
   return *this;
 }
 
-AxisTriple::AxisTriple(const DeviceDynamics& dynamics, Integration integration, double period,
-                       const Vec3& push)
-    : model_(make_axis_model(dynamics)) {
+AxisTriple::AxisTriple(const DeviceDynamics& dynamics, double period, const Vec3& push)
+    : model_(make_axis_model(dynamics)), integrator_(model_, period) {
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    integrators_[axis] = make_axis_integrator(integration, model_, period);
     states_[axis].setZero();
     at(states_[axis], AxisSlot::PUSH) = push[static_cast<int>(axis)];
   }
@@ -34,7 +32,7 @@ void AxisTriple::advance(const Vec3& rendered, const Vec3& path_velocity) {
     at(state, AxisSlot::RENDERED_FORCE) = rendered[static_cast<int>(axis)];
     at(state, AxisSlot::PATH_VELOCITY) = path_velocity[static_cast<int>(axis)];
     EnergyFlows flows = EnergyFlows::Zero();
-    integrators_[axis]->advance(state, flows);
+    integrator_.advance(state, flows);
     flows_ += flows;
     moved_ += flows.cwiseAbs().sum();
   }

@@ -3,11 +3,10 @@
 #pragma once
 
 #include <lmdbench/geometry/types.h>
-#include <lmdbench/phantom/axis_integrator.h>
+#include <lmdbench/phantom/exact_integrator.h>
 
 #include <array>
 #include <cmath>
-#include <memory>
 
 namespace lmdbench {
 
@@ -38,7 +37,7 @@ class AxisTriple {
  public:
   /// @param push    constant force, by axis
   /// @param period  servo period [s]
-  AxisTriple(const DeviceDynamics& dynamics, Integration integration, double period, const Vec3& push);
+  AxisTriple(const DeviceDynamics& dynamics, double period, const Vec3& push);
 
   /// One servo period with this force rendered all along.
   /// @param path_velocity  of the meant path, by axis
@@ -55,7 +54,7 @@ class AxisTriple {
   Vec3 at_each(AxisSlot slot) const;
 
   AxisModel model_;
-  std::array<std::unique_ptr<AxisIntegrator>, 3> integrators_;
+  ExactIntegrator integrator_;
   std::array<AxisState, 3> states_;
   EnergyFlows flows_ = EnergyFlows::Zero();
   double moved_ = 0.0;

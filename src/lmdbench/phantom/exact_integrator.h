@@ -3,25 +3,26 @@
 #pragma once
 
 #include <lmdbench/phantom/axis_flow.h>
-#include <lmdbench/phantom/axis_integrator.h>
+#include <lmdbench/phantom/axis_model.h>
 
 #include <optional>
 
 namespace lmdbench {
 
-/// Integrates an axis exactly: by matrix exponentials between the events of Coulomb friction.
+/// Carries one axis from servo tick to servo tick, its inputs constant meanwhile (zero-order hold), exactly: by matrix exponentials between the events of Coulomb friction.
 ///  1. A device at rest whose net force is within the friction stays stuck until the force has grown beyond
 ///  it.
 ///  2. A device that slips has the full friction against its motion until its velocity reaches zero; there it
 ///     sticks or turns back, which the net force decides.
 /// The instant of an event is found to the last bits of the period by bracketing (TOMS 748) between eight
 /// looks a period: a velocity that dips below zero and returns within an eighth of the period goes unseen.
-class ExactIntegrator final : public AxisIntegrator {
+class ExactIntegrator {
  public:
   /// @param period servo period [s]
   ExactIntegrator(const AxisModel& model, double period);
 
-  void advance(AxisState& state, EnergyFlows& flows) override;
+  /// Advances the state by one servo period and adds the energies that flowed to `flows`.
+  void advance(AxisState& state, EnergyFlows& flows);
 
  private:
   /// One of the two regimes of the equations.

@@ -17,8 +17,8 @@ constexpr double IMMOVABLE_KG = 1e12;
 Excursion carry_through(const SampledWall& wall, double damping_n_s_per_m, double friction_n, double way_m,
                         int depth) {
   const double speed = way_m / wall.period_s;
-  SimulatedDevice device({IMMOVABLE_KG, damping_n_s_per_m, friction_n, std::nullopt}, Integration::EXACT,
-                         wall.period_s, Vec3(-0.5 * way_m, 0.0, 0.0), Vec3::Zero(), wall.resolution_m);
+  SimulatedDevice device({IMMOVABLE_KG, damping_n_s_per_m, friction_n, std::nullopt}, wall.period_s,
+                         Vec3(-0.5 * way_m, 0.0, 0.0), Vec3::Zero(), wall.resolution_m);
   Excursion excursion;
   const auto go = [&] {
     const double force = wall_force(wall, device.sensed_position().x());
@@ -37,8 +37,7 @@ Excursion carry_through(const SampledWall& wall, double damping_n_s_per_m, doubl
 RestingSwing rest_on(const SampledWall& wall, const DeviceDynamics& dynamics, double load_n,
                      double tap_m_per_s, std::int64_t periods) {
   const Vec3 start(-load_n / wall.stiffness_n_per_m, 0.0, 0.0);
-  SimulatedDevice device(dynamics, Integration::EXACT, wall.period_s, start, Vec3(-load_n, 0.0, 0.0),
-                         wall.resolution_m);
+  SimulatedDevice device(dynamics, wall.period_s, start, Vec3(-load_n, 0.0, 0.0), wall.resolution_m);
   device.strike(Vec3(tap_m_per_s, 0.0, 0.0));
   const std::int64_t half = periods / 2;
   double least = std::numeric_limits<double>::infinity();

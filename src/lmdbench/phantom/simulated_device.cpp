@@ -6,9 +6,9 @@
 
 namespace lmdbench {
 
-SimulatedDevice::SimulatedDevice(const DeviceDynamics& dynamics, Integration integration, double period,
-                                 const Vec3& start_W, const Vec3& push_W, double resolution)
-    : axes_(dynamics, integration, period, push_W),
+SimulatedDevice::SimulatedDevice(const DeviceDynamics& dynamics, double period, const Vec3& start_W,
+                                 const Vec3& push_W, double resolution)
+    : axes_(dynamics, period, push_W),
       path_position_W_(start_W),
       has_hand_(dynamics.hand.has_value()),
       period_(period),

@@ -16,8 +16,8 @@ class SimulatedDevice {
   /// @param push_W      constant force [N]
   /// @param resolution  of the encoders [m]; 0: exact
   /// @param period      servo period [s]
-  SimulatedDevice(const DeviceDynamics& dynamics, Integration integration, double period, const Vec3& start_W,
-                  const Vec3& push_W, double resolution);
+  SimulatedDevice(const DeviceDynamics& dynamics, double period, const Vec3& start_W, const Vec3& push_W,
+                  double resolution);
 
   /// One servo period with this force rendered all along (zero-order hold), while the meant path goes
   /// straight to its next position. Without a hand nothing is drawn along the path.

@@ -30,9 +30,9 @@ Vec3 generalised_torque(const Vec3& rotation_vector, const Vec3& torque_W) {
          cubic_coefficient(angle) * rotation_vector.cross(once);
 }
 
-SimulatedGimbal::SimulatedGimbal(const DeviceDynamics& dynamics, Integration integration, double period,
+SimulatedGimbal::SimulatedGimbal(const DeviceDynamics& dynamics, double period,
                                  const Eigen::Quaterniond& start, const Vec3& push_W, double resolution)
-    : axes_(dynamics, integration, period, push_W),
+    : axes_(dynamics, period, push_W),
       start_(start),
       path_orientation_(start),
       has_hand_(dynamics.hand.has_value()),

@@ -30,8 +30,8 @@ class SimulatedGimbal {
   /// @param push_W      constant torque on the coordinates [N m]
   /// @param resolution  of the encoders [rad]; 0: exact
   /// @param period      servo period [s]
-  SimulatedGimbal(const DeviceDynamics& dynamics, Integration integration, double period,
-                  const Eigen::Quaterniond& start, const Vec3& push_W, double resolution);
+  SimulatedGimbal(const DeviceDynamics& dynamics, double period, const Eigen::Quaterniond& start,
+                  const Vec3& push_W, double resolution);
 
   /// One servo period with this torque rendered all along, while the meant path turns to its next orientation.
   /// Without a hand nothing is drawn along the path.

@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include <lmdbench/experiment/method_summary.h>
-#include <lmdbench/experiment/times.h>
+#include <lmdbench/metrics/method_summary.h>
+#include <lmdbench/metrics/step_numbers.h>
+#include <lmdbench/metrics/time_numbers.h>
+#include <lmdbench/metrics/times.h>
 #include <lmdbench/sweep/point_result.h>
-#include <lmdbench/sweep/step_numbers.h>
-#include <lmdbench/sweep/time_numbers.h>
 
 #include <algorithm>
 #include <cmath>

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <lmdbench/experiment/records.h>
+#include <lmdbench/run/records.h>
 
 #include <nlohmann/json.hpp>
 

@@ -2,19 +2,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/base/error.h>
 #include <lmdbench/base/output_guard.h>
-#include <lmdbench/experiment/contact.h>
-#include <lmdbench/experiment/errors.h>
 #include <lmdbench/methods/registry.h>
+#include <lmdbench/metrics/errors.h>
+#include <lmdbench/metrics/step_numbers.h>
+#include <lmdbench/metrics/time_numbers.h>
 #include <lmdbench/record/node_watch.h>
 #include <lmdbench/record/own_result.h>
 #include <lmdbench/record/provenance.h>
 #include <lmdbench/record/result_writer.h>
+#include <lmdbench/run/contact.h>
+#include <lmdbench/run/true_sets.h>
 #include <lmdbench/sweep/point_key.h>
 #include <lmdbench/sweep/run_sweep.h>
-#include <lmdbench/sweep/step_numbers.h>
 #include <lmdbench/sweep/sweep_parts.h>
-#include <lmdbench/sweep/sweep_truth.h>
-#include <lmdbench/sweep/time_numbers.h>
 #include <lmdbench/sweep/write_sweep.h>
 
 #include <fmt/format.h>
@@ -47,7 +47,7 @@ class SharedScene {
 
   struct Truth {
     std::unique_ptr<PreparedRun> other;  ///< Unset where truth is of the same meshes.
-    SweepTruth sets;
+    TrueSets sets;
     std::vector<TruthFrame> frames;
   };
 

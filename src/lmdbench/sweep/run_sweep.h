@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <lmdbench/experiment/run.h>
+#include <lmdbench/run/run.h>
 #include <lmdbench/sweep/journal.h>
 #include <lmdbench/sweep/point_key.h>
 #include <lmdbench/sweep/point_result.h>

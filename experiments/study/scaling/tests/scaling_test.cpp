@@ -7,7 +7,6 @@
 #include <lmdbench/snch/minimum_distance.h>
 
 #include <gtest/gtest.h>
-#include <study/scaling/builder_counts.h>
 #include <study/scaling/measure.h>
 #include <study/scaling/slide.h>
 #include <study/scaling/subdivide.h>
@@ -79,32 +78,6 @@ TEST(Measure, FindsCertifiedRightAndCountsItsWork) {
 
   choice.gap = 0.02;
   EXPECT_NE(measure(scene, poses, choice).series[0].objection, "") << "a wrong minimum distance is noticed";
-}
-
-TEST(CountTraversal, CountsWhatTheSearchDoes) {
-  const WideHierarchy a = build_wide_hierarchy(build_surface(make_blob(1.0, 0.3, 4)));
-  const WideHierarchy b = build_wide_hierarchy(build_surface(make_blob(0.9, 0.3, 4)));
-  WideScratch scratch;
-  WideCounters counters;
-  const Pose pose{{2.3, 0.3, 0.2}, Eigen::Quaterniond::Identity()};
-  const WideQuery query(a, b, RigidTransform(pose), 1.0, 1e-9);
-  find_wide_pairs(a, b, query, WideKernel::VECTOR, scratch, counters);
-  ASSERT_GT(scratch.lmd_pairs.size(), 10u);
-  const TraversalCounts counts = count_traversal(a, b, query, {});
-  EXPECT_EQ(counts.tests, counters.node_tests);
-  EXPECT_EQ(counts.lanes, counters.node_pairs);
-  EXPECT_GE(counts.feature_pairs, scratch.lmd_pairs.size());
-  EXPECT_LE(counts.feature_pairs, scratch.lmd_pairs.size() + scratch.touch_pairs.size());
-  EXPECT_EQ(bytes_with_rule(a, {}, WIDE_WIDTH), a.bytes());
-
-  const TraversalCounts wider = count_traversal(a, b, query, {2, 1});
-  EXPECT_LT(wider.tests, counts.tests);
-  EXPECT_GT(wider.lanes, counts.lanes);
-  EXPECT_EQ(wider.feature_pairs, counts.feature_pairs) << "features have the same bounds";
-  const TraversalCounts coarser = count_traversal(a, b, query, {1, 8});
-  EXPECT_LT(coarser.tests, counts.tests);
-  EXPECT_GT(coarser.feature_pairs, counts.feature_pairs);
-  EXPECT_LT(bytes_with_rule(a, {1, 8}, WIDE_WIDTH), a.bytes() / 4);
 }
 
 TEST(MeasureBuild, CountsBytesPerTriangle) {

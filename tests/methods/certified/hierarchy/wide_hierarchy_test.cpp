@@ -183,16 +183,9 @@ void expect_owns_and_bounds(const WideHierarchy& hierarchy, const Surface& surfa
 }
 
 TEST(WideHierarchy, OwnsEveryFeatureOnceAndBoundsIt) {
-  for (const WideSplit split : {WideSplit::POSITION, WideSplit::NORMAL, WideSplit::ORDER}) {
-    for (const bool full : {true, false}) {
-      for (const TriangleMesh& mesh : shapes()) {
-        const Surface surface = build_surface(mesh);
-        WideBuildOptions options;
-        options.split = split;
-        options.full_nodes = full;
-        expect_owns_and_bounds(build_wide_hierarchy(surface, options), surface, nullptr);
-      }
-    }
+  for (const TriangleMesh& mesh : shapes()) {
+    const Surface surface = build_surface(mesh);
+    expect_owns_and_bounds(build_wide_hierarchy(surface), surface, nullptr);
   }
 }
 
@@ -243,28 +236,6 @@ TEST(WideHierarchy, DoesNotDependOnTheNumberOfThreads) {
   const WideHierarchy one = with_threads(1), four = with_threads(4);
   ASSERT_EQ(one.nodes.size(), four.nodes.size());
   EXPECT_EQ(std::memcmp(one.nodes.data(), four.nodes.data(), one.bytes()), 0);
-}
-
-TEST(WideHierarchy, DividesAsTheOptionsSay) {
-  WideBuildOptions narrow;
-  narrow.width = 4;
-  WideBuildOptions coarse;
-  coarse.leaf_size = 2;
-  const Surface surface = build_surface(make_blob(1.0, 0.3, 3));
-  const auto lanes_in_use = [](const WideNode& node) {
-    return WIDE_WIDTH - std::count(std::begin(node.child), std::end(node.child), 0u);
-  };
-  const WideHierarchy of_narrow = build_wide_hierarchy(surface, narrow);
-  for (const WideNode& node : of_narrow.nodes) ASSERT_LE(lanes_in_use(node), 4);
-  const WideHierarchy of_coarse = build_wide_hierarchy(surface, coarse);
-  std::size_t features = 0;
-  for (std::size_t i = 1; i < of_coarse.nodes.size(); ++i) {
-    const WideNode& node = of_coarse.nodes[i];
-    if (!WideRef::from_bits(node.child[0]).is_feature()) continue;
-    ASSERT_LE(lanes_in_use(node), 2);
-    features += static_cast<std::size_t>(lanes_in_use(node));
-  }
-  EXPECT_GE(features + 1, of_coarse.feature_count) << "an odd last one may stand among nodes";
 }
 
 TEST(WideHierarchy, IsCompact) {

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/methods/certified/coherence/traversal_front.h>
+#include <lmdbench/methods/certified/hierarchy/wide_lane.h>
 
 #include <algorithm>
 #include <bit>
@@ -13,10 +14,6 @@ namespace {
 
 /// Losses are at least this, so that nothing is divided by zero [m].
 constexpr double LEAST_LOSS = 1e-30;
-
-Vec3 centre_of(const WideNode& node, std::uint32_t lane) {
-  return {node.centre[0][lane], node.centre[1][lane], node.centre[2][lane]};
-}
 
 }  // namespace
 
@@ -66,7 +63,7 @@ void TraversalFront::plan_leaf(const WideHierarchy& a, const MotionForecast& mot
     return;
   }
   const Leaf& leaf = leaves_[index];
-  const Vec3 c = centre_of(a.nodes[leaf.slot_a / WIDE_WIDTH], leaf.slot_a % WIDE_WIDTH);
+  const Vec3 c = centre_of_lane(a.nodes[leaf.slot_a / WIDE_WIDTH], leaf.slot_a % WIDE_WIDTH);
   const Vec3 velocity = motion.turn() * c + motion.origin_velocity();
   const double loss = certificate.gradient.dot(velocity) + certificate.spread * velocity.norm() +
                       certificate.lever_arm * motion.spin() + (1.0 + certificate.spread) * motion.creep();

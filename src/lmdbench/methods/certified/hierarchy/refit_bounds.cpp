@@ -3,6 +3,7 @@
 #include <lmdbench/mesh/feature_corners.h>
 #include <lmdbench/methods/certified/hierarchy/refit_bounds.h>
 #include <lmdbench/methods/certified/hierarchy/single_precision.h>
+#include <lmdbench/methods/certified/hierarchy/wide_lane.h>
 
 #include <algorithm>
 #include <bit>
@@ -17,32 +18,6 @@ namespace {
 
 /// Steps that axes and centres are refined by.
 constexpr int AXIS_STEPS = 12, CENTRE_STEPS = 12;
-
-Vec3 centre_of_lane(const WideNode& node, std::uint32_t lane) {
-  return {node.centre[0][lane], node.centre[1][lane], node.centre[2][lane]};
-}
-
-Vec3 axis_of_lane(const WideNode& node, std::uint32_t lane) {
-  return {node.axis[0][lane], node.axis[1][lane], node.axis[2][lane]};
-}
-
-/// Stores a cap, rounded outwards. @return the axis as it is stored
-Vec3 store_cap(WideNode& node, std::uint32_t lane, const PolarCap& cap, bool carries_lmd) {
-  Vec3 axis;
-  for (int k = 0; k < 3; ++k) {
-    node.axis[k][lane] = to_single(cap.axis[k]);
-    axis[k] = static_cast<double>(node.axis[k][lane]);
-  }
-  const bool has_axis = !cap.is_all_directions();
-  if (!carries_lmd) {
-    node.cosine[lane] = NO_LMD_COSINE;
-    node.sine[lane] = 0.0F;
-  } else {
-    node.cosine[lane] = has_axis ? std::max(0.0F, static_cast<float>(cap.cosine - CONE_ROUNDING)) : 0.0F;
-    node.sine[lane] = has_axis ? std::min(1.0F, static_cast<float>(cap.sine + CONE_ROUNDING)) : 1.0F;
-  }
-  return axis;
-}
 
 /// Middle of the box of points, moved along the axis to the middle of their extent along it.
 Vec3 middle_of(std::span<const Vec3> points, const Vec3& axis) {

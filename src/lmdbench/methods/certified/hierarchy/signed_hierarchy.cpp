@@ -58,9 +58,8 @@ void SignedHierarchy::follow(const Body& body, const SurfaceChange& change) {
 }
 
 SignedHierarchy SignedHierarchy::of(const Body& body) {
-  WideBuildOptions options;
-  options.signs = &body.prepared<SignedFeatures>();
-  return {build_wide_hierarchy(body.surface(), options, &body.prepared<ShapeComplex>())};
+  return {
+      build_wide_hierarchy(body.surface(), &body.prepared<ShapeComplex>(), &body.prepared<SignedFeatures>())};
 }
 
 }  // namespace lmdbench

@@ -7,6 +7,7 @@
 #include <lmdbench/methods/certified/hierarchy/wide_bounds.h>
 #include <lmdbench/methods/certified/hierarchy/wide_hierarchy.h>
 #include <lmdbench/methods/certified/hierarchy/wide_items.h>
+#include <lmdbench/methods/certified/hierarchy/wide_lane.h>
 #include <lmdbench/methods/certified/hierarchy/wide_partition.h>
 #include <lmdbench/methods/certified/hierarchy/wide_refit.h>
 
@@ -74,19 +75,16 @@ struct Lane {
 /// are taken of the same features, but of each vertex once.
 class Builder {
  public:
-  Builder(const Surface& surface, const WideBuildOptions& options, const std::vector<WideItem>& items,
-          const ShapeComplex* shape, WideHierarchy& result)
-      : surface_(surface),
-        options_(options),
-        items_(items),
-        shape_(shape),
-        result_(result),
-        scratch_([&surface] { return BuildScratch(surface.mesh.vertices.size()); }) {}
+  Builder(const Surface& surface, const std::vector<WideItem>& items, const ShapeComplex* shape,
+          WideHierarchy& result)
+      : surface_(surface), items_(items), shape_(shape), result_(result), scratch_([&surface] {
+          return BuildScratch(surface.mesh.vertices.size());
+        }) {}
 
   void build() {
     if (items_.empty()) return;
     const Range all{0, items_.size()};
-    const std::size_t node_count = 1 + std::max<std::size_t>(1, count_wide_nodes(items_.size(), options_));
+    const std::size_t node_count = 1 + std::max<std::size_t>(1, count_wide_nodes(items_.size()));
     result_.nodes.assign(node_count, WideNode{});
     result_.nodes[0].child[0] = WideRef::node(1).bits();
     std::vector<std::int32_t> vertices;
@@ -102,8 +100,8 @@ class Builder {
   /// @return false when the cone of some child is all directions: then the parent's is too
   bool build_node(std::size_t node_index, const Range& range, std::vector<std::int32_t>& vertices,
                   BuildScratch& scratch) {
-    const WideDivision division(range.size(), options_);
-    const std::size_t nodes_below = count_wide_nodes(division.unit, options_);
+    const WideDivision division(range.size());
+    const std::size_t nodes_below = count_wide_nodes(division.unit);
     WideNode& node = result_.nodes[node_index];
     std::array<Lane, WIDTH> storage;
     const std::span<Lane> lanes(storage.data(), division.children);
@@ -169,21 +167,11 @@ class Builder {
     bool all_have_cones = true;
     for (std::size_t i = 0; i < lanes.size(); ++i) {
       // All directions have the axis zero.
-      axes.x[i] = to_single(caps[i].axis[0]);
-      axes.y[i] = to_single(caps[i].axis[1]);
-      axes.z[i] = to_single(caps[i].axis[2]);
-      node.axis[0][i] = axes.x[i];
-      node.axis[1][i] = axes.y[i];
-      node.axis[2][i] = axes.z[i];
-      const bool has_axis = !caps[i].is_all_directions();
-      if (!lanes[i].carries_lmd) {
-        node.cosine[i] = NO_LMD_COSINE;
-        node.sine[i] = 0.0F;
-        continue;
-      }
-      node.cosine[i] = has_axis ? std::max(0.0F, static_cast<float>(caps[i].cosine - CONE_ROUNDING)) : 0.0F;
-      node.sine[i] = has_axis ? std::min(1.0F, static_cast<float>(caps[i].sine + CONE_ROUNDING)) : 1.0F;
-      all_have_cones = all_have_cones && has_axis;
+      store_cap(node, static_cast<std::uint32_t>(i), caps[i], lanes[i].carries_lmd);
+      axes.x[i] = node.axis[0][i];
+      axes.y[i] = node.axis[1][i];
+      axes.z[i] = node.axis[2][i];
+      all_have_cones = all_have_cones && !(lanes[i].carries_lmd && caps[i].is_all_directions());
     }
     bound_bodies(node, lanes, axes, steps, scratch);
     return all_have_cones;
@@ -297,7 +285,6 @@ class Builder {
   }
 
   const Surface& surface_;
-  const WideBuildOptions& options_;
   const std::vector<WideItem>& items_;
   const ShapeComplex* shape_;
   WideHierarchy& result_;
@@ -306,8 +293,8 @@ class Builder {
 
 }  // namespace
 
-WideHierarchy build_wide_hierarchy(const Surface& surface, const WideBuildOptions& options,
-                                   const ShapeComplex* shape) {
+WideHierarchy build_wide_hierarchy(const Surface& surface, const ShapeComplex* shape,
+                                   const SignedFeatures* signs) {
   WideHierarchy result;
   if (surface.mesh.triangles.empty()) return result;
   result.origin = bounding_box_centre(surface.mesh);
@@ -316,10 +303,10 @@ WideHierarchy build_wide_hierarchy(const Surface& surface, const WideBuildOption
     squared_radius = std::max(squared_radius, (p - result.origin).squaredNorm());
   result.radius = std::sqrt(squared_radius) * (1.0 + 1e-15);
 
-  std::vector<WideItem> items = collect_wide_items(surface, options, shape);
-  partition_wide_items(surface, options, shape, result.origin, result.radius, items);
+  std::vector<WideItem> items = collect_wide_items(surface, shape, signs);
+  partition_wide_items(surface, shape, result.origin, items);
   result.feature_count = items.size();
-  Builder(surface, options, items, shape, result).build();
+  Builder(surface, items, shape, result).build();
   return result;
 }
 
@@ -346,7 +333,7 @@ void WideHierarchy::follow(const Body& body, const SurfaceChange& change) {
 }
 
 WideHierarchy WideHierarchy::of(const Body& body) {
-  return build_wide_hierarchy(body.surface(), {}, &body.prepared<ShapeComplex>());
+  return build_wide_hierarchy(body.surface(), &body.prepared<ShapeComplex>());
 }
 
 }  // namespace lmdbench

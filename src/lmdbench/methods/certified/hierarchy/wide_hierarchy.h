@@ -77,46 +77,6 @@ inline constexpr double CONE_ROUNDING = 5e-7;
 
 class SignedFeatures;
 
-/// How the builder divides a set of features. The choices, by node tests a query (median of 40 grazing poses
-/// of two bunnies of 16,298 triangles, cutoffs 0.5 / 2 / 5 % of the diagonal):
-///
-/// | builder                          | node tests         | bytes a triangle |
-/// |----------------------------------|--------------------|------------------|
-/// | POSITION, full nodes (default)   | 587 / 856 / 1776   | 114              |
-/// | POSITION, halved at the middle   | 761 / 1134 / 2216  | 454              |
-/// | NORMAL, weight 0.03              | 592 / 877 / 1656   | 114              |
-/// | NORMAL, weight 0.3               | 5364 / 6308 / 8116 | 114              |
-/// | ORDER                            | 2189 / 3286 / 5396 | 114              |
-/// | POSITION, one-ring cones         | 1076 / 2204 / 5296 | 114              |
-/// | width 4                          | 830 / 1240 / 2602  | 133              |
-/// | 2 features a lane                | 500 / 768 / 1518   | 66               |
-///
-/// One-ring cones let 14 to 35 times as many pairs through to the final tests, 2 features a lane 6 to 11
-/// times as many. All meshes and rows, width 16 among them, with times: results/reference/builders.md.
-enum class WideSplit : std::uint8_t {
-  POSITION,  ///< Median along the longest side of the box of centres.
-  NORMAL,    ///< Median along the longest side of the box of centres and cone
-             ///< axes, axes weighted by normal_weight.
-  ORDER      ///< Median in Morton order of the centres: fastest to build.
-};
-
-struct WideBuildOptions {
-  WideSplit split = WideSplit::POSITION;
-  bool tight_caps = true;          ///< Cones from polar cones; false: one-ring cones of
-                                   ///< face normals (for comparison only).
-  bool full_nodes = true;          ///< Divide at multiples of powers of the width, which
-                                   ///< fills nodes; false: at the middle.
-  std::size_t width = WIDE_WIDTH;  ///< Children that a node gets, 2 to
-                                   ///< WIDE_WIDTH; fewer for comparison only.
-  /// Features in the smallest sets, 1 to `width`: sets of more than one get a node of their own, which nodes
-  /// of several features a lane would save. More than one for comparison only.
-  std::size_t leaf_size = 1;
-  double normal_weight = 0.3;  ///< Length that a unit of axis difference counts
-                               ///< as, in units of the set's extent.
-  /// Where given, features that carry other critical pairs than LMDs are owned too (signed_hierarchy.h); needs a shape.
-  const SignedFeatures* signs = nullptr;
-};
-
 class WideRefit;
 
 /// When what of a hierarchy over a deforming mesh changed, in deformations: what was kept of it since an earlier one still holds
@@ -166,9 +126,14 @@ struct WideHierarchy {
   std::uint32_t times_built_anew_ = 0;
 };
 
-/// Deterministic, whatever the number of threads.
+/// Deterministic, whatever the number of threads. Sets are divided at the median along the longest side of the box of centres, at
+/// multiples of powers of the width, which fills nodes, and each feature has a lane and the cone of its own directions. Other ways
+/// were no better on scans (commit 2c9786a, node tests of a query at a cutoff of 2 % of the diagonal, two bunnies of 16,298
+/// triangles; this one 856): halved at the middle 1,134, by cone axes too 877 to 6,308, in Morton order 3,296, cones of the normals
+/// round a feature 2,204, width 4 1,240; two features a lane 768, but 6 to 11 times the pairs left to the final tests.
 /// @param shape where given, its regions and chains are features in place of faces and edges
-WideHierarchy build_wide_hierarchy(const Surface& surface, const WideBuildOptions& options = {},
-                                   const ShapeComplex* shape = nullptr);
+/// @param signs where given, features that carry other critical pairs than LMDs are owned too (signed_hierarchy.h); needs a shape
+WideHierarchy build_wide_hierarchy(const Surface& surface, const ShapeComplex* shape = nullptr,
+                                   const SignedFeatures* signs = nullptr);
 
 }  // namespace lmdbench

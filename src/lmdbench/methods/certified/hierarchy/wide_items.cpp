@@ -1,9 +1,7 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/base/parallel.h>
-#include <lmdbench/geometry/cone.h>
 #include <lmdbench/lmd/contact_tolerance.h>
-#include <lmdbench/mesh/feature_corners.h>
 #include <lmdbench/mesh/shape_complex.h>
 #include <lmdbench/methods/certified/hierarchy/signed_hierarchy.h>
 #include <lmdbench/methods/certified/hierarchy/wide_items.h>
@@ -19,21 +17,6 @@ namespace {
 /// Features that one task looks at. The blocks' results are joined in order, so that threads do not matter.
 constexpr std::size_t BLOCK = 2048;
 
-/// Cone of the normals of all faces round the feature's vertices: what a hierarchy over
-/// triangles would have to use.
-PolarCap one_ring_cap(const Surface& surface, const FeatureId& feature) {
-  std::vector<Vec3> normals;
-  const FeatureCorners corners(surface, feature);
-  for (const std::int32_t vertex : corners.view()) {
-    if (surface.vertex_is_boundary[static_cast<std::size_t>(vertex)]) return {};
-    for (const std::int32_t triangle : surface.adjacency.vertex_triangles[vertex])
-      normals.push_back(surface.face_normals[static_cast<std::size_t>(triangle)]);
-  }
-  const Cone cone = convex_cone_of_directions(normals);
-  if (!(cone.cosine > 0.0)) return {};
-  return {cone.axis, cone.cosine, cone.sine};
-}
-
 /// The cap with a larger half angle; all directions where that is a right angle.
 /// @param angle small [rad]
 PolarCap widened(const PolarCap& cap, double angle) {
@@ -45,25 +28,25 @@ PolarCap widened(const PolarCap& cap, double angle) {
 
 }  // namespace
 
-std::optional<WideItem> make_wide_item(const Surface& surface, const WideBuildOptions& options,
-                                       const ShapeComplex* shape, const FeatureId& feature) {
+std::optional<WideItem> make_wide_item(const Surface& surface, const ShapeComplex* shape,
+                                       const SignedFeatures* signs, const FeatureId& feature) {
   std::optional<PolarCap> cap = polar_cap(surface, feature, shape);
-  if (options.signs != nullptr)
-    if (const auto signed_one = signed_cap(*options.signs, *shape, feature))
+  if (signs != nullptr)
+    if (const auto signed_one = signed_cap(*signs, *shape, feature))
       cap = cap ? merged_caps(*cap, *signed_one) : *signed_one;
   if (!cap && feature.kind != FeatureKind::FACE) return std::nullopt;
   WideItem item;
   item.ref = WideRef::feature(feature);
   item.carries_lmd = cap.has_value();
   if (!cap) return item;
-  item.cap = options.tight_caps ? *cap : one_ring_cap(surface, feature);
+  item.cap = *cap;
   // Regions and chains count as parallel to others at a small tilt (lmd/contact_tolerance.h); the other mesh decides how small.
   if (feature.kind != FeatureKind::VERTEX) item.cap = widened(item.cap, LARGEST_PARALLEL_TILT);
   return item;
 }
 
-std::vector<WideItem> collect_wide_items(const Surface& surface, const WideBuildOptions& options,
-                                         const ShapeComplex* shape) {
+std::vector<WideItem> collect_wide_items(const Surface& surface, const ShapeComplex* shape,
+                                         const SignedFeatures* signs) {
   const std::size_t vertices = surface.mesh.vertices.size();
   const std::size_t before_faces = vertices + surface.adjacency.edges.size();
   const std::size_t features = before_faces + surface.mesh.triangles.size();
@@ -78,7 +61,7 @@ std::vector<WideItem> collect_wide_items(const Surface& surface, const WideBuild
     const std::size_t end = std::min(features, (block + 1) * BLOCK);
     for (std::size_t i = block * BLOCK; i < end; ++i)
       if (shape == nullptr || shape->is_lead(feature_at(i)))
-        if (const auto item = make_wide_item(surface, options, shape, feature_at(i)))
+        if (const auto item = make_wide_item(surface, shape, signs, feature_at(i)))
           blocks[block].push_back(*item);
   });
 

@@ -20,11 +20,11 @@ struct WideItem {
 
 /// A feature as a hierarchy owns it; nothing where it carries no LMD and is no triangle without area.
 /// @param feature  of a shape the lead
-std::optional<WideItem> make_wide_item(const Surface& surface, const WideBuildOptions& options,
-                                       const ShapeComplex* shape, const FeatureId& feature);
+std::optional<WideItem> make_wide_item(const Surface& surface, const ShapeComplex* shape,
+                                       const SignedFeatures* signs, const FeatureId& feature);
 
 /// The features that a hierarchy owns: vertices, edges and faces, each by index; flat ones by their leads.
-std::vector<WideItem> collect_wide_items(const Surface& surface, const WideBuildOptions& options,
-                                         const ShapeComplex* shape);
+std::vector<WideItem> collect_wide_items(const Surface& surface, const ShapeComplex* shape,
+                                         const SignedFeatures* signs);
 
 }  // namespace lmdbench

@@ -13,7 +13,6 @@
 #include <cstdint>
 #include <limits>
 #include <span>
-#include <utility>
 
 namespace lmdbench {
 
@@ -49,24 +48,16 @@ Place make_place(const Surface& surface, const ShapeComplex* shape, const Vec3& 
 
 class Partition {
  public:
-  Partition(const WideBuildOptions& options, const std::vector<WideItem>& items, double radius,
-            std::vector<Place>& places)
-      : options_(options), items_(items), radius_(radius), places_(places), spare_(places.size()) {}
+  explicit Partition(std::vector<Place>& places) : places_(places), spare_(places.size()) {}
 
-  void run() {
-    if (options_.split == WideSplit::ORDER) {
-      sort_by_code();
-    } else {
-      divide(places_);
-    }
-  }
+  void run() { divide(places_); }
 
  private:
   using Places = std::span<Place>;
 
   void divide(Places places) {
     LMDBENCH_EXPECTS(!places.empty(), "a division that leaves a child empty");
-    const WideDivision division(places.size(), options_);
+    const WideDivision division(places.size());
     if (division.unit == 1) {
       std::sort(places.begin(), places.end(), [](const Place& a, const Place& b) { return a.item < b.item; });
       return;
@@ -103,28 +94,14 @@ class Partition {
     }
     int axis = 0;
     const float extent = (high - low).maxCoeff(&axis);
-    if (options_.split == WideSplit::NORMAL && select_by_cone(places, count, extent)) return;
     if (places.size() > BINS) {
       select_by_bins(places, count, axis, low[axis], static_cast<float>(BINS) / extent);
     } else {
-      select_by(places, count, [axis](const Place& place) { return place.centre[axis]; });
+      select_by_axis(places, count, axis);
     }
   }
 
-  bool select_by_cone(Places places, std::size_t count, float extent) const {
-    Eigen::Array3d low = items_[places[0].item].cap.axis, high = low;
-    for (const Place& place : places) {
-      low = low.min(items_[place.item].cap.axis.array());
-      high = high.max(items_[place.item].cap.axis.array());
-    }
-    int axis = 0;
-    const double spread = (high - low).maxCoeff(&axis);
-    if (!(spread * options_.normal_weight * 2.0 * radius_ > static_cast<double>(extent))) return false;
-    select_by(places, count, [this, axis](const Place& place) { return items_[place.item].cap.axis[axis]; });
-    return true;
-  }
-
-  /// As select_by, by one count and one move of all, where the library's way has a branch that nobody can
+  /// As select_by_axis, by one count and one move of all, where the library's way has a branch that nobody can
   /// predict for every comparison.
   void select_by_bins(Places places, std::size_t count, int axis, float low, float bins_per_metre) {
     const auto bin_of = [=](const Place& place) {
@@ -146,76 +123,44 @@ class Partition {
       *next[(own >= bin ? 1u : 0u) + (own > bin ? 1u : 0u)]++ = place;
     }
     std::copy(sorted.begin(), sorted.end(), places.begin());
-    select_by(places.subspan(before, sizes[bin]), count - before,
-              [axis](const Place& place) { return place.centre[axis]; });
+    select_by_axis(places.subspan(before, sizes[bin]), count - before, axis);
   }
 
-  template <class Key>
-  static void select_by(Places places, std::size_t count, Key key) {
+  static void select_by_axis(Places places, std::size_t count, int axis) {
     std::nth_element(places.begin(), places.begin() + static_cast<std::ptrdiff_t>(count), places.end(),
-                     [&](const Place& a, const Place& b) {
-                       const auto key_a = key(a), key_b = key(b);
-                       return key_a != key_b ? key_a < key_b : a.item < b.item;
+                     [axis](const Place& a, const Place& b) {
+                       const float at_a = a.centre[axis], at_b = b.centre[axis];
+                       return at_a != at_b ? at_a < at_b : a.item < b.item;
                      });
   }
 
-  void sort_by_code() {
-    constexpr double CELLS = 1 << 21;
-    std::vector<std::pair<std::uint64_t, Place>> coded;
-    coded.reserve(places_.size());
-    for (const Place& place : places_) {
-      std::uint64_t code = 0;
-      for (int axis = 0; axis < 3; ++axis) {
-        const double coordinate = static_cast<double>(place.centre[axis]);
-        const double cell = (coordinate / std::max(radius_, 1e-300) + 1.0) * 0.5 * CELLS;
-        const auto index = static_cast<std::uint64_t>(std::clamp(cell, 0.0, CELLS - 1.0));
-        for (std::uint64_t bit = 0; bit < 21; ++bit)
-          code |= (index >> bit & 1u) << (3u * bit + static_cast<std::uint64_t>(axis));
-      }
-      coded.emplace_back(code, place);
-    }
-    std::sort(coded.begin(), coded.end(), [](const auto& a, const auto& b) {
-      return a.first != b.first ? a.first < b.first : a.second.item < b.second.item;
-    });
-    for (std::size_t i = 0; i < coded.size(); ++i) places_[i] = coded[i].second;
-  }
-
-  const WideBuildOptions& options_;
-  const std::vector<WideItem>& items_;
-  double radius_;
   std::vector<Place>& places_;
   std::vector<Place> spare_;  ///< Each task uses the part that its places have in places_.
 };
 
 }  // namespace
 
-WideDivision::WideDivision(std::size_t size, const WideBuildOptions& options) : unit(1), children(size) {
-  if (size <= options.leaf_size) return;
-  if (options.full_nodes) {
-    unit = options.leaf_size;
-    while (unit * options.width < size) unit *= options.width;
-  } else {
-    unit = (size + options.width - 1) / options.width;
-  }
+WideDivision::WideDivision(std::size_t size) : unit(1) {
+  while (unit * WIDE_WIDTH < size) unit *= WIDE_WIDTH;
   children = (size + unit - 1) / unit;
 }
 
-std::size_t count_wide_nodes(std::size_t size, const WideBuildOptions& options) {
+std::size_t count_wide_nodes(std::size_t size) {
   if (size <= 1) return 0;
-  const WideDivision division(size, options);
+  const WideDivision division(size);
   const std::size_t full = division.children - 1;
-  std::size_t count = 1 + count_wide_nodes(size - full * division.unit, options);
-  if (full > 0) count += full * count_wide_nodes(division.unit, options);
+  std::size_t count = 1 + count_wide_nodes(size - full * division.unit);
+  if (full > 0) count += full * count_wide_nodes(division.unit);
   return count;
 }
 
-void partition_wide_items(const Surface& surface, const WideBuildOptions& options, const ShapeComplex* shape,
-                          const Vec3& origin, double radius, std::vector<WideItem>& items) {
+void partition_wide_items(const Surface& surface, const ShapeComplex* shape, const Vec3& origin,
+                          std::vector<WideItem>& items) {
   std::vector<Place> places(items.size());
   parallel_ranges(items.size(), SMALLEST_PARALLEL_SET, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) places[i] = make_place(surface, shape, origin, items[i], i);
   });
-  Partition(options, items, radius, places).run();
+  Partition(places).run();
   std::vector<WideItem> ordered(items.size());
   parallel_ranges(items.size(), SMALLEST_PARALLEL_SET, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) ordered[i] = items[places[i].item];

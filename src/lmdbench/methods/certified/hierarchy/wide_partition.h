@@ -19,16 +19,16 @@ struct WideDivision {
 
   /// Full nodes: the unit is a power of the width, so that below the root only one
   /// path of nodes is partly empty.
-  WideDivision(std::size_t size, const WideBuildOptions& options);
+  explicit WideDivision(std::size_t size);
 };
 
 /// Number of nodes of the tree over a set, this tree's root included; none for a single feature.
-std::size_t count_wide_nodes(std::size_t size, const WideBuildOptions& options);
+std::size_t count_wide_nodes(std::size_t size);
 
 /// Puts the items into the order of the tree: every node's children are consecutive parts of its own range,
 /// as WideDivision has it. Ties are broken by the feature, so that the result depends on the mesh alone.
-/// @param origin, radius of the hierarchy
-void partition_wide_items(const Surface& surface, const WideBuildOptions& options, const ShapeComplex* shape,
-                          const Vec3& origin, double radius, std::vector<WideItem>& items);
+/// @param origin of the hierarchy
+void partition_wide_items(const Surface& surface, const ShapeComplex* shape, const Vec3& origin,
+                          std::vector<WideItem>& items);
 
 }  // namespace lmdbench

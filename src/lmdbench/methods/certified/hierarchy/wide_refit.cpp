@@ -133,7 +133,7 @@ std::optional<WideItem> WideRefit::vertex_item(const Surface& surface, const Sha
   const FeatureId feature{FeatureKind::VERTEX, vertex};
   if (const std::optional<PolarCap> cap = clear_peak_cap(surface, vertex))
     return WideItem{*cap, WideRef::feature(feature), true};
-  std::optional<WideItem> item = make_wide_item(surface, {}, &shape, feature);
+  std::optional<WideItem> item = make_wide_item(surface, &shape, nullptr, feature);
   if (!item) witness = find_saddle_witness(surface, vertex);
   return item;
 }
@@ -147,7 +147,7 @@ void WideRefit::update_features(WideHierarchy& hierarchy, const Surface& surface
     for (std::size_t i = begin; i < end; ++i) {
       const FeatureId feature{kind, indices[i]};
       items_[i] = kind == FeatureKind::VERTEX ? vertex_item(surface, shape, feature.index)
-                                              : make_wide_item(surface, {}, &shape, feature);
+                                              : make_wide_item(surface, &shape, nullptr, feature);
       const std::uint32_t slot = slot_of(feature);
       if (!items_[i] || slot == NO_SLOT) continue;
       WideNode& node = hierarchy.nodes[slot / WIDE_WIDTH];

@@ -1,0 +1,175 @@
+#!/usr/bin/env bash
+# SPDX-FileCopyrightText: The lmdbench authors
+# SPDX-License-Identifier: BSD-3-Clause
+# Makes the numbers of results/reference again, all at the commit that is checked out. Stopped and started again it goes on with what
+# is missing. Leaves results/reference-runs/COMMIT/PART.txt and figures; what stands round the numbers in results/reference is written
+# by hand, and so is the commit in its README.md. Not here: verdicts.md, whose programs are built with a planted slowdown
+# (scripts/ci/verdict_study.py --help).
+#   scripts/reference.sh            every part: a night on two cores that have nothing else to do
+#   scripts/reference.sh PART...    only these, such as deform or recall
+#   scripts/reference.sh --list     the parts
+#   LMDBENCH_BUILD=DIR              where the programs are (build/release)
+set -euo pipefail
+# shellcheck source=scripts/lib.sh
+source "$(dirname "${BASH_SOURCE[0]}")/lib.sh"
+cd "$ROOT"
+BUILD="${LMDBENCH_BUILD:-build/release}"
+
+# Each prints what results/reference/PART.md (or of the same beginning) is written from.
+PARTS=(claims claim-regions completeness continuous-force deep-contact deform devices extreme figures flat global-search hard-soft hostile-input
+  interrupted-runs jumps kernel leave-out ledger own-parts packages passivity realtime recall scaling stability stability-map
+  triangle_accuracy truth tuned-constants work-precision worlds)
+
+study() { "$BUILD/lmdbench-study" "$@"; }
+judge() { "$BUILD/lmdbench-judge" "$@"; }
+run() { "$BUILD/lmdbench" run "experiments/$1.json" --out "$OUT/${1##*/}.h5" "${@:2}" </dev/null >&2; }
+figure() { "$PYTHON" "scripts/figures/$1.py" "${@:2}"; }
+sweep() {
+  "$BUILD/lmdbench" work-precision "experiments/sweeps/$1.json" --out "$OUT/$1.h5"
+  figure sweep "$OUT/$1.h5" --out "$OUT"
+}
+bunny_runs() {
+  local scene
+  for scene in bunny-hard bunny-soft; do [[ -s $OUT/$scene.h5 ]] || run "$scene" --set /record/lmds=true; done
+}
+
+part() {
+  case "$1" in
+    claims)
+      bunny_runs
+      figure claims "$OUT/bunny-hard.h5" "$OUT/bunny-soft.h5" --out "$OUT"
+      figure figure7 "$OUT/bunny-hard.h5" "$OUT/bunny-soft.h5" --out "$OUT"
+      figure summary "$OUT/bunny-hard.h5" "$OUT/bunny-soft.h5"
+      ;;
+    claim-regions) LMDBENCH_BUILD="$BUILD" LMDBENCH_CLAIMS="$OUT/claims" scripts/claims.sh ;;
+    completeness)
+      study completeness --truth-stride 20 --experiment experiments/bunny-hard.json --experiment experiments/bunny-soft.json \
+        --experiment experiments/armadillo-bunny.json --experiment experiments/shapes.json
+      study completeness --far-poses 20000 --flat-poses 0 --rounded-poses 0 --poses 10 --cutoff 0.02
+      study completeness --no-pairs --far-poses 0 --rounded-poses 0 --flat-poses 1000
+      study completeness --no-pairs --far-poses 0 --flat-poses 0 --rounded-poses 1000
+      ;;
+    continuous-force)
+      study continuous-force --part paths --part events --json "$OUT/continuous-force.json"
+      study continuous-force --part loops --scene shapes --scene bunny-hard
+      study continuous-force --part cuts --part cups --part notches --part drag --part decimation
+      study continuous-force --part bores --rolls 4 --slope-steps 16
+      study continuous-force --part cost --cost-poses 600
+      study continuous-force --part sums --no-exhaustive
+      study continuous-force --part sums --poses 100 --seed 7
+      figure continuous_force "$OUT/continuous-force.json" --out "$OUT"
+      ;;
+    deep-contact) study depth --frames 2000 --passes 4 --truth-stride 100 ;;
+    deform) study deform ;;
+    devices) figure device_table --program "$BUILD/lmdbench" ;;
+    extreme) LMDBENCH_BUILD="$BUILD" scripts/extreme.sh ;;
+    figures)
+      figure figure4 experiments/bunny-soft.json --time 3.396 --out "$OUT"
+      figure what_is_an_lmd --out "$OUT"
+      figure tilt --out "$OUT"
+      run world --set '/methods=[{"name": "certified"}]' --set /probes/truth/stride_frames=0 --set /probes/fcl/stride_frames=0
+      figure world "$OUT/world.h5" --out "$OUT"
+      run bunny-cut
+      figure polylines "$OUT/bunny-cut.h5" --out "$OUT"
+      ;;
+    flat)
+      study flat --poses 30 --repetitions 3
+      study flat --poses 30 --repetitions 9 --no-fcl
+      ;;
+    global-search) study compare ;;
+    hard-soft) figure hard_soft --program "$BUILD/lmdbench" --out "$OUT" ;;
+    hostile-input) "$PYTHON" tests/cli/hostile_set.py "$BUILD/lmdbench" . --count 340 ;;
+    interrupted-runs)
+      "$PYTHON" tests/cli/kill_test.py "$BUILD/lmdbench" experiments/shapes.json --kills 200 --repetitions 1000 --longest 2.5 \
+        --complete-every 25 --seed 3
+      ;;
+    jumps)
+      local scene
+      for scene in bunny-hard bunny-soft recorded-hard recorded-soft; do run "$scene" --set /record/lmds=true; done
+      figure jumps "$OUT"/{bunny-hard,bunny-soft,recorded-hard,recorded-soft}.h5
+      ;;
+    kernel) sweep kernel ;;
+    leave-out)
+      study leave-out --processes 3 shapes.json dropouts.json bunny-hard.json extreme/flush-cubes.json extreme/start-inside.json \
+        extreme/sliding-faces.json
+      ;;
+    ledger)
+      local scene results=()
+      for scene in bunny-hard bunny-soft; do run "$scene" --set /probes/fcl/stride_frames=10; done
+      for scene in experiments/extreme/*.json; do
+        scene="$(basename "$scene" .json)"
+        run "extreme/$scene"
+        results+=("$OUT/$scene.h5")
+      done
+      judge ledger "$OUT/bunny-hard.h5" "$OUT/bunny-soft.h5" "${results[@]}"
+      ;;
+    own-parts) "$PYTHON" tests/cli/own_parts.py "$BUILD/lmdbench" --limit 240 --lenient ;;
+    packages) scripts/package.sh --check ;;
+    passivity) study passivity ;;
+    realtime) figure realtime --program "$BUILD/lmdbench" --out "$OUT" ;;
+    recall)
+      study recall --moving bunny-16k --fixed bunny-16k --seed 2
+      study recall --moving armadillo --fixed bunny-16k --seed 2
+      ;;
+    scaling)
+      "$BUILD/lmdbench" mesh build dragon-871k >&2
+      study scaling --json "$OUT/scaling.json"
+      study scaling --only dragon --large --json "$OUT/dragon.json"
+      figure scaling "$OUT/scaling.json" "$OUT/dragon.json" --out "$OUT"
+      ;;
+    stability) figure stability --program "$BUILD/lmdbench" --out "$OUT" ;;
+    stability-map)
+      study stability >"$OUT/stability-map.jsonl"
+      figure stability_map "$OUT/stability-map.jsonl" --out "$OUT"
+      ;;
+    triangle_accuracy)
+      judge accuracy
+      judge accuracy --million
+      ;;
+    truth)
+      judge truth experiments/extreme/*.json
+      judge truth experiments/bunny-hard.json experiments/bunny-soft.json
+      ;;
+    tuned-constants) "$PYTHON" scripts/tuned_constants.py experiments/bunny-hard.json ;;
+    work-precision)
+      sweep budget
+      sweep budget-short
+      ;;
+    worlds)
+      study worlds --part cost --part broad-phase --part slack --part pile-slack
+      study worlds --part completeness --world-frames 1000
+      study worlds --part pile --pile-frames 100 --pile-passes 2
+      ;;
+    *) die 2 "no part is called $1 (remedy: one of ${PARTS[*]})" ;;
+  esac
+}
+
+if [[ ${1:-} == --list ]]; then
+  printf '%s\n' "${PARTS[@]}"
+  exit 0
+fi
+PYTHON="$(find_python h5py numpy matplotlib)"
+if [[ ${1:-} == --one ]]; then # a process of its own, so that a command that fails ends the part
+  OUT="$2"
+  part "$3"
+  exit 0
+fi
+commit="$(git rev-parse --short HEAD)"
+git diff --quiet HEAD || die 2 "the checkout has changes that no commit names (remedy: commit or stash them)"
+OUT="results/reference-runs/$commit"
+mkdir -p "$OUT"
+(($#)) || set -- "${PARTS[@]}"
+failed=0
+for name in "$@"; do
+  if [[ -s $OUT/$name.txt ]]; then
+    say "$name: $OUT/$name.txt is there"
+    continue
+  fi
+  if step "$name" "${BASH_SOURCE[0]}" --one "$OUT" "$name" >"$OUT/$name.part"; then
+    mv "$OUT/$name.part" "$OUT/$name.txt"
+  else
+    failed=1
+  fi
+done
+print_steps
+exit "$failed"

@@ -1,0 +1,43 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/metrics/broken_limits.h>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace lmdbench {
+
+std::vector<std::string> broken_limits(const Acceptance& acceptance, const RunSummary& summary) {
+  std::vector<std::string> broken;
+  for (const MethodSummary& method : summary.methods) {
+    const std::vector<std::string>& judged = acceptance.methods;
+    const auto named = [&](const std::string& label) {
+      return std::find(judged.begin(), judged.end(), label) != judged.end();
+    };
+    if (!judged.empty() && !named(method.label) && !named(method.entry)) continue;
+    const auto check = [&](const char* what, auto value, auto bound, bool kept, const char* relation) {
+      if (!kept)
+        broken.push_back(fmt::format("{}: {} is {:.6g}, the experiment wants {} {:.6g}", method.label, what,
+                                     static_cast<double>(value), relation, static_cast<double>(bound)));
+    };
+    // Comparisons with NaN are false: what was not measured is not kept.
+    if (acceptance.recall)
+      check("recall", method.recall, *acceptance.recall, method.recall >= *acceptance.recall, "at least");
+    if (acceptance.force_error_n)
+      check("force error [N]", method.force_error_maximum_n, *acceptance.force_error_n,
+            method.force_error_maximum_n <= *acceptance.force_error_n, "at most");
+    if (acceptance.late_frames)
+      check("number of frames above 1 ms", method.frames_late, *acceptance.late_frames,
+            method.frames_late <= static_cast<double>(*acceptance.late_frames), "at most");
+    if (acceptance.fcl_disagreements) {
+      const auto found = summary.fcl_exceptions.find(method.label);
+      const std::int64_t count = found == summary.fcl_exceptions.end() ? 0 : found->second;
+      check("number of disagreements with FCL", count, *acceptance.fcl_disagreements,
+            count <= *acceptance.fcl_disagreements, "at most");
+    }
+  }
+  return broken;
+}
+
+}  // namespace lmdbench

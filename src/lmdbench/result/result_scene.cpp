@@ -1,0 +1,157 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/base/error.h>
+#include <lmdbench/base/file_hash.h>
+#include <lmdbench/experiment/experiment.h>
+#include <lmdbench/methods/registry.h>
+#include <lmdbench/result/result_scene.h>
+#include <lmdbench/run/prepare.h>
+#include <lmdbench/world/broad_phase.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <map>
+#include <numeric>
+#include <string_view>
+#include <utility>
+
+namespace lmdbench {
+namespace {
+
+/// How the inputs of a result name the file of a mesh: "mesh:bunny-16k".
+constexpr std::string_view MESH_ROLE = "mesh:";
+
+/// Lets the experiment read its meshes where the run read them, and makes sure that they are still the same.
+void use_recorded_files(Experiment& experiment, const ResultReader& result) {
+  const std::vector<std::string> roles = result.texts("/provenance/inputs/role");
+  const std::vector<std::string> files = result.texts("/provenance/inputs/file");
+  const std::vector<std::string> hashes = result.texts("/provenance/inputs/sha256");
+  std::vector<MeshChoice*> choices{&experiment.moving};
+  for (MeshChoice& fixed : experiment.fixed) choices.push_back(&fixed);
+  for (std::size_t i = 0; i < roles.size(); ++i) {
+    if (!roles[i].starts_with(MESH_ROLE)) continue;
+    if (sha256_of_file(files[i]) != hashes[i])
+      throw InputError(files[i], "", "has changed since the run: the result was made from other bytes",
+                       "give the mesh back its content, or run the experiment again");
+    const std::string name = roles[i].substr(MESH_ROLE.size());
+    for (MeshChoice* choice : choices)
+      if (choice->mesh == name) choice->mesh = std::filesystem::absolute(files[i]).string();
+  }
+}
+
+ResultTrack track_of(const ResultReader& result, const std::string& method, std::size_t most_frames) {
+  const std::string group = method.empty() ? "/path" : "/methods/" + method + "/path";
+  const std::vector<double> times = result.reals("/path/time");
+  const std::vector<double> p = result.reals(group + "/position");
+  const std::vector<double> q = result.reals(group + "/orientation");
+  if (p.size() != 3 * times.size() || q.size() != 4 * times.size())
+    throw InputError(result.file().string(), group, "has not one pose a time", "run the experiment again");
+  const std::size_t stride = std::max<std::size_t>(1, (times.size() + most_frames - 1) / most_frames);
+  ResultTrack track{method, {}, {}};
+  for (std::size_t f = 0; f < times.size(); f += stride) {
+    const Pose pose{Vec3(p[3 * f], p[3 * f + 1], p[3 * f + 2]),
+                    Eigen::Quaterniond(q[4 * f + 3], q[4 * f], q[4 * f + 1], q[4 * f + 2])};
+    track.frames.push_back(f);
+    track.poses.push_back({times[f], pose});
+  }
+  return track;
+}
+
+Experiment experiment_of_result(const ResultReader& result) {
+  return parse_experiment(result.texts("/provenance/experiment").at(0),
+                          result.text_attribute("/provenance", "experiment_file").value_or(""));
+}
+
+/// Vertex files must be those that were run.
+void check_vertex_files(const std::vector<MeshNote>& notes, const ResultReader& result) {
+  const std::vector<std::string> roles = result.texts("/provenance/inputs/role");
+  const std::vector<std::string> hashes = result.texts("/provenance/inputs/sha256");
+  for (const MeshNote& note : notes) {
+    if (!note.vertices || note.vertices->sha256().empty()) continue;
+    const auto found = std::ranges::find(roles, "vertices:" + note.role);
+    if (found == roles.end() ||
+        hashes[static_cast<std::size_t>(found - roles.begin())] != note.vertices->sha256())
+      throw InputError(vertex_files(note.vertices->deformation()).front().string(), "",
+                       "this or another vertex file has changed since the run",
+                       "give them back their content, or run the experiment again");
+  }
+}
+
+ResultScene scene_of_experiment(Experiment experiment, const ResultReader& result) {
+  use_recorded_files(experiment, result);
+  std::vector<MeshNote> notes;
+  Scene scene = load_scene(experiment, notes);
+  check_vertex_files(notes, result);
+  scene.cutoff = result.real_attribute("/scene", "cutoff_m").value();
+  for (const std::string& label : result.groups("/methods"))
+    scene.cutoff =
+        std::max(scene.cutoff, result.real_attribute("/methods/" + label, "cutoff_m").value_or(0.0));
+  const auto frames = static_cast<std::int64_t>(result.reals("/path/time").size());
+  return {scene, deformation_of(scene, notes, frames)};
+}
+
+}  // namespace
+
+Scene scene_of_result(const ResultReader& result) {
+  Experiment experiment = experiment_of_result(result);
+  refuse_deformation(experiment);
+  return scene_of_experiment(std::move(experiment), result).rest;
+}
+
+ResultScene deforming_scene_of_result(const ResultReader& result) {
+  return scene_of_experiment(experiment_of_result(result), result);
+}
+
+std::vector<ResultTrack> tracks_of_result(const ResultReader& result, std::size_t most_frames) {
+  std::vector<std::string> devices;
+  for (const std::string& label : result.groups("/methods"))
+    if (result.has("/methods/" + label + "/path/position")) devices.push_back(label);
+  if (devices.empty()) return {track_of(result, "", most_frames)};
+  std::vector<ResultTrack> tracks;
+  for (const std::string& label : devices)
+    tracks.push_back(track_of(result, label, std::max<std::size_t>(1, most_frames / devices.size())));
+  return tracks;
+}
+
+std::vector<std::size_t> drawn_bodies(const Scene& scene, const std::vector<ResultTrack>& tracks) {
+  std::vector<std::size_t> drawn(scene.fixed.size());
+  std::iota(drawn.begin(), drawn.end(), std::size_t{0});
+  if (!scene.is_world() || drawn.size() <= MOST_DRAWN) return drawn;
+  const BroadPhase phase(scene);
+  std::map<std::size_t, double> nearest;
+  for (const ResultTrack& track : tracks)
+    for (const TimedPose& timed : track.poses) {
+      std::size_t visited = 0;
+      phase.by_distance(timed.pose, [&](std::uint32_t instance, double bound) {
+        double& least = nearest.try_emplace(instance, bound).first->second;
+        least = std::min(least, bound);
+        return ++visited < MOST_DRAWN;
+      });
+    }
+  std::vector<std::pair<double, std::size_t>> order;
+  for (const auto& [instance, bound] : nearest) order.emplace_back(bound, instance);
+  std::sort(order.begin(), order.end());
+  order.resize(std::min(order.size(), MOST_DRAWN));
+  drawn.clear();
+  for (const auto& [bound, instance] : order) drawn.push_back(instance);
+  std::sort(drawn.begin(), drawn.end());
+  return drawn;
+}
+
+TriangleMesh placed_mesh(const FixedBody& fixed) {
+  TriangleMesh mesh = fixed->surface().mesh;
+  if (!fixed.is_placed()) return mesh;
+  const RigidTransform X_WF(fixed.X_WF);
+  for (Vec3& vertex : mesh.vertices) vertex = X_WF.point(vertex);
+  return mesh;
+}
+
+std::unique_ptr<Method> exact_method(const Scene& scene) {
+  for (const MethodDescription& description : method_descriptions())
+    if (description.promise == Promise::COMPLETE_SET && !description.brute_force)
+      return make_method(description.name, scene);
+  throw EnvironmentError("", "", "this build has no method that is complete in every frame",
+                         "build all methods");
+}
+
+}  // namespace lmdbench

@@ -1,0 +1,95 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/result/write_result.h>
+
+#include <nlohmann/json.hpp>
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace lmdbench {
+
+void write_profile(ResultWriter& writer, const std::string& group, const PreparedProfile& profile,
+                   const VirtualPhantom& device) {
+  writer.attribute(group, "cutoff_m", profile.force.cutoff);
+  writer.attribute(group, "saturation_m", profile.force.saturation_distance);
+  writer.attribute(group, "maximum_force_n", profile.force.maximum_force);
+  writer.attribute(group, "sharpness", profile.force.sharpness);
+  writer.attribute(group, "force_limit_n", device.limit(profile.force.largest_sum));
+}
+
+namespace {
+
+/// Which `fixed_body` an instance is, and where it stands.
+void write_instances(ResultWriter& writer, const std::string& group, const MeshNote& mesh) {
+  writer.attribute(group, "first_fixed_body", mesh.first_fixed_body);
+  writer.attribute(group, "coincident_instances",
+                   static_cast<std::int64_t>(count_coincident(mesh.instances)));
+  std::vector<double> position, orientation;
+  for (const Pose& pose : mesh.instances) {
+    position.insert(position.end(), pose.translation.begin(), pose.translation.end());
+    orientation.insert(orientation.end(), pose.rotation.coeffs().begin(), pose.rotation.coeffs().end());
+  }
+  writer.write({group + "/position", "m", "origin of each instance's frame, world frame"},
+               std::span<const double>(position), {mesh.instances.size(), 3});
+  writer.write({group + "/orientation", "1", "quaternion x, y, z, w of each instance's frame"},
+               std::span<const double>(orientation), {mesh.instances.size(), 4});
+}
+
+/// How a mesh deforms, and what each frame changes of it.
+void write_deformation(ResultWriter& writer, const std::string& group, const MeshNote& mesh,
+                       const DeformingBody& body) {
+  writer.attribute(group, "deformation", to_text(mesh.vertices->deformation()));
+  writer.attribute(group, "farthest_m", body.farthest);
+  const auto integers = [&](const char* name, const char* long_name, std::int64_t DeformationStep::*value) {
+    std::vector<std::int64_t> values;
+    for (const DeformationStep& step : body.steps) values.push_back(step.*value);
+    writer.write({group + "/deformation/" + name, "1", long_name}, std::span<const std::int64_t>(values),
+                 {values.size()});
+  };
+  integers("moved_vertices", "vertices that moved since the frame before, in the first frame since rest",
+           &DeformationStep::moved_vertices);
+  integers("turned_over", "triangles whose normal turned by more than a right angle since then",
+           &DeformationStep::turned_over);
+  integers("lost_area", "triangles that had an area then and have none", &DeformationStep::lost_area);
+  std::vector<double> moves;
+  for (const DeformationStep& step : body.steps) moves.push_back(step.largest_move);
+  writer.write({group + "/deformation/largest_move", "m", "longest way of a vertex since then"},
+               std::span<const double>(moves), {moves.size()});
+}
+
+}  // namespace
+
+void write_scene(ResultWriter& writer, const RunResult& result) {
+  const PreparedRun& prepared = result.prepared;
+  writer.attribute("/scene", "frame_rate_hz", prepared.input.frame_rate_hz);
+  write_profile(writer, "/scene", prepared.profiles.front(), prepared.input.device);
+  const Device& device = prepared.input.device.device();
+  writer.attribute("/scene", "device", std::string(device.name));
+  writer.attribute("/scene", "device_maximum_force_n", device.maximum_force.value);
+  writer.attribute("/scene", "device_continuous_force_n", device.continuous_force.value);
+  for (const MeshNote& mesh : prepared.meshes) {
+    const std::string group = "/scene/" + mesh.role;
+    writer.attribute(group, "mesh", mesh.name);
+    writer.attribute(group, "sha256", mesh.sha256);
+    writer.attribute(group, "triangles", mesh.report.triangles);
+    writer.attribute(group, "diagonal_m", mesh.report.diagonal);
+    writer.attribute(group, "closed", std::int64_t{mesh.report.closed});
+    writer.attribute(group, "manifold", std::int64_t{mesh.report.manifold});
+    writer.attribute(group, "planar_tolerance_m", mesh.flattening.tolerance);
+    writer.attribute(group, "planar_moved_vertices", mesh.flattening.moved_vertices);
+    writer.attribute(group, "planar_largest_move_m", mesh.flattening.largest_move);
+    writer.attribute(group, "orient", std::string(to_string(mesh.orientation.choice)));
+    writer.attribute(group, "turned_triangles", mesh.orientation.turned_triangles);
+    writer.attribute(group, "validity", to_json(mesh.report).dump());
+    if (!mesh.instances.empty()) write_instances(writer, group, mesh);
+    if (mesh.vertices)
+      write_deformation(writer, group, mesh, *prepared.input.deformation->find(mesh.body_index()));
+  }
+  writer.attribute("/scene", "starts_touching", std::int64_t{prepared.starts_touching});
+  writer.write({"/scene/warnings", "1", "what a reader of this result must know"}, result.warnings);
+}
+
+}  // namespace lmdbench

@@ -1,0 +1,146 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/run/contact.h>
+#include <lmdbench/run/motion_bound.h>
+#include <lmdbench/snch/minimum_distance.h>
+#include <lmdbench/snch/nearest_tracker.h>
+#include <lmdbench/world/nearest_instance.h>
+
+#include <algorithm>
+#include <limits>
+#include <optional>
+
+namespace lmdbench {
+namespace {
+
+constexpr double ROUNDING = MotionBound::ROUNDING;
+
+/// One fixed mesh: in contact or not, pose after pose.
+class ContactScan {
+ public:
+  ContactScan(const Scene& scene, const Body& fixed, const MotionBound& motion)
+      : tracker_(scene.moving->surface(), scene.moving->prepared<Hierarchy>(), fixed.surface(),
+                 fixed.prepared<Hierarchy>()),
+        motion_(motion),
+        cutoff_(scene.cutoff) {}
+
+  bool at(const Pose& X_WM) {
+    // In contact for as long as the last nearest triangles are.
+    if (tracker_.last_pair(X_WM).distance <= cutoff_) return true;
+    // Out of contact until the mesh can have come as far as the gap was.
+    if (apart_ && motion_.between(*apart_, X_WM) + motion_.slack(*apart_, X_WM) < excess_) return false;
+    const NearestPair pair = tracker_.nearest(X_WM);
+    const bool in_contact = pair.triangle_moving >= 0 && pair.distance <= cutoff_;
+    apart_.reset();
+    if (!in_contact) {
+      apart_ = X_WM;
+      excess_ = pair.triangle_moving < 0 ? std::numeric_limits<double>::infinity()
+                                         : pair.distance * (1.0 - ROUNDING) - cutoff_;
+    }
+    return in_contact;
+  }
+
+ private:
+  NearestTracker tracker_;
+  const MotionBound& motion_;
+  double cutoff_;
+  std::optional<Pose> apart_;  ///< Pose of the last search that found no contact, ...
+  double excess_ = 0.0;        ///< ... by so much [m].
+};
+
+/// Distances to one fixed mesh, pose after pose.
+class DistanceScan {
+ public:
+  DistanceScan(const Scene& scene, const Body& fixed, const MotionBound& motion)
+      : tracker_(scene.moving->surface(), scene.moving->prepared<Hierarchy>(), fixed.surface(),
+                 fixed.prepared<Hierarchy>()),
+        motion_(motion) {}
+
+  /// The exact distance, or infinity where it is known to be above `limit`.
+  double unless_beyond(const Pose& X_WM, double limit) {
+    if (looked_at_) {
+      const double nearer = motion_.between(*looked_at_, X_WM) + motion_.slack(*looked_at_, X_WM);
+      if (distance_ * (1.0 - ROUNDING) - nearer > limit) return std::numeric_limits<double>::infinity();
+      if (tracker_.last_pair(X_WM).distance == 0.0) return 0.0;  // no other pair is nearer
+    }
+    looked_at_ = X_WM;
+    const NearestPair pair = tracker_.nearest(X_WM);
+    distance_ = pair.triangle_moving < 0 ? std::numeric_limits<double>::infinity() : pair.distance;
+    return distance_;
+  }
+
+ private:
+  NearestTracker tracker_;
+  const MotionBound& motion_;
+  std::optional<Pose> looked_at_;
+  double distance_ = 0.0;  ///< There [m].
+};
+
+}  // namespace
+
+double nearest_distance(const Scene& scene, const Pose& X_WM, double bound) {
+  double least = std::numeric_limits<double>::infinity();
+  for (const FixedBody& fixed : scene.fixed) {
+    const NearestPair pair =
+        nearest_pair(scene.moving->surface(), scene.moving->prepared<Hierarchy>(), fixed->surface(),
+                     fixed->prepared<Hierarchy>(), X_WM, std::min(bound, least));
+    if (pair.triangle_moving >= 0) least = std::min(least, pair.distance);
+  }
+  return least;
+}
+
+std::vector<bool> frames_in_contact(const Scene& scene, const std::vector<Pose>& poses, bool forecast) {
+  if (scene.is_world()) {
+    const BroadPhase phase(scene);
+    std::vector<bool> in_contact;
+    for (const Pose& X_WM : poses)
+      in_contact.push_back(nearest_instance(scene, phase, X_WM, scene.cutoff).instance >= 0);
+    return in_contact;
+  }
+  const MotionBound motion(scene.moving->surface().mesh);
+  std::vector<ContactScan> scans;
+  for (const auto& fixed : scene.fixed) scans.emplace_back(scene, *fixed, motion);
+  std::vector<bool> in_contact;
+  in_contact.reserve(poses.size());
+  for (const Pose& X_WM : poses) {
+    if (forecast) {
+      in_contact.push_back(
+          std::any_of(scans.begin(), scans.end(), [&](ContactScan& scan) { return scan.at(X_WM); }));
+      continue;
+    }
+    in_contact.push_back(std::any_of(scene.fixed.begin(), scene.fixed.end(), [&](const auto& fixed) {
+      return within_distance(scene.moving->surface(), scene.moving->template prepared<Hierarchy>(),
+                             fixed->surface(), fixed->template prepared<Hierarchy>(), X_WM, scene.cutoff);
+    }));
+  }
+  return in_contact;
+}
+
+Clearance clearance(const Scene& scene, std::span<const Pose> poses) {
+  if (scene.is_world()) {
+    const BroadPhase phase(scene);
+    Clearance result;
+    for (const Pose& X_WM : poses) {
+      const NearestInstance nearest = nearest_instance(scene, phase, X_WM, result.least_m);
+      result.least_m = std::min(result.least_m, nearest.distance);
+      if (nearest.distance == 0.0) ++result.touching;
+    }
+    return result;
+  }
+  const MotionBound motion(scene.moving->surface().mesh);
+  std::vector<DistanceScan> scans;
+  for (const auto& fixed : scene.fixed) scans.emplace_back(scene, *fixed, motion);
+  Clearance result;
+  for (const Pose& X_WM : poses) {
+    bool touching = false;
+    for (DistanceScan& scan : scans) {
+      const double distance = scan.unless_beyond(X_WM, result.least_m);
+      result.least_m = std::min(result.least_m, distance);
+      touching |= distance == 0.0;
+    }
+    if (touching) ++result.touching;
+  }
+  return result;
+}
+
+}  // namespace lmdbench

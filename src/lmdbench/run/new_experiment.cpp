@@ -1,0 +1,249 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/base/atomic_file.h>
+#include <lmdbench/base/error.h>
+#include <lmdbench/catalogue/manifest.h>
+#include <lmdbench/experiment/experiment.h>
+#include <lmdbench/mesh/surface.h>
+#include <lmdbench/mesh/validity.h>
+#include <lmdbench/motion/tum_file.h>
+#include <lmdbench/run/new_experiment.h>
+#include <lmdbench/run/prepare.h>
+#include <lmdbench/run/resting_pose.h>
+#include <lmdbench/run/scene_look.h>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <iterator>
+#include <system_error>
+#include <tuple>
+
+namespace lmdbench {
+namespace {
+
+using OrderedJson = nlohmann::ordered_json;
+
+/// Of an experiment that begins at rest.
+constexpr const char* CONTACT_HAND = "postural-arm";
+constexpr double CONTACT_SECONDS = 1.0;
+
+/// How a file in `folder` names a mesh.
+std::string seen_from(const std::filesystem::path& folder, const std::string& mesh) {
+  if (is_mesh_name(mesh)) return mesh;
+  const std::string relative = std::filesystem::proximate(mesh, folder).generic_string();
+  return relative.find('/') == std::string::npos ? "./" + relative : relative;
+}
+
+std::string stem_of(const std::string& mesh) {
+  std::string stem = std::filesystem::path(mesh).stem().string();
+  for (char& c : stem)
+    if (std::isalnum(static_cast<unsigned char>(c)) == 0 && c != '_') c = '-';
+  return stem;
+}
+
+/// A mesh of the new scene.
+struct GivenMesh {
+  std::string name;   ///< As the user gave it.
+  std::string place;  ///< JSON pointer of its entry.
+  ResolvedMesh mesh;
+  double diagonal = 0.0;  ///< In the file's unit.
+  double metres = 1.0;    ///< Of that unit.
+  std::string why;
+};
+
+GivenMesh part_of(const std::string& name, const std::string& place,
+                  const std::filesystem::path& mesh_folder) {
+  GivenMesh part{name, place, resolve_mesh(name, mesh_folder), 0.0, 1.0, {}};
+  part.diagonal = bounding_box_diagonal(part.mesh.mesh);
+  return part;
+}
+
+/// One decision for both: parts that are to meet come out of one drawing far more often than out of two.
+void choose_units(GivenMesh& moving, GivenMesh& fixed, const std::optional<std::string>& unit) {
+  if (unit) {
+    std::tie(moving.metres, fixed.metres) = metres_of_units(*unit, "--unit");
+    moving.why = fixed.why = "--unit " + *unit;
+  } else {
+    const auto is_long = [](const GivenMesh& part) {
+      return !is_mesh_name(part.name) && part.diagonal > LARGEST_PLAUSIBLE_DIAGONAL;
+    };
+    const bool millimetres = is_long(moving) || is_long(fixed);
+    for (GivenMesh* part : {&moving, &fixed}) {
+      const bool file = !is_mesh_name(part->name);
+      part->metres = file && millimetres ? 0.001 : 1.0;
+      part->why = !file ? "the manifest's meshes are in metres"
+                  : millimetres
+                      ? fmt::format("a file's coordinates span {:.4g}: both are taken for millimetres",
+                                    std::max(moving.diagonal, fixed.diagonal))
+                      : "no file's coordinates span more than a few metres";
+    }
+  }
+  const double a = moving.metres * moving.diagonal;
+  const double b = fixed.metres * fixed.diagonal;
+  if (!unit && std::max(a, b) > UNLIKELY_SIZE_RATIO * std::min(a, b))
+    throw UsageError(
+        "", "--unit",
+        fmt::format(
+            "{} would be {:.4g} m large and {} {:.4g} m, more than {:g} times apart: they are likely in "
+            "different units",
+            moving.name, a, fixed.name, b, UNLIKELY_SIZE_RATIO),
+        "say what a unit of their coordinates is: --unit mm for both, --unit mm,m for the moving and the "
+        "fixed one");
+}
+
+OrientationChoice choose_orientation(const GivenMesh& part, const std::optional<OrientationChoice>& chosen,
+                                     std::vector<DefaultNote>& choices) {
+  if (chosen) {
+    choices.push_back({part.place + "/orient", std::string(to_string(*chosen)), "--orient"});
+    return *chosen;
+  }
+  const ValidityReport report = check_mesh(build_surface(part.mesh.mesh));
+  if (report.outward != false && report.misoriented_edges == 0) return OrientationChoice::KEEP;
+  TriangleMesh turned = part.mesh.mesh;
+  choices.push_back(
+      {part.place + "/orient", "outward",
+       (report.outward == false ? "the file is inside out: " : "its triangles disagree on the outer side: ") +
+           to_text(orient_outward(turned))});
+  return OrientationChoice::OUTWARD;
+}
+
+/// Its entry in the experiment.
+OrderedJson mesh_entry(const GivenMesh& part, const InitChoices& chosen, const std::filesystem::path& folder,
+                       std::vector<DefaultNote>& choices) {
+  OrderedJson entry{{"mesh", seen_from(folder, part.name)}};
+  if (part.metres != 1.0) entry["scale"] = part.metres;
+  choices.push_back(
+      {part.place + "/scale", fmt::format("{:g}", part.metres),
+       fmt::format("{}; {:.4g} of them are {:.4g} m", part.why, part.diagonal, part.metres * part.diagonal)});
+  entry["centre"] = true;
+  if (choose_orientation(part, chosen.orientation, choices) == OrientationChoice::OUTWARD)
+    entry["orient"] = "outward";
+  return entry;
+}
+
+/// Closed loop at rest: what the scene is pressed on by is found by `lmdbench stability`.
+void write_contact(NewExperiment& result, OrderedJson& json, const Scene& scene, const Experiment& open,
+                   const Progress& progress) {
+  ForceProfile profile;
+  profile.cutoff = scene.cutoff;
+  profile.saturation_distance = open.profiles.front().saturation(scene.cutoff);
+  profile.maximum_force = open.profiles.front().maximum_force_n;
+  profile.sharpness = open.profiles.front().sharpness;
+  profile.law = open.methods.front().force_law;
+  const RestingPose rest = find_resting_pose(scene, profile, progress);
+  result.choices.push_back(
+      {"/path/file",
+       fmt::format("at rest with {} LMD{}, {:.3g} m apart", rest.contacts, rest.contacts == 1 ? "" : "s",
+                   rest.gap),
+       rest.slides()
+           ? fmt::format("the best of {} poses; it slides off unless the hand holds it (lateral stiffness "
+                         "{:.2g} of K_eff)",
+                         rest.tried, rest.least_stiffness_share)
+           : fmt::format("of {} poses that the contact holds from all sides, the one with the most contacts",
+                         rest.tried)});
+  json["title"] =
+      fmt::format("{} at rest on {}", stem_of(json["moving"]["mesh"]), stem_of(json["fixed"][0]["mesh"]));
+  const Vec3 push_W = -rest.force_W;
+  result.press = fmt::format("/loop/push_n=[{:.6g},{:.6g},{:.6g}]", push_W.x(), push_W.y(), push_W.z());
+  json["methods"] = OrderedJson::array();
+  json["methods"].push_back({{"name", "certified"}, {"force_law", "exponential"}});
+  result.choices.push_back(
+      {"/methods", "certified", "whose contacts are exact; others may not find the one it rests on"});
+  json["loop"] = {{"kind", "closed"}, {"hand", CONTACT_HAND}};
+  result.choices.push_back({"/loop/hand", CONTACT_HAND, "a published hand; null for the device alone"});
+  result.choices.push_back({"/device", open.device, "its own mass, damping, friction and encoders"});
+  const Path path{{0.0, rest.pose}, {CONTACT_SECONDS, rest.pose}};
+  result.path_text = tum_text(path, fmt::format("{}, {:.3g} m apart, found by lmdbench init --contact",
+                                                json["title"].get<std::string>(), rest.gap));
+}
+
+}  // namespace
+
+NewExperiment new_experiment(const std::string& moving, const std::string& fixed,
+                             const std::filesystem::path& folder, const std::filesystem::path& mesh_folder,
+                             const Progress& progress, const InitChoices& chosen) {
+  NewExperiment result;
+  result.name = stem_of(moving) + "-" + stem_of(fixed);
+  result.name.erase(0, result.name.find_first_not_of("-_"));
+  if (chosen.contact) result.name += "-contact";
+  result.experiment_file = folder / (result.name + ".json");
+  result.specification_file = folder / (result.name + ".path.json");
+  result.path_file = folder / (result.name + ".tum");
+
+  OrderedJson json{{"name", result.name},
+                   {"title", fmt::format("{} past {}", stem_of(moving), stem_of(fixed))}};
+  if (is_mesh_name(moving) || is_mesh_name(fixed))
+    json["mesh_folder"] = std::filesystem::proximate(mesh_folder, folder).generic_string();
+  GivenMesh moving_part = part_of(moving, "/moving", mesh_folder);
+  GivenMesh fixed_part = part_of(fixed, "/fixed/0", mesh_folder);
+  choose_units(moving_part, fixed_part, chosen.unit);
+  json["moving"] = mesh_entry(moving_part, chosen, folder, result.choices);
+  json["fixed"] = OrderedJson::array({mesh_entry(fixed_part, chosen, folder, result.choices)});
+
+  // What the program chooses for a file of two meshes, from the one place that chooses.
+  const Experiment open = parse_experiment(json.dump(), result.experiment_file);
+  std::optional<PreparedRun> prepared;  // with a path that grazes, which a scene at rest does not need
+  Scene scene;
+  if (chosen.contact) {
+    std::vector<MeshNote> notes;
+    scene = load_scene(open, notes);
+    std::copy_if(open.defaults.begin(), open.defaults.end(), std::back_inserter(result.choices),
+                 [](const DefaultNote& note) { return note.key != "/methods"; });
+    scene.cutoff = default_cutoff(scene, result.choices);
+  } else {
+    prepared = prepare(open, progress);
+    scene = prepared->scene();
+    result.choices.insert(result.choices.end(), prepared->defaults.begin(), prepared->defaults.end());
+  }
+
+  json["path"] = {{"file", result.path_file.filename().string()}};
+  json["force"] = {{"cutoff_m", scene.cutoff},
+                   {"maximum_force_n", open.profiles.front().maximum_force_n},
+                   {"sharpness", open.profiles.front().sharpness}};
+  json["methods"] = OrderedJson::array();
+  for (const MethodChoice& method : open.methods)
+    json["methods"].push_back(
+        {{"name", method.name}, {"force_law", std::string(to_string(method.force_law))}});
+  json["driver"] = {{"search_every_frames", open.driver.search_every_frames},
+                    {"search_latency_frames", open.driver.search_latency_frames},
+                    {"repetitions", open.driver.repetitions}};
+  json["device"] = open.device;
+  json["probes"]["truth"] = {{"stride_frames", open.truth_stride_frames}};
+  json["probes"]["fcl"] = {{"stride_frames", open.fcl_stride_frames}};
+  if (chosen.contact) write_contact(result, json, scene, open, progress);
+  result.experiment_text = json.dump(2) + "\n";
+
+  if (chosen.contact) return result;
+
+  PathSpec spec = prepared->made_path->spec;
+  spec.moving = {.mesh = json["moving"]["mesh"], .placement = open.moving.placement};
+  spec.fixed = {.mesh = json["fixed"][0]["mesh"], .placement = open.fixed.front().placement};
+  result.specification_text = path_spec_text(spec);
+  result.path_text =
+      tum_text(prepared->made_path->path,
+               fmt::format("{} past {}, {} {}'", stem_of(moving), stem_of(fixed), GENERATED_PATH_MARK,
+                           result.specification_file.filename().string()));
+  return result;
+}
+
+void write_new_experiment(const NewExperiment& experiment) {
+  for (const auto& file : {experiment.experiment_file, experiment.specification_file, experiment.path_file})
+    if (std::filesystem::exists(file) &&
+        !(file == experiment.specification_file && experiment.specification_text.empty()))
+      throw UsageError(file.string(), "", "is there already, and may have been edited",
+                       "remove it, or name another folder with --out");
+  const std::filesystem::path folder = experiment.experiment_file.parent_path();
+  std::error_code error;
+  if (!folder.empty()) std::filesystem::create_directories(folder, error);
+  if (error)
+    throw EnvironmentError(folder.string(), "", "cannot be made: " + error.message(),
+                           "name another folder with --out");
+  if (!experiment.specification_text.empty())
+    write_file_atomically(experiment.specification_file, experiment.specification_text);
+  write_file_atomically(experiment.path_file, experiment.path_text);
+  write_file_atomically(experiment.experiment_file, experiment.experiment_text);
+}
+
+}  // namespace lmdbench

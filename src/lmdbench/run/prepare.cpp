@@ -1,0 +1,466 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/base/error.h>
+#include <lmdbench/base/file_hash.h>
+#include <lmdbench/base/input_file.h>
+#include <lmdbench/base/parallel.h>
+#include <lmdbench/base/statistics.h>
+#include <lmdbench/catalogue/manifest.h>
+#include <lmdbench/experiment/probed_frames.h>
+#include <lmdbench/lmd/method_description.h>
+#include <lmdbench/mesh/placement.h>
+#include <lmdbench/mesh/surface.h>
+#include <lmdbench/methods/registry.h>
+#include <lmdbench/motion/grazing_choice.h>
+#include <lmdbench/motion/interpolate.h>
+#include <lmdbench/motion/mesh_scene.h>
+#include <lmdbench/motion/tum_file.h>
+#include <lmdbench/phantom/device.h>
+#include <lmdbench/run/contact.h>
+#include <lmdbench/run/prepare.h>
+#include <lmdbench/run/realtime_driver.h>
+#include <lmdbench/run/truth_probe.h>
+#include <lmdbench/snch/hierarchy.h>
+#include <lmdbench/world/nearest_instance.h>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <memory>
+#include <utility>
+
+namespace lmdbench {
+namespace {
+
+/// Of the diagonal: vertices this little before a face are in its plane, as rounding leaves them.
+constexpr double CONVEX_TOLERANCE = 1e-7;
+constexpr std::size_t MOST_CONVEX_TRIANGLES = 2000;
+/// Of a made path's poses every so many are looked at for their contacts.
+constexpr std::size_t CONTACT_STRIDE = 5;
+
+/// A mesh at its place in the scene, with its note.
+std::shared_ptr<const Body> load_body(const MeshChoice& choice, const std::string& role,
+                                      const Experiment& experiment, std::vector<MeshNote>& notes) {
+  const ResolvedMesh resolved =
+      is_mesh_name(choice.mesh)
+          ? resolve_mesh(choice.mesh, experiment.mesh_folder)
+          : resolve_mesh((experiment.file.parent_path() / choice.mesh).lexically_normal().string());
+  TriangleMesh mesh = resolved.mesh;  // `resolved` keeps what vertex files are held against
+  // In the file's coordinates, which tell how they were rounded; scaling hides that.
+  const double scale = choice.placement.factor(mesh);
+  PlanarTolerance tolerance = choice.planar_tolerance;
+  if (tolerance.kind == PlanarTolerance::Kind::LENGTH) tolerance.value /= scale;
+  OrientationReport orientation;
+  if (choice.orientation == OrientationChoice::OUTWARD) orientation = orient_outward(mesh);
+  FlatteningReport flattening = flatten(mesh, tolerance);
+  flattening.tolerance *= scale;
+  flattening.largest_move *= scale;
+  mesh = placed(std::move(mesh), choice.placement);
+  std::shared_ptr<const FrameVertices> vertices;
+  if (choice.deformation)
+    vertices = std::make_shared<const FrameVertices>(
+        *choice.deformation,
+        DeformingMesh{resolved.mesh, choice.placement, mesh,
+                      role == "moving" ? std::nullopt : std::optional(choice.pose)},
+        experiment.frame_rate_hz);
+  const RigidTransform X_WF(choice.pose);
+  if (role != "moving" && !choice.instances)
+    for (Vec3& vertex : mesh.vertices) vertex = X_WF.point(vertex);
+  refuse_extreme_size(mesh, choice.mesh);
+  auto body = std::make_shared<const Body>(choice.mesh, build_surface(std::move(mesh)));
+  notes.push_back({role,
+                   choice.mesh,
+                   resolved.file,
+                   resolved.size,
+                   resolved.sha256,
+                   check_mesh(body->surface()),
+                   flattening,
+                   orientation,
+                   {},
+                   0,
+                   std::move(vertices)});
+  return body;
+}
+
+Path load_frames(const Experiment& experiment, std::vector<InputFile>& files,
+                 std::vector<RecordingGap>& gaps) {
+  const FileContent content = read_input_file(experiment.path_file, {.what = "path"});
+  const PathInterpolator path(parse_tum(content.bytes, experiment.path_file.string()),
+                              experiment.interpolation, experiment.gap_intervals);
+  gaps = path.gaps();
+  files.push_back(
+      {"path", experiment.path_file, content.sha256, static_cast<std::int64_t>(content.bytes.size())});
+  // A path that is cut by "frames" may be longer than any run.
+  std::optional<std::size_t> wanted;
+  if (experiment.frames) wanted = static_cast<std::size_t>(*experiment.frames);
+  refuse_too_many_frames(path, experiment.frame_rate_hz, wanted, experiment.path_file.string());
+  return resample(path, experiment.frame_rate_hz, wanted);
+}
+
+/// Diagonal of the smallest mesh [m].
+double least_diagonal(const Scene& scene) {
+  double least = bounding_box_diagonal(scene.moving->surface().mesh);
+  for (const auto& fixed : scene.fixed) least = std::min(least, bounding_box_diagonal(fixed->surface().mesh));
+  return least;
+}
+
+/// Every vertex lies behind every face. Two such meshes have at most one LMD. Of large meshes nobody asks: no.
+bool is_convex(const Surface& surface) {
+  if (surface.mesh.triangles.size() > MOST_CONVEX_TRIANGLES) return false;
+  const double slack = CONVEX_TOLERANCE * bounding_box_diagonal(surface.mesh);
+  for (std::size_t t = 0; t < surface.mesh.triangles.size(); ++t) {
+    const Vec3 corner = surface.mesh.triangle(static_cast<std::int32_t>(t))[0];
+    for (const Vec3& vertex : surface.mesh.vertices)
+      if (surface.face_normals[t].dot(vertex - corner) > slack) return false;
+  }
+  return true;
+}
+
+/// LMDs in the median frame of those in contact.
+double median_contacts(const Scene& scene, const Path& path) {
+  const std::unique_ptr<Method> method = make_method("certified", scene);
+  std::vector<double> counts;
+  LmdSet lmds;
+  WorkCounters ignored;
+  for (std::size_t i = 0; i < path.size(); i += CONTACT_STRIDE) {
+    lmds.clear();
+    method->search(path[i].pose, lmds, ignored);
+    if (!lmds.empty()) counts.push_back(static_cast<double>(lmds.size()));
+  }
+  return counts.empty() ? 0.0 : median(counts);
+}
+
+/// A path for a scene that has none.
+GrazingPath make_path(const Experiment& experiment, const Scene& scene, const Progress& progress) {
+  const double smallest = least_diagonal(scene);
+  if (scene.cutoff > smallest)
+    throw UsageError(experiment.file.string(), "/force/cutoff_m",
+                     fmt::format("the cutoff of {:.4g} m is larger than the smallest mesh, {:.4g} m: all of "
+                                 "it would be in contact "
+                                 "everywhere, and no path grazes",
+                                 scene.cutoff, smallest),
+                     fmt::format("give a cutoff in metres, of a hundredth of the mesh or so ({:.3g}), or "
+                                 "leave it out; check scale",
+                                 0.01 * smallest));
+  TriangleMesh fixed;  // all of them as one
+  for (const auto& body : scene.fixed) {
+    const TriangleMesh& mesh = body->surface().mesh;
+    const auto first = static_cast<std::int32_t>(fixed.vertices.size());
+    fixed.vertices.insert(fixed.vertices.end(), mesh.vertices.begin(), mesh.vertices.end());
+    for (const auto& corners : mesh.triangles)
+      fixed.triangles.push_back({first + corners[0], first + corners[1], first + corners[2]});
+  }
+  const bool one_contact = scene.fixed.size() == 1 && is_convex(scene.moving->surface()) &&
+                           is_convex(scene.fixed.front()->surface());
+  return rich_grazing_path(
+      mesh_scene(scene.moving->surface().mesh, std::move(fixed)), scene.cutoff, experiment.frame_rate_hz,
+      [&](const Path& path) { return one_contact ? RICH_CONTACTS : median_contacts(scene, path); },
+      [&](std::size_t done, std::size_t all) {
+        if (progress && !progress(static_cast<std::int64_t>(done), static_cast<std::int64_t>(all)))
+          throw Interrupted();
+      });
+}
+
+DefaultNote note_of(const GrazingPath& made, double cutoff) {
+  return {"/path/file",
+          fmt::format("a path of {:g} s that is made (seed {}, smallest gap {:.3g} m)", made.spec.duration(),
+                      made.spec.seed, made.smallest_gap),
+          fmt::format(
+              "slides and turns at {:g} to {:g} cutoffs of {:g} m; `lmdbench init` writes one for editing",
+              GRAZING_GAPS_IN_CUTOFFS[1].gap, GRAZING_GAPS_IN_CUTOFFS[2].gap, cutoff)};
+}
+
+Path frames_of(const GrazingPath& made, const Experiment& experiment, std::vector<InputFile>& files) {
+  const std::string text = tum_text(made.path);
+  files.push_back({"path", "", sha256_of_text(text), static_cast<std::int64_t>(text.size())});
+  std::optional<std::size_t> wanted;
+  if (experiment.frames) wanted = static_cast<std::size_t>(*experiment.frames);
+  return resample(PathInterpolator(made.path, experiment.interpolation), experiment.frame_rate_hz, wanted);
+}
+
+ForceProfile profile_for(const ForceChoice& force, double cutoff, const std::string& place,
+                         const Experiment& experiment) {
+  ForceProfile profile;
+  profile.cutoff = cutoff;
+  profile.saturation_distance = force.saturation(cutoff);
+  profile.maximum_force = force.maximum_force_n;
+  profile.sharpness = force.sharpness;
+  if (force.clip_at_maximum) profile.largest_sum = force.maximum_force_n;
+  // Loading could only compare two lengths; here a share of the mesh's diagonal has become one.
+  if (!(profile.saturation_distance < profile.cutoff))
+    throw UsageError(experiment.file.string(), place + "/saturation_m",
+                     fmt::format("saturation at {} m is not below the cutoff of {} m",
+                                 profile.saturation_distance, profile.cutoff),
+                     "saturate nearer than the cutoff");
+  return profile;
+}
+
+/// What every run needs of each mesh, side by side where the meshes are large enough for threads.
+void prepare_hierarchies(const Scene& scene) {
+  constexpr std::size_t WORTH_A_THREAD = 2048;  // triangles
+  const auto large = [](const FixedBody& body) {
+    return body->surface().mesh.triangles.size() >= WORTH_A_THREAD;
+  };
+  if (!large(scene.moving) || std::none_of(scene.fixed.begin(), scene.fixed.end(), large)) return;
+  parallel_for(scene.fixed.size() + 1,
+               [&](std::size_t i) { (i == 0 ? scene.moving : scene.fixed[i - 1])->prepared<Hierarchy>(); });
+}
+
+bool touches(const Scene& scene, const Pose& X_WM) {
+  if (scene.is_world()) return nearest_instance(scene, BroadPhase(scene), X_WM, scene.cutoff).distance == 0.0;
+  return nearest_distance(scene, X_WM, scene.cutoff) == 0.0;
+}
+
+/// The instances of an entry. Meshes that are the same are read and prepared once, whether they move or stand.
+void add_instances(const Experiment& experiment, std::size_t entry, const std::string& role, Scene& scene,
+                   std::vector<MeshNote>& notes) {
+  const MeshChoice& choice = experiment.fixed[entry];
+  std::shared_ptr<const Body> body;
+  if (allowed(experiment.rules, Rule::SHARED_MESH) && same_mesh(experiment.moving, choice)) {
+    body = scene.moving;
+    notes.push_back(notes.front());
+    notes.back().role = role;
+  } else {
+    body = load_body(choice, role, experiment, notes);
+  }
+  notes.back().instances.clear();
+  for (const Pose& pose : instance_poses(*choice.instances, body->prepared<MeshBounds>())) {
+    notes.back().instances.push_back(choice.pose * pose);
+    scene.fixed.emplace_back(body, notes.back().instances.back());
+  }
+}
+
+}  // namespace
+
+Scene load_scene(const Experiment& experiment, std::vector<MeshNote>& notes) {
+  Scene scene;
+  scene.moving = load_body(experiment.moving, "moving", experiment, notes);
+  for (std::size_t i = 0; i < experiment.fixed.size(); ++i) {
+    const std::string role = fmt::format("fixed_{}", i);
+    const auto first = static_cast<std::int64_t>(scene.fixed.size());
+    if (experiment.fixed[i].instances) {
+      add_instances(experiment, i, role, scene, notes);
+    } else if (allowed(experiment.rules, Rule::SHARED_MESH) && same_body(experiment, i)) {
+      scene.fixed.push_back(scene.moving);
+      notes.push_back(notes.front());
+      notes.back().role = role;
+    } else {
+      scene.fixed.push_back(load_body(experiment.fixed[i], role, experiment, notes));
+    }
+    notes.back().first_fixed_body = first;
+  }
+  return scene;
+}
+
+namespace {
+
+/// What deforming does to triangles, and what follows meshes that deform.
+void warn_of_deformation(PreparedRun& prepared) {
+  if (!prepared.input.deformation) return;
+  for (const MeshNote& note : prepared.meshes) {
+    if (!note.vertices) continue;
+    const std::vector<DeformationStep>& steps = prepared.input.deformation->find(note.body_index())->steps;
+    const auto warn = [&](const char* what, std::int64_t DeformationStep::*count,
+                          std::int32_t DeformationStep::*first) {
+      std::int64_t all = 0, frames = 0;
+      std::string where;
+      for (std::size_t frame = 0; frame < steps.size(); ++frame) {
+        if (steps[frame].*count == 0) continue;
+        if (frames++ == 0) where = fmt::format("triangle {} in frame {}", steps[frame].*first, frame);
+        all += steps[frame].*count;
+      }
+      if (all > 0)
+        prepared.warnings.emplace_back(fmt::format(
+            "{} mesh {}: as it deforms, triangles {} {} times, in {} of {} frames, first {}; the mesh "
+            "is taken as its vertices say",
+            note.role, note.name, what, all, frames, steps.size(), where));
+    };
+    warn("turn over", &DeformationStep::turned_over, &DeformationStep::first_turned_over);
+    warn("lose their area", &DeformationStep::lost_area, &DeformationStep::first_lost_area);
+  }
+  if (prepared.made_path)
+    prepared.warnings.emplace_back(
+        "the path is made for the meshes at rest: as they deform they may intersect, or not meet");
+}
+
+/// What an aggregation other than the sum cannot keep to.
+void warn_of_aggregation(const Experiment& experiment, PreparedRun& prepared) {
+  bool asks_indices = false;
+  for (const MethodChoice& method : experiment.methods) {
+    const Aggregation& wanted = *experiment.profiles[method.profile].aggregation;
+    asks_indices = asks_indices || method.aggregation->needs != AggregationNeeds::MINIMA;
+    if (method.aggregation != &wanted)
+      prepared.warnings.push_back(
+          fmt::format("method {} finds no saddles, which the aggregation \"{}\" needs: its LMDs are summed, "
+                      "and its force errors "
+                      "are against the force that was asked for",
+                      method.label, wanted.name));
+  }
+  for (const MeshNote& note : prepared.meshes)
+    if (asks_indices && !(note.report.closed && note.report.manifold))
+      prepared.warnings.push_back(
+          fmt::format("{} mesh {}: LMDs at its {} boundary edges and {} edges and vertices that are not "
+                      "manifold have no index: "
+                      "where one is born or dies the force may jump",
+                      note.role, note.name, note.report.boundary_edges,
+                      note.report.non_manifold_edges + note.report.non_manifold_vertices));
+}
+
+}  // namespace
+
+std::shared_ptr<const SceneDeformation> deformation_of(const Scene& scene, const std::vector<MeshNote>& notes,
+                                                       std::int64_t frames) {
+  std::vector<DeformingBody> bodies;
+  for (const MeshNote& note : notes)
+    if (note.vertices) bodies.push_back({note.body_index(), note.vertices});
+  if (bodies.empty()) return nullptr;
+  return std::make_shared<const SceneDeformation>(scene, std::move(bodies), frames);
+}
+
+PreparedRun prepare(const Experiment& experiment, const Progress& progress, Deforming deforming) {
+  if (deforming == Deforming::REFUSED) refuse_deformation(experiment);
+  const Device& device = device_named(experiment.device, experiment.file.string(), "/device");
+  std::vector<InputFile> files;
+  Path frames;
+  std::vector<RecordingGap> gaps;
+  if (!experiment.path_file.empty()) frames = load_frames(experiment, files, gaps);
+
+  std::vector<MeshNote> notes;
+  const Scene scene = load_scene(experiment, notes);
+  std::vector<PreparedProfile> profiles;
+  std::vector<DefaultNote> defaults = experiment.defaults;
+  std::optional<double> open_cutoff;  // of profiles that give none
+  for (std::size_t i = 0; i < experiment.profiles.size(); ++i) {
+    const ForceChoice& choice = experiment.profiles[i];
+    const std::string place = choice.name.empty() ? "/force" : fmt::format("/force/{}", i);
+    std::optional<double> cutoff = choice.cutoff(notes.front().report.diagonal);
+    if (!cutoff) {
+      if (!open_cutoff) open_cutoff = default_cutoff(scene, defaults);
+      cutoff = open_cutoff;
+    }
+    profiles.push_back({choice.name, profile_for(choice, *cutoff, place, experiment), scene});
+    profiles.back().scene.cutoff = profiles.back().force.cutoff;
+  }
+  std::optional<GrazingPath> made_path;
+  if (frames.empty()) {
+    // Near enough for every profile.
+    const auto hardest = std::min_element(
+        profiles.begin(), profiles.end(),
+        [](const PreparedProfile& a, const PreparedProfile& b) { return a.force.cutoff < b.force.cutoff; });
+    made_path = make_path(experiment, hardest->scene, progress);
+    frames = frames_of(*made_path, experiment, files);
+    defaults.push_back(note_of(*made_path, hardest->force.cutoff));
+  }
+
+  PreparedRun prepared{
+      .profiles = std::move(profiles),
+      .input = {.poses = {},
+                .frame_rate_hz = experiment.frame_rate_hz,
+                .make_poses = {},
+                .frames = std::nullopt,
+                .reference_M = Vec3::Zero(),
+                .device = VirtualPhantom(device),
+                .keep_lmds = {},
+                .deformation = deformation_of(scene, notes, static_cast<std::int64_t>(frames.size()))},
+      .times = {},
+      .meshes = std::move(notes),
+      .files = std::move(files),
+      .starts_touching = false,
+      .warnings = {},
+      .path_gaps = std::move(gaps),
+      .made_path = std::move(made_path),
+      .defaults = std::move(defaults)};
+  prepared.input.reference_M = bounding_box_centre(prepared.scene().moving->surface().mesh);
+  for (const TimedPose& frame : frames) {
+    prepared.input.poses.push_back(frame.pose);
+    prepared.times.push_back(frame.time);
+  }
+  warn_of_deformation(prepared);
+  if (experiment.realtime && experiment.realtime->seconds)
+    lengthen(prepared.input.poses, prepared.times, experiment.frame_rate_hz, *experiment.realtime->seconds);
+  for (const MeshNote& note : prepared.meshes) {
+    const bool listed = std::any_of(prepared.files.begin(), prepared.files.end(), [&](const InputFile& file) {
+      return file.role == "mesh:" + note.name && file.sha256 == note.sha256;
+    });
+    if (note.file && !listed)
+      prepared.files.push_back({"mesh:" + note.name, *note.file, note.sha256, note.size});
+    if (note.vertices && !note.vertices->sha256().empty())
+      prepared.files.push_back({"vertices:" + note.role, vertex_files(note.vertices->deformation()).front(),
+                                note.vertices->sha256(), note.vertices->file_bytes()});
+    if (note.flattening.moved_vertices > 0)
+      prepared.warnings.emplace_back(
+          fmt::format("{} mesh {}: {}", note.role, note.name, to_text(note.flattening)));
+    if (note.orientation.choice == OrientationChoice::OUTWARD)
+      prepared.warnings.emplace_back(
+          fmt::format("{} mesh {}: {}", note.role, note.name, to_text(note.orientation)));
+    if (const std::size_t coincident = count_coincident(note.instances); coincident > 0)
+      prepared.warnings.emplace_back(fmt::format(
+          "{} mesh {}: {} of {} instances are just where an earlier one is: each of their LMDs is "
+          "there once an instance",
+          note.role, note.name, coincident, note.instances.size()));
+    for (const std::string& finding : findings(note.report))
+      prepared.warnings.emplace_back(fmt::format("{} mesh {}: {}", note.role, note.name, finding));
+  }
+  if (experiment.loop.closed)
+    prepared.input.make_poses = [loop = experiment.loop, path = prepared.input.poses,
+                                 period = 1.0 / experiment.frame_rate_hz,
+                                 reference_M = prepared.input.reference_M] {
+      return std::make_unique<DevicePoses>(loop, path, period, reference_M);
+    };
+  warn_of_aggregation(experiment, prepared);
+  prepare_hierarchies(prepared.scene());
+  DeformingScene first_frame(prepared.scene(), prepared.input.deformation);
+  first_frame.to_frame(0);
+  prepared.starts_touching = touches(first_frame.scene(), prepared.input.poses.front());
+  if (prepared.starts_touching)
+    prepared.warnings.emplace_back(
+        "the meshes touch in the first frame: LMDs at distance 0 have no direction there and exert no force "
+        "until they "
+        "have been apart");
+  return prepared;
+}
+
+std::vector<std::int64_t> truth_frames(const Experiment& experiment, const PreparedRun& prepared) {
+  return probed_frames(static_cast<std::int64_t>(prepared.input.poses.size()), experiment.truth_stride_frames,
+                       experiment.driver.search_latency_frames);
+}
+
+std::vector<std::filesystem::path> input_files(const Experiment& experiment) {
+  const std::filesystem::path folder = experiment.file.parent_path();
+  std::vector<std::filesystem::path> files{experiment.file, experiment.mesh_folder / "manifest.json"};
+  if (!experiment.path_file.empty()) files.push_back(experiment.path_file);
+  const auto add = [&](const MeshChoice& choice) {
+    files.push_back(is_mesh_name(choice.mesh) ? experiment.mesh_folder / (choice.mesh + ".off")
+                                              : folder / choice.mesh);
+    if (!choice.deformation) return;
+    std::error_code none;  // A folder that is not there has no file; loading it says so.
+    if (!choice.deformation->folder.empty() &&
+        !std::filesystem::is_directory(choice.deformation->folder, none))
+      return;
+    for (const std::filesystem::path& file : vertex_files(*choice.deformation)) files.push_back(file);
+  };
+  add(experiment.moving);
+  for (const MeshChoice& choice : experiment.fixed) {
+    add(choice);
+    if (choice.instances && !choice.instances->file.empty()) files.push_back(choice.instances->file);
+  }
+  return files;
+}
+
+std::vector<LockstepMethod> lockstep_methods(const Experiment& experiment, const PreparedRun& prepared) {
+  std::vector<LockstepMethod> methods;
+  for (const MethodChoice& choice : experiment.methods) {
+    const PreparedProfile& profile = prepared.profiles[choice.profile];
+    ForceProfile force = profile.force;
+    force.law = choice.force_law;
+    const auto make_on = [name = choice.name, options = choice.options](const Scene& scene) {
+      return make_method(name, scene, options);
+    };
+    methods.push_back({choice.label, [make_on, scene = profile.scene] { return make_on(scene); }, force,
+                       choice.aggregation, profile.scene, make_on});
+  }
+  return methods;
+}
+
+}  // namespace lmdbench

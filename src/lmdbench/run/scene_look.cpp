@@ -1,0 +1,267 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/mesh/winding_number.h>
+#include <lmdbench/run/contact.h>
+#include <lmdbench/run/deforming_distance.h>
+#include <lmdbench/run/prepare.h>
+#include <lmdbench/run/scene_look.h>
+#include <lmdbench/world/nearest_instance.h>
+
+#include <Eigen/Geometry>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <utility>
+
+namespace lmdbench {
+namespace {
+
+/// A mesh and its box, outside of which nothing is inside the mesh.
+class BoxedMesh {
+ public:
+  BoxedMesh(const SceneLook::Mesh& look, const TriangleMesh& mesh) : closed_(look.closed), mesh_(&mesh) {
+    for (const Vec3& vertex : mesh.vertices) box_.extend(vertex);
+  }
+  [[nodiscard]] bool encloses(const Vec3& point) const {
+    return closed_ && box_.contains(point) && std::abs(winding_number(point, *mesh_)) > 0.5;
+  }
+  [[nodiscard]] const Vec3& first_vertex() const { return mesh_->vertices.front(); }
+
+ private:
+  bool closed_;
+  const TriangleMesh* mesh_;
+  Eigen::AlignedBox3d box_;
+};
+
+/// Of the frames that are looked at: those of them in which something holds, and the first.
+struct FramesOf {
+  std::int64_t count = 0, first = -1;
+
+  void add(std::int64_t frame) {
+    if (count++ == 0) first = frame;
+  }
+};
+
+void look_at_sizes(SceneLook& look) {
+  const auto by_diagonal = [](const SceneLook::Mesh& a, const SceneLook::Mesh& b) {
+    return a.diagonal < b.diagonal;
+  };
+  const auto [least, most] = std::minmax_element(look.meshes.begin(), look.meshes.end(), by_diagonal);
+  if (most->diagonal > UNLIKELY_SIZE_RATIO * least->diagonal)
+    look.warnings.push_back(
+        {fmt::format("{} {} is {:.4g} m large, {} {} {:.4g} m: {:.0f} times as much", most->role, most->name,
+                     most->diagonal, least->role, least->name, least->diagonal,
+                     most->diagonal / least->diagonal),
+         fmt::format("where one is in millimetres, give it \"scale\": 0.001; else a diagonal_m")});
+  if (least->diagonal > UNLIKELY_SIZE)
+    look.warnings.push_back({fmt::format("the smallest mesh, {} {}, is {:.4g} m large", least->role,
+                                         least->name, least->diagonal),
+                             "where coordinates are millimetres, give every mesh \"scale\": 0.001"});
+}
+
+void look_at_cutoff(SceneLook& look) {
+  const auto least = std::min_element(
+      look.meshes.begin(), look.meshes.end(),
+      [](const SceneLook::Mesh& a, const SceneLook::Mesh& b) { return a.diagonal < b.diagonal; });
+  if (look.cutoff > least->diagonal)
+    look.warnings.push_back(
+        {fmt::format("the cutoff of {:.4g} m is larger than {} {}, {:.4g} m: all of it is in contact at once",
+                     look.cutoff, least->role, least->name, least->diagonal),
+         "lower /force/cutoff_m, which is in metres, or check scale and diagonal_m"});
+}
+
+/// Distances do not tell inside from outside.
+void look_inside(SceneLook& look, const PreparedRun& prepared) {
+  if (prepared.scene().is_world()) return;  // where meshes may well be in each other
+  DeformingScene bodies(prepared.scene(), prepared.input.deformation);
+  const std::size_t fixed_count = bodies.scene().fixed.size();
+  std::vector<BoxedMesh> boxed;  // the moving mesh, then the fixed ones
+  const auto box_them = [&] {
+    boxed.clear();
+    boxed.emplace_back(look.meshes.front(), bodies.scene().moving->surface().mesh);
+    for (std::size_t i = 0; i < fixed_count; ++i)
+      boxed.emplace_back(look.meshes[i + 1], bodies.scene().fixed[i]->surface().mesh);
+  };
+  box_them();
+  std::vector<FramesOf> enclosed_by_moving(fixed_count), moving_inside(fixed_count);
+  const std::vector<Pose>& poses = prepared.input.poses;
+  const auto count = static_cast<std::int64_t>(poses.size());
+  const std::int64_t samples = std::min(INSIDE_SAMPLES, count);
+  for (std::int64_t k = 0; k < samples; ++k) {
+    const std::int64_t frame = samples == 1 ? 0 : k * (count - 1) / (samples - 1);
+    if (bodies.deforms()) {
+      bodies.to_frame(frame);
+      box_them();
+    }
+    const Pose& pose = poses[static_cast<std::size_t>(frame)];
+    const RigidTransform X_WM(pose);
+    for (std::size_t i = 0; i < fixed_count; ++i) {
+      const BoxedMesh &moving = boxed.front(), &fixed = boxed[i + 1];
+      const Vec3 fixed_M = pose.rotation.conjugate() * (fixed.first_vertex() - pose.translation);
+      if (moving.encloses(fixed_M)) enclosed_by_moving[i].add(frame);
+      if (fixed.encloses(X_WM.point(moving.first_vertex()))) moving_inside[i].add(frame);
+    }
+  }
+  for (std::size_t i = 0; i < fixed_count; ++i) {
+    const FramesOf &enclosed = enclosed_by_moving[i], &inside = moving_inside[i];
+    const std::string& name = look.meshes[i + 1].name;
+    if (enclosed.count > 0)
+      look.warnings.push_back(
+          {fmt::format(
+               "the moving mesh ({:.4g} m) encloses a vertex of {} {} ({:.4g} m) in {} of {} frames looked "
+               "at, first in frame {}",
+               look.meshes.front().diagonal, look.meshes[i + 1].role, name, look.meshes[i + 1].diagonal,
+               enclosed.count, samples, enclosed.first),
+           "check the units of both (scale, diagonal_m) and the path; without a path one is made that stays "
+           "outside"});
+    if (inside.count > 0)
+      look.warnings.push_back(
+          {fmt::format(
+               "the path is inside {} {} in {} of {} frames looked at, first in frame {}: LMDs there are "
+               "those of two surfaces that have passed through each other",
+               look.meshes[i + 1].role, name, inside.count, samples, inside.first),
+           "move the path outside; without a path one is made that stays there"});
+  }
+}
+
+void look_at_path(SceneLook& look, const PreparedRun& prepared) {
+  if (!prepared.path_gaps.empty()) {
+    const auto longest = std::max_element(
+        prepared.path_gaps.begin(), prepared.path_gaps.end(),
+        [](const RecordingGap& a, const RecordingGap& b) { return a.duration < b.duration; });
+    double total = 0.0;
+    for (const RecordingGap& gap : prepared.path_gaps) total += gap.duration;
+    look.warnings.push_back(
+        {fmt::format(
+             "the path has {} gaps of {:.4g} s together, the longest {:.4g} s from {:.6g} s on: the mesh is "
+             "held there",
+             prepared.path_gaps.size(), total, longest->duration, longest->start),
+         "record it again, cut it there, or set /path/gap_intervals to 0 to interpolate over gaps"});
+  }
+  if (look.frames_in_contact > 0) return;
+  double bound = std::numeric_limits<double>::infinity();
+  std::optional<BroadPhase> phase;
+  if (prepared.scene().is_world()) phase.emplace(prepared.scene());
+  std::optional<DeformingDistance> deforming;
+  if (prepared.input.deformation) deforming.emplace(prepared.scene(), prepared.input.deformation);
+  for (std::size_t frame = 0; frame < prepared.input.poses.size(); ++frame) {
+    const auto at = static_cast<std::int64_t>(frame);
+    const Pose& pose = prepared.input.poses[frame];
+    if (deforming && deforming->known(at, pose).least >= bound) continue;
+    const double least = deforming ? deforming->look(at, pose)
+                         : phase   ? nearest_instance(prepared.scene(), *phase, pose, bound).distance
+                                   : nearest_distance(prepared.scene(), pose, bound);
+    if (!(least < bound)) continue;
+    bound = least;
+    look.nearest_frame = at;
+  }
+  look.nearest = bound;
+  look.warnings.push_back(
+      {fmt::format("the path never comes within the cutoff of {:.4g} m: {:.4g} m at its nearest, in frame "
+                   "{}, {:.4g} m "
+                   "short",
+                   look.cutoff, look.nearest, look.nearest_frame, look.nearest - look.cutoff),
+       "raise the cutoff, bring the path nearer, check scale and diagonal_m, or leave the path out: one is "
+       "made"});
+}
+
+}  // namespace
+
+std::string to_text(const SceneWarning& warning) {
+  return fmt::format("{} (remedy: {})", warning.what, warning.remedy);
+}
+
+SceneLook look_at(const Experiment& experiment, const PreparedRun& prepared,
+                  const std::vector<bool>& in_contact) {
+  SceneLook look;
+  for (const MeshNote& note : prepared.meshes)
+    look.meshes.push_back({note.role, note.name, note.report.triangles, note.report.diagonal,
+                           note.report.closed, static_cast<std::int64_t>(note.instances.size())});
+  look.cutoff = prepared.scene().cutoff;
+  look.saturation = prepared.profiles.front().force.saturation_distance;
+  look.maximum_force = prepared.profiles.front().force.maximum_force;
+  look.force_limit = prepared.input.device.limit(prepared.profiles.front().force.largest_sum);
+  look.frames = static_cast<std::int64_t>(in_contact.size());
+  look.frames_in_contact = std::count(in_contact.begin(), in_contact.end(), true);
+  look.defaults = prepared.defaults;
+  look_at_sizes(look);
+  look_at_cutoff(look);
+  // In a closed loop the path is what the hand means: it may well lie inside.
+  if (!experiment.loop.closed) {
+    look_inside(look, prepared);
+    look_at_path(look, prepared);
+  }
+  return look;
+}
+
+std::optional<SceneWarning> clipping_warning(const MethodRecord& record,
+                                             const std::vector<bool>& in_contact) {
+  std::int64_t contact = 0, clipped = 0;
+  for (std::size_t frame = 0; frame < record.frames.size(); ++frame) {
+    if (!in_contact[frame]) continue;
+    ++contact;
+    clipped += record.frames[frame].force_clipped ? 1 : 0;
+  }
+  if (static_cast<double>(clipped) <= CLIPPED_SHARE * static_cast<double>(contact)) return std::nullopt;
+  return SceneWarning{
+      fmt::format("{}: the device clips the force in {:.0f} % of the frames in contact ({} of {}), which "
+                  "hides what the method found",
+                  record.label, 100.0 * static_cast<double>(clipped) / static_cast<double>(contact), clipped,
+                  contact),
+      "lower /force/maximum_force_n, or take the device \"ideal\""};
+}
+
+std::string to_text(const SceneLook& look) {
+  std::string text = "scene:\n";
+  for (const SceneLook::Mesh& mesh : look.meshes)
+    text += fmt::format("  {:<10} {}: {} triangles, {:.4g} m, {}{}\n", mesh.role, mesh.name, mesh.triangles,
+                        mesh.diagonal, mesh.closed ? "closed" : "open",
+                        mesh.instances > 0 ? fmt::format(", {} instances", mesh.instances) : "");
+  text += fmt::format(
+      "  cutoff {:.4g} m, saturation {:.4g} m, {:g} N an LMD at most, the sum clipped to {:g} N\n",
+      look.cutoff, look.saturation, look.maximum_force, look.force_limit);
+  text += fmt::format("  {} frames, {} of them in contact\n", look.frames, look.frames_in_contact);
+  double total = 0.0;
+  for (const ExpectedTime& time : look.times) {
+    text += fmt::format("  about {:.2g} s for {}\n", time.seconds, time.stage);
+    total += time.seconds;
+  }
+  if (!look.times.empty()) text += fmt::format("  about {:.2g} s in all\n", total);
+  text += defaults_text(look.defaults);
+  for (const SceneWarning& warning : look.warnings) text += "warning: " + to_text(warning) + "\n";
+  return text;
+}
+
+nlohmann::ordered_json to_json(const SceneLook& look) {
+  using OrderedJson = nlohmann::ordered_json;
+  OrderedJson json;
+  json["meshes"] = OrderedJson::array();
+  for (const SceneLook::Mesh& mesh : look.meshes) {
+    json["meshes"].push_back({{"role", mesh.role},
+                              {"name", mesh.name},
+                              {"triangles", mesh.triangles},
+                              {"diagonal_m", mesh.diagonal},
+                              {"closed", mesh.closed}});
+    if (mesh.instances > 0) json["meshes"].back()["instances"] = mesh.instances;
+  }
+  json["cutoff_m"] = look.cutoff;
+  json["saturation_m"] = look.saturation;
+  json["maximum_force_n"] = look.maximum_force;
+  json["force_limit_n"] = look.force_limit;  // infinity becomes null
+  json["frames"] = look.frames;
+  json["frames_in_contact"] = look.frames_in_contact;
+  json["nearest_m"] = look.nearest;  // NaN becomes null
+  json["defaults"] = defaults_json(look.defaults);
+  json["warnings"] = OrderedJson::array();
+  for (const SceneWarning& warning : look.warnings)
+    json["warnings"].push_back({{"what", warning.what}, {"remedy", warning.remedy}});
+  if (look.times.empty()) return json;
+  json["expected_seconds"] = OrderedJson::object();
+  for (const ExpectedTime& time : look.times) json["expected_seconds"][time.stage] = time.seconds;
+  return json;
+}
+
+}  // namespace lmdbench

@@ -1,0 +1,56 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <lmdbench/force/force_law.h>
+#include <lmdbench/lmd/agreement.h>
+#include <lmdbench/lmd/scene.h>
+#include <lmdbench/run/lockstep.h>
+#include <lmdbench/run/records.h>
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+/// The truth probe: on a stride of frames the exhaustive LMD set is computed at the frame and at the next
+/// one, outside the timed frames, and every method is compared with it. Force errors compare rendered forces
+/// (clipped by the same device) under the method's own law, so that they show what the LMD set costs and not
+/// what the law changes. The aggregation is the profile's, also for a method whose LMDs can only be summed. Where the meshes touch, a true LMD at distance 0 has no direction and adds no force,
+/// while a method in motion keeps its last direction (E12): the force errors of such frames say little.
+namespace lmdbench {
+
+/// Truth at one frame.
+struct TruthFrame {
+  std::int64_t frame = 0;
+  LmdSet lmds;
+  std::array<Vec3, FORCE_LAW_COUNT> force{Vec3::Zero(), Vec3::Zero()};  ///< Rendered, under each law [N].
+  std::array<double, FORCE_LAW_COUNT> force_jump{};  ///< |force at the next frame - force| [N].
+};
+
+/// One method against one TruthFrame. NaN where a quantity does not exist.
+struct TruthComparison {
+  Agreement same;                         ///< Same features.
+  Agreement neighbours;                   ///< Neighbouring features count.
+  double minimum_distance_error = UNSET;  ///< Method's minus true [m]; NaN unless both see an LMD.
+  double force_error = UNSET;             ///< Length of the difference [N].
+  double force_angle_error = UNSET;       ///< Angle between the forces [rad]; NaN where one vanishes.
+  double force_jump = UNSET;              ///< The method's own |force at the next frame - force| [N].
+};
+
+/// Computes truth at the given frames.
+/// @param profile  the scene's; its law is ignored
+/// @param aggregation  makes the true forces of the exhaustive sets
+/// @param in_contact  one a frame, where frames out of contact are known to have an empty set; else null
+/// @param reuse_repeated  whether a frame at the pose of the one searched before it has its set without a search
+/// @param progress may stop the probe by returning false, which throws Interrupted
+std::vector<TruthFrame> probe_truth(const Scene& scene, const LockstepInput& input,
+                                    const ForceProfile& profile, const Aggregation& aggregation,
+                                    const std::vector<std::int64_t>& frames, const Progress& progress,
+                                    const std::vector<bool>* in_contact = nullptr,
+                                    bool reuse_repeated = true);
+
+/// @pre the record keeps the LMD sets of the truth's frames
+std::vector<TruthComparison> compare_with_truth(const std::vector<TruthFrame>& truth,
+                                                const MethodRecord& record, ForceLaw law, const Scene& scene);
+
+}  // namespace lmdbench

@@ -1,0 +1,222 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/base/atomic_file.h>
+#include <lmdbench/base/error.h>
+#include <lmdbench/base/output_guard.h>
+#include <lmdbench/geometry/pose.h>
+#include <lmdbench/methods/query.h>
+#include <lmdbench/record/vtu_file.h>
+#include <lmdbench/result/result_scene.h>
+#include <lmdbench/view/export_frames.h>
+
+#include <fmt/format.h>
+
+#include <cstdint>
+#include <memory>
+#include <utility>
+
+namespace lmdbench {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* FEATURE_OF = "feature of {} (0 vertex, 1 edge, 2 face)";
+
+/// Writes into the folder of the request, and replaces nothing but earlier exports.
+class Exporter {
+ public:
+  Exporter(fs::path input, fs::path folder) : input_(std::move(input)), folder_(std::move(folder)) {}
+
+  void write(const fs::path& name, const std::string& text) {
+    const fs::path file = folder_ / name;
+    const OutputKind kind{"VTK file", [](const fs::path& there) {
+                            return file_begins_with(there, "<?xml version=\"1.0\"?>\n<VTKFile ");
+                          }};
+    refuse_unsafe_output(file, kind, {input_}, "--out");
+    write_file_atomically(file, text);
+  }
+  void write_top(const fs::path& name, const std::string& text) {
+    write(name, text);
+    written_.push_back(folder_ / name);
+  }
+  const std::vector<fs::path>& written() const { return written_; }
+
+ private:
+  fs::path input_, folder_;
+  std::vector<fs::path> written_;
+};
+
+/// A collection over time: one file a frame.
+class Series {
+ public:
+  Series(Exporter& exporter, std::string name, const std::string& track)
+      : exporter_(exporter), name_(std::move(name) + (track.empty() ? "" : "-" + track)) {}
+
+  void add(double time, std::size_t frame, const VtuGrid& grid) {
+    const std::string file = fmt::format("{}/{:06}.vtu", name_, frame);
+    exporter_.write(file, vtu_text(grid));
+    files_.emplace_back(time, file);
+  }
+  void finish() { exporter_.write_top(name_ + ".pvd", pvd_text(files_)); }
+
+ private:
+  Exporter& exporter_;
+  std::string name_;
+  std::vector<std::pair<double, std::string>> files_;
+};
+
+VtuGrid mesh_grid(const TriangleMesh& mesh, const RigidTransform& X_WM) {
+  VtuGrid grid;
+  grid.cell = VtuCell::TRIANGLE;
+  for (const Vec3& vertex : mesh.vertices) grid.points.push_back(X_WM.point(vertex));
+  for (const auto& triangle : mesh.triangles) {
+    grid.corners.insert(grid.corners.end(), triangle.begin(), triangle.end());
+    grid.ends.push_back(static_cast<std::int32_t>(grid.corners.size()));
+  }
+  return grid;
+}
+
+VtuGrid empty_lmd_grid() {
+  VtuGrid grid;
+  grid.cell = VtuCell::POLYLINE;
+  grid.cell_data = {{"distance [m]", 1, {}},
+                    {fmt::format(fmt::runtime(FEATURE_OF), "moving"), 1, {}},
+                    {fmt::format(fmt::runtime(FEATURE_OF), "fixed"), 1, {}}};
+  return grid;
+}
+
+void add_lmd(VtuGrid& grid, const Vec3& point_moving, const Vec3& point_fixed, double distance,
+             double kind_moving, double kind_fixed) {
+  grid.add({point_moving, point_fixed});
+  grid.cell_data[0].values.push_back(distance);
+  grid.cell_data[1].values.push_back(kind_moving);
+  grid.cell_data[2].values.push_back(kind_fixed);
+}
+
+Vec3 row(const std::vector<double>& values, std::size_t index) {
+  return {values[3 * index], values[3 * index + 1], values[3 * index + 2]};
+}
+
+/// The LMD lists that a run recorded of a method.
+struct RecordedLmds {
+  std::vector<std::int64_t> offset, kind_moving, kind_fixed;
+  std::vector<double> distance, point_moving, point_fixed;
+
+  RecordedLmds(const ResultReader& result, const std::string& group)
+      : offset(result.integers(group + "/frame_offset")),
+        kind_moving(result.integers(group + "/feature_moving_kind")),
+        kind_fixed(result.integers(group + "/feature_fixed_kind")),
+        distance(result.reals(group + "/distance")),
+        point_moving(result.reals(group + "/point_moving")),
+        point_fixed(result.reals(group + "/point_fixed")) {}
+
+  VtuGrid grid(std::size_t frame) const {
+    VtuGrid grid = empty_lmd_grid();
+    for (auto i = static_cast<std::size_t>(offset.at(frame));
+         i < static_cast<std::size_t>(offset.at(frame + 1)); ++i)
+      add_lmd(grid, row(point_moving, i), row(point_fixed, i), distance[i],
+              static_cast<double>(kind_moving[i]), static_cast<double>(kind_fixed[i]));
+    return grid;
+  }
+};
+
+void export_track(Exporter& exporter, const ResultReader& result, const ResultScene& result_scene,
+                  const ResultTrack& track) {
+  DeformingScene bodies(result_scene.rest, result_scene.deformation);
+  const Scene& scene = bodies.scene();
+  const std::vector<std::string> labels =
+      track.method.empty() ? result.groups("/methods") : std::vector<std::string>{track.method};
+  const TriangleMesh& mesh = scene.moving->surface().mesh;
+  const std::unique_ptr<Method> exact = exact_method(scene);
+  Series moving(exporter, "moving", track.method), lmds(exporter, "lmds-exact", track.method),
+      forces(exporter, "forces", track.method);
+  std::vector<std::vector<double>> force_of;
+  std::vector<Series> fixed;
+  std::vector<std::size_t> fixed_index;
+  for (std::size_t i = 0; result_scene.deformation && i < scene.fixed.size(); ++i) {
+    if (result_scene.deformation->find(i + 1) == nullptr) continue;
+    fixed_index.push_back(i);
+    fixed.emplace_back(exporter, fmt::format("fixed_{}", i), track.method);
+  }
+  for (const std::string& label : labels) force_of.push_back(result.reals("/methods/" + label + "/force"));
+  for (std::size_t i = 0; i < track.frames.size(); ++i) {
+    const auto& [time, pose] = track.poses[i];
+    const std::size_t frame = track.frames[i];
+    const RigidTransform transform(pose);
+    bodies.to_frame(static_cast<std::int64_t>(frame));
+    for (std::size_t k = 0; k < fixed.size(); ++k)
+      fixed[k].add(time, frame, mesh_grid(placed_mesh(scene.fixed[fixed_index[k]]), {}));
+    moving.add(time, frame, mesh_grid(mesh, transform));
+    VtuGrid pairs = empty_lmd_grid();
+    for (const Lmd& lmd : query(*exact, track.poses[i].pose, scene.cutoff).lmds)
+      add_lmd(pairs, lmd.point_moving, lmd.point_fixed, lmd.distance,
+              static_cast<double>(lmd.feature_moving.kind), static_cast<double>(lmd.feature_fixed.kind));
+    lmds.add(time, frame, pairs);
+    VtuGrid middle;
+    middle.add({transform.point(bounding_box_centre(mesh))});
+    for (std::size_t m = 0; m < labels.size(); ++m) {
+      const Vec3 force = row(force_of[m], frame);
+      middle.point_data.push_back({"force of " + labels[m] + " [N]", 3, {force.x(), force.y(), force.z()}});
+    }
+    forces.add(time, frame, middle);
+  }
+  for (Series* series : {&moving, &lmds, &forces}) series->finish();
+  for (Series& series : fixed) series.finish();
+  for (const std::string& label : labels) {
+    const std::string group = "/methods/" + label + "/lmds";
+    if (!result.has(group + "/frame_offset")) continue;
+    const RecordedLmds recorded(result, group);
+    Series series(exporter, "lmds", label);
+    for (std::size_t i = 0; i < track.frames.size(); ++i)
+      series.add(track.poses[i].time, track.frames[i], recorded.grid(track.frames[i]));
+    series.finish();
+  }
+}
+
+void export_polylines(Exporter& exporter, const ResultReader& result, const std::string& method) {
+  const std::string group = (method.empty() ? "" : "/methods/" + method) + std::string("/polylines");
+  if (!result.has(group + "/frame")) return;
+  const std::vector<std::int64_t> frames = result.integers(group + "/frame");
+  const std::vector<std::int64_t> lines = result.integers(group + "/frame_offset");
+  const std::vector<std::int64_t> first_point = result.integers(group + "/point_offset");
+  const std::vector<std::int64_t> closed = result.integers(group + "/closed");
+  const std::vector<double> points = result.reals(group + "/point");
+  const std::vector<double> times = result.reals("/path/time");
+  Series series(exporter, "polylines", method);
+  for (std::size_t f = 0; f < frames.size(); ++f) {
+    VtuGrid grid;
+    grid.cell = VtuCell::POLYLINE;
+    for (auto l = static_cast<std::size_t>(lines[f]); l < static_cast<std::size_t>(lines[f + 1]); ++l) {
+      std::vector<Vec3> line;
+      for (auto p = static_cast<std::size_t>(first_point[l]);
+           p < static_cast<std::size_t>(first_point[l + 1]); ++p)
+        line.push_back(row(points, p));
+      if (closed[l] != 0 && !line.empty()) line.push_back(line.front());
+      grid.add(line);
+    }
+    const auto frame = static_cast<std::size_t>(frames[f]);
+    series.add(times.at(frame), frame, grid);
+  }
+  series.finish();
+}
+
+}  // namespace
+
+std::vector<fs::path> export_frames(const ResultReader& result, const fs::path& folder,
+                                    std::size_t most_frames) {
+  const ResultScene result_scene = deforming_scene_of_result(result);
+  const Scene& scene = result_scene.rest;
+  Exporter exporter(result.file(), folder);
+  const std::vector<ResultTrack> tracks = tracks_of_result(result, most_frames);
+  for (const std::size_t i : drawn_bodies(scene, tracks))
+    if (!result_scene.deformation || result_scene.deformation->find(i + 1) == nullptr)
+      exporter.write_top(fmt::format("fixed_{}.vtu", i),
+                         vtu_text(mesh_grid(placed_mesh(scene.fixed[i]), {})));
+  for (const ResultTrack& track : tracks) {
+    export_track(exporter, result, result_scene, track);
+    export_polylines(exporter, result, track.method);
+  }
+  return exporter.written();
+}
+
+}  // namespace lmdbench

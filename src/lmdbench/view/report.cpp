@@ -1,0 +1,99 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/base/atomic_file.h>
+#include <lmdbench/base/data_folder.h>
+#include <lmdbench/base/error.h>
+#include <lmdbench/base/run_program.h>
+#include <lmdbench/base/temporary_folder.h>
+#include <lmdbench/record/result_reader.h>
+#include <lmdbench/view/report.h>
+#include <lmdbench/view/report_scene.h>
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cstddef>
+#include <cstdlib>
+
+namespace lmdbench {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* MODULES = "import h5py, jinja2, markdown, matplotlib, numpy, PIL";
+constexpr const char* PACKAGES =
+    "apt-get install python3-h5py python3-jinja2 python3-markdown python3-matplotlib python3-numpy "
+    "python3-pil";
+/// Where the scripts are, if not in the program's data folder.
+constexpr const char* SCRIPTS_VARIABLE = "LMDBENCH_SCRIPTS";
+
+fs::path report_script() {
+  const char* folder = std::getenv(SCRIPTS_VARIABLE);
+  fs::path script =
+      (folder != nullptr ? fs::path(folder) : data_folder() / "scripts") / "report" / "report.py";
+  if (!fs::exists(script))
+    throw EnvironmentError(script.string(), "", "is missing: it makes the page",
+                           fmt::format("set {} to the folder scripts/ of lmdbench", SCRIPTS_VARIABLE));
+  return script;
+}
+
+/// The first interpreter that has the modules: python3 may be a private build without the distribution's.
+std::string find_python() {
+  for (const char* candidate : {"python3", "/usr/bin/python3"}) {
+    try {
+      if (run_program({candidate, "-c", MODULES}, fs::current_path(), PACKAGES).exit_status == 0)
+        return candidate;
+    } catch (const EnvironmentError&) {
+      continue;  // not there: the next one may be
+    }
+  }
+  throw EnvironmentError("python3", "", fmt::format("no interpreter can do '{}'", MODULES), PACKAGES);
+}
+
+/// What a script says last: its error, without the way that led there.
+std::string last_line(std::string text) {
+  while (!text.empty() && text.back() == '\n') text.pop_back();
+  return text.substr(text.rfind('\n') + 1);
+}
+
+/// A scene for the 3D view, or the reason why there is none.
+void write_scene_or_reason(const ResultReader& result, const fs::path& folder) {
+  fs::create_directory(folder);
+  try {
+    write_report_scene(result, folder);
+  } catch (const Error& error) {
+    write_file_atomically(folder / "problem.txt", fmt::format("No view: {}", error.what()));
+  }
+}
+
+}  // namespace
+
+fs::path write_report(const ReportRequest& request, const std::function<void(const std::string&)>& progress) {
+  const fs::path script = report_script();
+  const std::string python = find_python();
+  const TemporaryFolder scenes(fs::temp_directory_path(), "lmdbench-report-");
+  std::vector<std::string> argv{python, script.string()};
+  for (std::size_t i = 0; i < request.results.size(); ++i) {
+    progress(fmt::format("reading {}", request.results[i].string()));
+    write_scene_or_reason(ResultReader(request.results[i]), scenes.path() / fmt::to_string(i));
+    argv.push_back(fs::absolute(request.results[i]).string());
+  }
+  const fs::path out = fs::absolute(request.out);
+  argv.insert(argv.end(), {"--out", out.string(), "--scenes", scenes.path().string()});
+  if (!request.paper.empty()) argv.insert(argv.end(), {"--paper", fs::absolute(request.paper).string()});
+  if (!request.studies.empty()) argv.emplace_back("--study");
+  for (const fs::path& study : request.studies) argv.push_back(fs::absolute(study).string());
+
+  progress("drawing the figures and the page");
+  const ProgramOutcome outcome = run_program(argv, fs::current_path(), PACKAGES);
+  if (outcome.exit_status == static_cast<int>(ExitCode::INPUT_DATA))
+    throw InputError("", "", last_line(outcome.output), "");
+  if (outcome.exit_status != 0)
+    throw EnvironmentError(
+        script.string(), "",
+        fmt::format("left with exit code {}: {}", outcome.exit_status, last_line(outcome.output)),
+        "check the disk, and the Python packages of scripts/packages.txt");
+  return out / "index.html";
+}
+
+}  // namespace lmdbench

@@ -1,0 +1,50 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/base/error.h>
+#include <lmdbench/base/number_lines.h>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace lmdbench {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::Pair;
+
+using Lines = std::vector<std::pair<std::string, std::vector<double>>>;
+
+Lines lines_of(const std::string& text) {
+  Lines lines;
+  for_each_number_line(text, "some.xyz", "write numbers",
+                       [&](const std::string& place, std::span<const double> numbers) {
+                         lines.emplace_back(place, std::vector<double>(numbers.begin(), numbers.end()));
+                       });
+  return lines;
+}
+
+TEST(NumberLines, BlanksAndCommasSeparateAndCommentsAreLeftOut) {
+  EXPECT_THAT(lines_of("# x y\n1 -2e-3,3\r\n\n   # nothing\n4.5 # five\n"),
+              ElementsAre(Pair("line 2", ElementsAre(1.0, -2e-3, 3.0)), Pair("line 5", ElementsAre(4.5))));
+  EXPECT_TRUE(lines_of("").empty());
+}
+
+TEST(NumberLines, WhatIsNoFiniteNumberIsNamedWithItsLine) {
+  for (const std::string word : {"1.5x", "nan", "inf", "1e999", "--1"}) try {
+      lines_of("1 2\n3 " + word + "\n");
+      ADD_FAILURE() << word;
+    } catch (const InputError& error) {
+      EXPECT_THAT(error.what(), HasSubstr("some.xyz"));
+      EXPECT_THAT(error.what(), HasSubstr("line 2"));
+      EXPECT_THAT(error.what(), HasSubstr("\"" + word + "\" is no finite number"));
+      EXPECT_THAT(error.what(), HasSubstr("write numbers"));
+    }
+}
+
+}  // namespace
+}  // namespace lmdbench

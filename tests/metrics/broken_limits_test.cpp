@@ -1,0 +1,77 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/base/error.h>
+#include <lmdbench/experiment/experiment.h>
+#include <lmdbench/metrics/broken_limits.h>
+#include <lmdbench/metrics/summary.h>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <support/source_directory.h>
+
+namespace lmdbench {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+Experiment with_limits(const std::string& limits, std::vector<Override> overrides = {}) {
+  overrides.push_back("/limits=" + limits);
+  return load_experiment(LMDBENCH_SOURCE_DIR "/experiments/shapes.json", overrides);
+}
+
+RunSummary summary() {
+  RunSummary result;
+  for (const char* label : {"original", "improved"}) {
+    MethodSummary& method = result.methods.emplace_back();
+    method.label = label;
+    method.recall = 0.9;
+    method.force_error_maximum_n = 0.25;
+    method.frames_late = 3;
+  }
+  result.methods[0].recall = 0.1;
+  result.fcl_exceptions = {{"original", 5}};
+  return result;
+}
+
+std::vector<std::string> broken(const std::string& limits) {
+  return broken_limits(with_limits(limits).acceptance, summary());
+}
+
+TEST(Acceptance, EachLimitIsKeptAtItsBound) {
+  EXPECT_THAT(broken(R"({"recall": 0.1, "force_error_n": 0.25, "late_frames": 3, "fcl_disagreements": 5})"),
+              IsEmpty());
+  EXPECT_THAT(broken(R"({"recall": 0.5})"), ElementsAre(HasSubstr("original: recall is 0.1")));
+  EXPECT_EQ(broken(R"({"force_error_n": 0.2})").size(), 2u);
+  EXPECT_EQ(broken(R"({"late_frames": 2})").size(), 2u);
+  EXPECT_THAT(broken(R"({"fcl_disagreements": 4})"), ElementsAre(HasSubstr("disagreements with FCL is 5")));
+}
+
+TEST(Acceptance, LimitsMayBeForSomeMethodsOnly) {
+  EXPECT_THAT(broken(R"({"recall": 0.5, "methods": ["improved"]})"), IsEmpty());
+}
+
+TEST(Acceptance, WhatWasNotMeasuredBreaksItsLimit) {
+  RunSummary unmeasured = summary();
+  unmeasured.methods[1].recall = UNSET;
+  EXPECT_EQ(broken_limits(with_limits(R"({"recall": 0})").acceptance, unmeasured).size(), 1u);
+}
+
+TEST(Acceptance, LimitsOnWhatIsNotProbedAreRefused) {
+  const auto message = [](const std::string& limits, const Override& override) -> std::string {
+    try {
+      with_limits(limits, {override});
+    } catch (const UsageError& error) {
+      return error.what();
+    }
+    return "";
+  };
+  EXPECT_THAT(message(R"({"recall": 1})", "/probes/truth/stride_frames=0"), HasSubstr("/limits/recall"));
+  EXPECT_THAT(message(R"({"fcl_disagreements": 0})", "/probes/fcl/stride_frames=0"),
+              HasSubstr("/limits/fcl_disagreements"));
+  EXPECT_THAT(message(R"({"methods": ["orignal"]})", "/name=x"), HasSubstr("/limits/methods/0"));
+}
+
+}  // namespace
+}  // namespace lmdbench

@@ -1,0 +1,119 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/run/contact.h>
+#include <lmdbench/run/prepare.h>
+#include <lmdbench/run/records.h>
+#include <lmdbench/run/scene_look.h>
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+#include <support/scratch_directory.h>
+#include <support/source_directory.h>
+
+namespace lmdbench {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using testing::ScratchDirectory;
+
+/// A cube of diagonal 0.1 m (side 57.7 mm) past another one, along the given poses.
+SceneLook look(const std::string& poses, const std::vector<Override>& more = {}) {
+  const ScratchDirectory scratch;
+  std::vector<Override> overrides{"/path/file=" + scratch.write("p.tum", poses),
+                                  "/mesh_folder=" LMDBENCH_SOURCE_DIR "/meshes"};
+  overrides.insert(overrides.end(), more.begin(), more.end());
+  const Experiment experiment = parse_experiment(
+      R"({"moving": {"mesh": "cube", "diagonal_m": 0.1}, "fixed": [{"mesh": "cube", "diagonal_m": 0.1}],
+          "force": {"cutoff_m": 0.001}})",
+      "/data/e.json", overrides);
+  const PreparedRun prepared = prepare(experiment);
+  return look_at(experiment, prepared, frames_in_contact(prepared.scene(), prepared.input.poses));
+}
+
+std::vector<std::string> warnings(const SceneLook& look) {
+  std::vector<std::string> texts;
+  for (const SceneWarning& warning : look.warnings) {
+    EXPECT_FALSE(warning.remedy.empty());
+    texts.push_back(warning.what);
+  }
+  return texts;
+}
+
+const char* const GOOD = "0 0 0 0.06 0 0 0 1\n0.1 0 0 0.0582 0 0 0 1\n";
+
+TEST(SceneLook, AGoodSceneIsPassedInSilence) {
+  const SceneLook good = look(GOOD);
+  EXPECT_THAT(warnings(good), IsEmpty());
+  EXPECT_EQ(good.frames, 101);
+  EXPECT_GT(good.frames_in_contact, 0);
+  EXPECT_EQ(good.meshes.size(), 2u);
+  EXPECT_EQ(good.meshes[1].triangles, 48);
+}
+
+TEST(SceneLook, APathThatStaysOutsideTheCutoffIsMeasured) {
+  const SceneLook far = look("0 0 0 0.08 0 0 0 1\n0.1 0 0 0.0592 0 0 0 1\n");
+  EXPECT_EQ(far.frames_in_contact, 0);
+  EXPECT_EQ(far.nearest_frame, 100);
+  EXPECT_NEAR(far.nearest, 0.0592 - 0.1 / std::sqrt(3.0), 1e-12);
+  EXPECT_THAT(warnings(far), ElementsAre(AllOf(HasSubstr("never comes within the cutoff of 0.001 m"),
+                                               HasSubstr("in frame 100"))));
+}
+
+TEST(SceneLook, AMeshInOtherUnitsIsNoticed) {
+  EXPECT_THAT(
+      warnings(look(GOOD, {"/moving/diagonal_m=100"})),
+      ElementsAre(HasSubstr("1000 times as much"), HasSubstr("the moving mesh (100 m) encloses a vertex"),
+                  HasSubstr("never comes within the cutoff")));
+}
+
+TEST(SceneLook, MeshesOfHundredMetresAreLikelyMillimetres) {
+  EXPECT_THAT(warnings(look("0 0 0 60 0 0 0 1\n1 0 0 57.8 0 0 0 1\n",
+                            {"/moving/diagonal_m=100", "/fixed/0/diagonal_m=100", "/force/cutoff_m=1"})),
+              ElementsAre(HasSubstr("is 100 m large")));
+}
+
+TEST(SceneLook, APathInsideTheMeshIsNoticed) {
+  EXPECT_THAT(warnings(look("0 0 0 0.02 0 0 0 1\n0.1 0 0 0 0 0 0 1\n", {"/moving/diagonal_m=0.01"})),
+              ElementsAre(AllOf(HasSubstr("inside fixed_0 cube in "), HasSubstr("first in frame ")),
+                          HasSubstr("never comes within the cutoff")));
+}
+
+TEST(SceneLook, GapsOfARecordingAreCounted) {
+  std::string poses;
+  for (int i = 0; i < 20; ++i) poses += fmt::format("{} 0 0 0.06 0 0 0 1\n", 0.01 * i);
+  poses += "3.19 0 0 0.0582 0 0 0 1\n3.2 0 0 0.0582 0 0 0 1\n";
+  EXPECT_THAT(warnings(look(poses)),
+              ElementsAre(AllOf(HasSubstr("1 gaps of 3 s"), HasSubstr("from 0.19 s on"))));
+  EXPECT_THAT(warnings(look(poses, {"/path/gap_intervals=0"})), IsEmpty());
+}
+
+TEST(SceneLook, ManyClippedFramesAreNamed) {
+  MethodRecord record;
+  record.label = "improved";
+  record.frames.resize(100);
+  std::vector<bool> in_contact(100, false);
+  for (std::size_t i = 0; i < 50; ++i) in_contact[i] = true;
+  for (std::size_t i = 0; i < 5; ++i) record.frames[i].force_clipped = true;
+  record.frames[99].force_clipped = true;  // not in contact: not counted
+  EXPECT_FALSE(clipping_warning(record, in_contact).has_value()) << "a tenth";
+  record.frames[5].force_clipped = true;
+  EXPECT_THAT(clipping_warning(record, in_contact)->what,
+              HasSubstr("12 % of the frames in contact (6 of 50)"));
+}
+
+TEST(SceneLook, TextAndJsonSayTheSame) {
+  const SceneLook far = look("0 0 0 0.08 0 0 0 1\n0.1 0 0 0.0592 0 0 0 1\n");
+  const auto json = to_json(far);
+  EXPECT_EQ(json["frames"], 101);
+  EXPECT_EQ(json["warnings"].size(), 1u);
+  EXPECT_THAT(to_text(far),
+              AllOf(HasSubstr("101 frames, 0 of them in contact"), HasSubstr("warning: the path never")));
+}
+
+}  // namespace
+}  // namespace lmdbench
