@@ -262,82 +262,73 @@ Certificate TouchingPairs::decide_triangles(Frame& frame, std::int32_t t_moving,
   return {distance - MARGIN_IN_TOUCHES * frame.touch, (nearest.point_b - nearest.point_a) / distance};
 }
 
-void TouchingPairs::find_faces_near(const ShapeSide& side, std::int32_t region,
-                                    std::span<const Vec3> points_W, double reach,
-                                    std::vector<std::int32_t>& faces) const {
-  const RegionShape& shape = *side.shape.shapes.of_region(region);
-  Box2 box;
-  for (const Vec3& p : points_W) box.add(shape.frame.flat(side.point_to_surface(p)));
-  faces.clear();
-  side.shape.for_each_face_near(region, box, reach, [&](std::int32_t t) {
-    faces.push_back(t);
-    return true;
-  });
-}
+/// One feature of a pair of faces and regions.
+struct TouchingPairs::Half {
+  const ShapeSide& side;
+  std::int32_t lead, region;  ///< Region -1: a triangle without area.
+  const RegionShape* shape;   ///< Of a region of several faces.
+  std::vector<Vec3>& corners;
+
+  Half(const ShapeSide& of_side, const FeatureId& face, std::vector<Vec3>& room)
+      : side(of_side),
+        lead(face.index),
+        region(side.shape.region_of(lead)),
+        shape(shape_of(side, face)),
+        corners(room) {}
+
+  std::size_t corner_count() const { return shape != nullptr ? shape->corners.size() : 3; }
+  void collect_corners() const {
+    if (shape == nullptr) {
+      const Triangle t = triangle_of(side, lead);
+      corners.assign(t.begin(), t.end());
+      return;
+    }
+    corners.clear();
+    for (const std::int32_t v : shape->corners) corners.push_back(side.vertex(v));
+  }
+  /// From this one's plane to the other one.
+  ClearGap gap_to_other(const Half& other) const {
+    if (region < 0) return {};
+    const Plane plane = side.plane(region);
+    return other.shape != nullptr ? gap_to(plane, other.side, *other.shape)
+                                  : gap_to(plane, triangle_of(other.side, other.lead));
+  }
+  /// The faces that are near to points of the world.
+  void find_faces_near(std::span<const Vec3> points, double reach, std::vector<std::int32_t>& faces) const {
+    if (shape == nullptr) return faces.assign(1, lead);
+    Box2 box;
+    for (const Vec3& p : points) box.add(shape->frame.flat(side.point_to_surface(p)));
+    faces.clear();
+    side.shape.for_each_face_near(region, box, reach, [&](std::int32_t t) {
+      faces.push_back(t);
+      return true;
+    });
+  }
+};
 
 /// Of a pair of which at least one is a region of several faces: gaps between their outlines, then the triangles of the
 /// one with more corners near the other, against those of the other near each of them.
 Certificate TouchingPairs::decide_regions(Frame& frame, const WidePair& pair) {
   const ShapeSide &moving = frame.pair.moving, &fixed = frame.pair.fixed;
-  const FeatureId on_moving = pair.a.feature_id(), on_fixed = pair.b.feature_id();
-  const std::int32_t region_m = moving.shape.region_of(on_moving.index);
-  const std::int32_t region_f = fixed.shape.region_of(on_fixed.index);
+  const Half m(moving, pair.a.feature_id(), points_moving_), f(fixed, pair.b.feature_id(), points_fixed_);
   const double margin = MARGIN_IN_TOUCHES * frame.touch;
-  const auto clear = [&](const ClearGap& gap, double sign) {
-    return Certificate{gap.gap - margin, sign * gap.axis};
-  };
-  const RegionShape* const shape_m = shape_of(moving, on_moving);
-  const RegionShape* const shape_f = shape_of(fixed, on_fixed);
-  const auto collect = [&](const ShapeSide& side, const FeatureId& lead, std::vector<Vec3>& points) {
-    corners_.clear();
-    points.clear();
-    side.shape.append_corners(side.surface, lead, corners_);
-    for (const std::int32_t v : corners_) points.push_back(side.vertex(v));
-  };
-  // A triangle without area has no plane and separates nothing.
-  const auto clear_of = [&](const ShapeSide& with_plane, std::int32_t region, const ShapeSide& other,
-                            const FeatureId& lead, const RegionShape* shape) {
-    if (region < 0) return ClearGap{};
-    const Plane plane = with_plane.plane(region);
-    return shape != nullptr ? gap_to(plane, other, *shape) : gap_to(plane, triangle_of(other, lead.index));
-  };
-  if (const ClearGap gap = clear_of(fixed, region_f, moving, on_moving, shape_m); gap.gap > margin)
-    return clear(gap, 1.0);
-  if (const ClearGap gap = clear_of(moving, region_m, fixed, on_fixed, shape_f); gap.gap > margin)
-    return clear(gap, -1.0);
-  const std::size_t count_m = shape_m != nullptr ? shape_m->corners.size() : 3,
-                    count_f = shape_f != nullptr ? shape_f->corners.size() : 3;
-  const bool moving_is_large = count_m > count_f, both_are_small = count_m * count_f <= MOST_CORNER_PAIRS;
-  if (both_are_small || !moving_is_large) collect(moving, on_moving, points_moving_);
-  if (both_are_small || moving_is_large) collect(fixed, on_fixed, points_fixed_);
-  if (both_are_small && region_m >= 0 && region_f >= 0)
-    if (const ClearGap gap =
-            gap_along_side_products(moving, region_m, points_moving_, fixed, region_f, points_fixed_);
+  if (const ClearGap gap = f.gap_to_other(m); gap.gap > margin) return {gap.gap - margin, gap.axis};
+  if (const ClearGap gap = m.gap_to_other(f); gap.gap > margin) return {gap.gap - margin, -gap.axis};
+  const bool moving_is_large = m.corner_count() > f.corner_count();
+  const Half &large = moving_is_large ? m : f, &small = moving_is_large ? f : m;
+  small.collect_corners();
+  if (m.corner_count() * f.corner_count() <= MOST_CORNER_PAIRS && m.region >= 0 && f.region >= 0) {
+    large.collect_corners();
+    if (const ClearGap gap = gap_along_side_products(moving, m.region, m.corners, fixed, f.region, f.corners);
         gap.gap > margin)
-      return clear(gap, 1.0);
-
-  const ShapeSide& large = moving_is_large ? moving : fixed;
-  const ShapeSide& small = moving_is_large ? fixed : moving;
-  const std::int32_t region_large = moving_is_large ? region_m : region_f;
-  const std::int32_t region_small = moving_is_large ? region_f : region_m;
-  const auto is_joined = [](const ShapeSide& side, std::int32_t region) {
-    return region >= 0 && side.shape.shapes.of_region(region) != nullptr;
-  };
-  if (is_joined(large, region_large))
-    find_faces_near(large, region_large, moving_is_large ? points_fixed_ : points_moving_, margin,
-                    faces_of_large_);
-  else
-    faces_of_large_.assign(1, (moving_is_large ? on_moving : on_fixed).index);
+      return {gap.gap - margin, gap.axis};
+  }
+  large.find_faces_near(small.corners, margin, faces_of_large_);
   for (const std::int32_t t_large : faces_of_large_) {
-    const Triangle t = triangle_of(large, t_large);
-    if (region_small >= 0) {
-      // What reaches the plane: a tooth that passes through the plane of a gear's end meets a few of its thousands.
-      if (gap_to(small.plane(region_small), t).gap > margin) continue;
-    }
-    if (is_joined(small, region_small))
-      find_faces_near(small, region_small, t, margin, faces_of_small_);
-    else
-      faces_of_small_.assign(1, (moving_is_large ? on_fixed : on_moving).index);
+    const Triangle t = triangle_of(large.side, t_large);
+    // What reaches the plane: a tooth that passes through the plane of a gear's end meets a few of its thousands.
+    if (small.region >= 0 && gap_to(small.side.plane(small.region), t).gap > margin) continue;
+    small.find_faces_near(t, margin, faces_of_small_);
     for (const std::int32_t t_small : faces_of_small_) {
       ++frame.triangle_pairs;
       const std::int32_t t_moving = moving_is_large ? t_large : t_small;
