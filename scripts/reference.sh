@@ -75,6 +75,7 @@ part() {
     flat)
       study flat --poses 30 --repetitions 3
       study flat --poses 30 --repetitions 9 --no-fcl
+      study flat --parts --paths 8 --repetitions 3
       ;;
     global-search) study compare ;;
     hard-soft) figure hard_soft --program "$BUILD/lmdbench" --out "$OUT" ;;

@@ -8,6 +8,7 @@
 #include <benchmarks/global_search/implementation.h>
 #include <fmt/core.h>
 #include <nlohmann/json.hpp>
+#include <study/flat_parts.h>
 #include <study/scaling/slide.h>
 #include <study/studies.h>
 #include <support/bodies.h>
@@ -258,7 +259,8 @@ void lmdbench::study::add_flat(CLI::App& app, Run& chosen) {
   const auto choice = std::make_shared<flat::Choice>();
   CLI::App* command =
       app.add_subcommand("flat", "What does a face on a face cost, however finely it is cut?");
-  const auto no_fcl = std::make_shared<bool>(false);
+  const auto no_fcl = std::make_shared<bool>(false), parts = std::make_shared<bool>(false);
+  const auto times = std::make_shared<flat_parts::PartsTimes>();
   command->add_option("--meshes", choice->meshes, "Folder of built meshes")->capture_default_str();
   command->add_option("--bunny", choice->bunny, "Mesh that is grazed for comparison")->capture_default_str();
   command->add_option("--poses", choice->poses, "Poses a row")
@@ -270,8 +272,21 @@ void lmdbench::study::add_flat(CLI::App& app, Run& chosen) {
   command->add_option("--seed", choice->seed, "Seed of the poses")->capture_default_str();
   command->add_flag("--no-fcl", *no_fcl, "Leave FCL out");
   command->add_option("--json", choice->json, "Also write every pose's numbers to this file");
-  command->callback([choice, no_fcl, &chosen] {
+  command->add_flag("--parts", *parts, "Time machine parts on and in each other instead");
+  command->add_option("--row", times->row, "With --parts: only those with this in their names");
+  command->add_option("--paths", times->paths, "With --parts: motions a row")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  command->callback([choice, no_fcl, parts, times, &chosen] {
     choice->fcl = !*no_fcl;
-    chosen.work = [choice] { return flat::run(*choice); };
+    times->seed = choice->seed;
+    times->passes = choice->repetitions;
+    times->json = choice->json;
+    chosen.work = [choice, parts, times] {
+      if (!*parts) return flat::run(*choice);
+      return flat_parts::time_parts(*times, {{"format", "lmdbench-flat-parts"},
+                                             {"format_version", 1},
+                                             {"context", experiments::run_context()}});
+    };
   });
 }

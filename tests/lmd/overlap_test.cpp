@@ -334,11 +334,11 @@ TEST(PartsOverRegion, AlongABorderItIsWholeAndBesideItNothing) {
   EXPECT_EQ(parts_at(1.5 * 0.125).size(), 1u) << "along their ends";
 }
 
-TEST(RegionHolds, IsClosedAtTheReach) {
+TEST(FacesAt, AreClosedAtTheReach) {
   ShapeScene scene(slits(), slits());
   const ShapePair pair = scene.at(Pose{});
   const auto holds = [&](double x, double y, double reach) {
-    return region_holds(pair.fixed, 0, {x, y, 0.0}, reach);
+    return !for_each_face_at(pair.fixed, 0, {x, y, 0.0}, reach, [](std::int32_t) { return false; });
   };
   const double right = 4.5 * 0.125;
   EXPECT_TRUE(holds(0.0, 0.0, 0.0));

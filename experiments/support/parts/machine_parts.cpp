@@ -156,27 +156,6 @@ TriangleMesh pointed(int teeth, double bore, double root, double tip, double lea
   return solid.mesh();
 }
 
-/// `count` by `count` square tiles with an eight-sided hole each.
-TriangleMesh perforated(int count, double side, double hole, double height) {
-  PrismComplex solid({-height / 2, height / 2});
-  const Lines lines = steps(count, -0.5 * side * count, 0.5 * side * count);
-  for (int j = 0; j < count; ++j) {
-    for (int i = 0; i < count; ++i) {
-      const double x = lines[static_cast<std::size_t>(i)], y = lines[static_cast<std::size_t>(j)];
-      Outline inner = circle(8, hole), outer;
-      for (const Point& p : inner) {
-        const auto onto = [&](double c) {
-          return c > 0.25 * hole ? side : c < -0.25 * hole ? 0.0 : 0.5 * side;
-        };
-        outer.emplace_back(x + onto(p.x()), y + onto(p.y()));
-      }
-      for (Point& p : inner) p += Point(x + 0.5 * side, y + 0.5 * side);
-      solid.add_ring(inner, outer);
-    }
-  }
-  return solid.mesh();
-}
-
 /// Six-sided cells of width 2 `half` with walls of half the thickness each.
 TriangleMesh honeycomb(int columns_of_cells, int rows, double half, double hole) {
   PrismComplex solid({-0.125, 0.125});
@@ -405,7 +384,7 @@ const std::array PARTS = {
                bars(5, 0.03125, 0.1875), bars(5, 0.03125, 0.1875), {-0.125, 0.125},
                [](std::size_t i, std::size_t j) { return even(i) || even(j) ? ALL_LAYERS : NO_LAYER; });
          }},
-    Part{"perforated sheet", [] { return perforated(4, 0.25, 0.09375, 0.0625); }},
+    Part{"perforated sheet", [] { return make_perforated_sheet(4, 0.25, 0.09375, 0.0625); }},
     Part{"honeycomb", [] { return honeycomb(3, 4, 0.15625, 0.125); }},
     Part{"louvres", louvres},
     Part{"gear",
@@ -567,6 +546,26 @@ const std::array PARTS = {
 };
 
 }  // namespace
+
+TriangleMesh make_perforated_sheet(int count, double side, double hole, double thickness) {
+  PrismComplex solid({-thickness / 2, thickness / 2});
+  const Lines lines = steps(count, -0.5 * side * count, 0.5 * side * count);
+  for (int j = 0; j < count; ++j) {
+    for (int i = 0; i < count; ++i) {
+      const double x = lines[static_cast<std::size_t>(i)], y = lines[static_cast<std::size_t>(j)];
+      Outline inner = circle(8, hole), outer;
+      for (const Point& p : inner) {
+        const auto onto = [&](double c) {
+          return c > 0.25 * hole ? side : c < -0.25 * hole ? 0.0 : 0.5 * side;
+        };
+        outer.emplace_back(x + onto(p.x()), y + onto(p.y()));
+      }
+      for (Point& p : inner) p += Point(x + 0.5 * side, y + 0.5 * side);
+      solid.add_ring(inner, outer);
+    }
+  }
+  return solid.mesh();
+}
 
 std::span<const Part> machine_parts() {
   return PARTS;

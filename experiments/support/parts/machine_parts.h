@@ -23,6 +23,10 @@ std::span<const Part> machine_parts();
 /// @throws UsageError for an unknown name
 TriangleMesh make_machine_part(std::string_view name);
 
+/// `count` by `count` square tiles with an eight-sided hole each: 48 triangles a tile, and the rim.
+/// @param side, hole  of a tile, radius of its hole [m]
+TriangleMesh make_perforated_sheet(int count, double side, double hole, double thickness);
+
 /// Play between a part and the one that it goes into [m].
 inline constexpr double CLEARANCE = 1.0 / 128.0;
 

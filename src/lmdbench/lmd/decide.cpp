@@ -93,10 +93,7 @@ class Decision {
     if (!(height > -tolerance_.rounding) || height > tolerance_.reach) return;
     if (!corner_admits(of_corner, vertex, -plane.normal, along_normal())) return;
     const Vec3 q = p - height * plane.normal;
-    const Vec3 q_S = of_region.point_to_surface(q);
-    if (!region_holds(of_region, region, q_S, tolerance_.rounding) ||
-        border_leads_down(of_region, region, q_S, plane.normal))
-      return;
+    if (!region_admits(of_region, region, of_region.point_to_surface(q), plane.normal)) return;
     add_from(of_corner, {FeatureKind::VERTEX, vertex}, {FeatureKind::FACE, region}, p, q, -plane.normal,
              height);
   }
@@ -209,11 +206,13 @@ class Decision {
             corner_leads_down(side, ends[1], u_W, way_down(distance)));
   }
 
-  /// The same for a point on the border of a region, with the chains and corners there; along the region's normal.
-  bool border_leads_down(const ShapeSide& side, std::int32_t region, const Vec3& p_S, const Vec3& n_W) const {
+  /// Whether a point of a region's plane lies on the region, and no chain or corner there leads down along the region's normal.
+  bool region_admits(const ShapeSide& side, std::int32_t region, const Vec3& p_S, const Vec3& n_W) const {
     const double reach = tolerance_.rounding;
     const PolarSlack slack{tolerance_.known, tolerance_.largest_tilt};
-    return !for_each_face_at(side, region, p_S, reach, [&](std::int32_t face) {
+    bool holds = false;
+    const bool leads_down = !for_each_face_at(side, region, p_S, reach, [&](std::int32_t face) {
+      holds = true;
       const auto& edges = side.surface.adjacency.triangle_edges[static_cast<std::size_t>(face)];
       const bool chain_does = std::ranges::any_of(edges, [&](std::int32_t e) {
         const std::int32_t chain = side.shape.chain_of(e);
@@ -229,6 +228,7 @@ class Decision {
                corner_leads_down(side, v, n_W, slack);
       });
     });
+    return holds && !leads_down;
   }
 
   /// Direction of contact of two regions: the middle of their normals where both meshes were rounded or neither was,

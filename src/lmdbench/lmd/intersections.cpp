@@ -3,7 +3,6 @@
 #include <lmdbench/base/contract.h>
 #include <lmdbench/lmd/corner_groups.h>
 #include <lmdbench/lmd/intersections.h>
-#include <lmdbench/lmd/nearer_piece.h>
 #include <lmdbench/mesh/feature_corners.h>
 
 #include <algorithm>
@@ -71,10 +70,12 @@ struct CrossingContact {
     measure += weight_of(piece);
     centroid += weight_of(piece) * piece.point;
   }
+  /// The nearest to the centroid, beyond rounding: that must not choose the name of a symmetric contact.
   void name(const Intersection& piece) {
+    constexpr double EQUALLY_NEAR = 1e-9, ROUNDING = 1e-14;  // of the distance and of the coordinates
     if (piece.dimension < dimension) return;
     const double own = (piece.point - centroid).norm();
-    if (!is_nearer_piece(own, distance, centroid)) return;
+    if (!(own < distance * (1.0 - EQUALLY_NEAR) - ROUNDING * centroid.cwiseAbs().maxCoeff())) return;
     distance = own;
     nearest = &piece;
   }

@@ -9,9 +9,11 @@
 #include <boost/pending/disjoint_sets.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <memory_resource>
 #include <numeric>
 #include <optional>
 #include <tuple>
@@ -66,10 +68,11 @@ bool intersect(std::span<const std::int32_t> a, std::span<const std::int32_t> b)
   return false;
 }
 
+using Rows = std::pmr::vector<std::pair<std::size_t, std::size_t>>;
 /// Carriers of contacts, row after row in the order in which they were asked for.
 struct Carriers {
   std::vector<std::int32_t> items;
-  std::vector<std::pair<std::size_t, std::size_t>> rows;  ///< First and count, a contact.
+  Rows rows;  ///< First and count, a contact.
 };
 constexpr std::size_t NOT_KNOWN = std::numeric_limits<std::size_t>::max();
 
@@ -95,12 +98,13 @@ class Joining {
 
   void run(std::span<const Intersection> intersections, LmdSet& lmds) {
     drop_intersecting(intersections);
-    std::sort(contacts_.begin(), contacts_.end(), contact_less);
-    // The same pair of points may have been asked for twice.
+    sort_contacts();
+    // The same pair of features may have been asked for twice.
     contacts_.erase(std::unique(contacts_.begin(), contacts_.end(),
                                 [](const Contact& a, const Contact& b) {
-                                  return a.dimension == 0 && b.dimension == 0 && name_of(a) == name_of(b) &&
-                                         a.distance == b.distance && a.is_minimum == b.is_minimum;
+                                  return a.dimension == b.dimension && name_of(a) == name_of(b) &&
+                                         a.distance == b.distance && a.is_minimum == b.is_minimum &&
+                                         a.point_moving == b.point_moving;
                                 }),
                     contacts_.end());
     find_company();
@@ -110,7 +114,10 @@ class Joining {
           report_signed(contacts_[i], contacts_[i], {&i, 1}, contacts_[i].is_minimum, lmds);
       return;
     }
-    sets_ = boost::disjoint_sets_with_storage<>(contacts_.size());
+    ranks_.assign(contacts_.size(), 0);
+    parents_.resize(contacts_.size());
+    std::iota(parents_.begin(), parents_.end(), std::size_t{0});
+    sets_ = {ranks_.data(), parents_.data()};
     for (Carriers* carriers : {&carriers_moving_, &carriers_fixed_})
       carriers->rows.assign(contacts_.size(), {NOT_KNOWN, 0});
     grids_.resize(set_.frames.size());
@@ -123,6 +130,20 @@ class Joining {
   }
 
  private:
+  using Pieces = std::pmr::vector<const Contact*>;
+
+  /// Contacts are large: they move once.
+  void sort_contacts() {
+    Pieces order(&memory_);
+    order.reserve(contacts_.size());
+    for (const Contact& contact : contacts_) order.push_back(&contact);
+    std::ranges::sort(order, [](const Contact* a, const Contact* b) { return contact_less(*a, *b); });
+    std::pmr::vector<Contact> sorted(&memory_);
+    sorted.reserve(order.size());
+    for (const Contact* contact : order) sorted.push_back(*contact);
+    std::ranges::copy(sorted, contacts_.begin());
+  }
+
   // --- contacts whose triangles intersect
 
   void drop_intersecting(std::span<const Intersection> intersections) {
@@ -209,26 +230,17 @@ class Joining {
     return share_one(true) && share_one(false);
   }
 
-  /// Whether two features are the same or their closures share a chain or corner.
+  /// Whether two regions or chains are the same or their closures share a corner.
   static bool are_neighbours(const ShapeSide& side, const FeatureId& a, const FeatureId& b) {
-    if (a == b) return true;
-    const auto chains_of = [&](const FeatureId& feature) {
-      std::vector<std::int32_t> chains;
-      if (feature.kind == FeatureKind::EDGE) chains.push_back(feature.index);
-      if (feature.kind == FeatureKind::FACE) {
-        const auto row = side.shape.regions.straight_edges_of_region[feature.index];
-        chains.assign(row.begin(), row.end());
-      }
-      return chains;
-    };
-    const auto corners_of = [&](const std::vector<std::int32_t>& chains) {
+    const auto corners_of = [&](const FeatureId& feature) {
+      const std::int32_t lead = feature.kind == FeatureKind::FACE ? side.shape.lead_of_region(feature.index)
+                                                                  : side.shape.lead_of_chain(feature.index);
       std::vector<std::int32_t> corners;
-      for (const std::int32_t chain : chains)
-        for (const std::int32_t end : side.shape.ends_of_chain(chain)) corners.push_back(end);
+      side.shape.append_corners(side.surface, {feature.kind, lead}, corners);
       std::ranges::sort(corners);
       return corners;
     };
-    return intersect(corners_of(chains_of(a)), corners_of(chains_of(b)));
+    return a == b || intersect(corners_of(a), corners_of(b));
   }
 
   // --- joining
@@ -242,7 +254,7 @@ class Joining {
   /// extended LMD are of it, and a lowest pair in the place of an LMD is it, under another name at the pose at which indices are taken.
   /// A saddle beside an LMD of points stays what it is, however near: it tells which minima meet there.
   void join_signed_company() {
-    const std::vector<std::size_t> all = company_;
+    const std::pmr::vector<std::size_t> all = company_;
     std::erase_if(company_, [&](std::size_t i) { return !contacts_[i].is_minimum; });
     join_company();
     has_minimum_.resize(contacts_.size());
@@ -277,10 +289,9 @@ class Joining {
       for (const Vec3& end : contact.ends_fixed) box.extend(end);
     } else {
       const PlanarFrame& frame = set_.frames[contact.frame];
-      const double height = frame.u.cross(frame.v).dot(contact.point_fixed - frame.origin);
+      const Vec3 n = frame.u.cross(frame.v), lift = n.dot(contact.point_fixed - frame.origin) * n;
       for (const ConvexPolygon& piece : set_.pieces_of(contact))
-        for (const Vec2& corner : piece.corners)
-          box.extend(Vec3(frame.lifted(corner) + height * frame.u.cross(frame.v)));
+        for (const Vec2& corner : piece.corners) box.extend(Vec3(frame.lifted(corner) + lift));
     }
     const Vec3 margin = Vec3::Constant(reach);
     return {box.min() - margin, box.max() + margin};
@@ -292,12 +303,13 @@ class Joining {
       Eigen::AlignedBox3d box;
       std::size_t contact;
     };
-    std::vector<Entry> entries;
+    std::pmr::vector<Entry> entries(&memory_);
+    entries.reserve(company_.size());
     for (const std::size_t i : company_) entries.push_back({box_of(contacts_[i], tolerance_.known), i});
     std::ranges::sort(entries, [](const Entry& a, const Entry& b) {
       return std::pair(a.box.min().x(), a.contact) < std::pair(b.box.min().x(), b.contact);
     });
-    std::vector<std::size_t> open;
+    std::pmr::vector<std::size_t> open(&memory_);
     for (std::size_t k = 0; k < entries.size(); ++k) {
       std::erase_if(open, [&](std::size_t o) { return entries[o].box.max().x() < entries[k].box.min().x(); });
       for (const std::size_t o : open) {
@@ -386,7 +398,7 @@ class Joining {
   /// Joins points and segments apart from each other between which the distance stays the same: next to touch, where the ends of
   /// one chain over another one may both seem to be minima.
   void join_over_level_ways() {
-    std::vector<OnCarriers> entries, parts;
+    std::pmr::vector<OnCarriers> entries(&memory_), parts(&memory_);
     for (const std::size_t i : company_) {
       if (contacts_[i].dimension == 2) {
         parts.push_back({contacts_[i].moving.index, contacts_[i].fixed.index, i});
@@ -416,14 +428,16 @@ class Joining {
   /// Those that belong to parts of what a pair of regions shares are apart as the parts are.
   /// @param parts  polygons of that pair
   void join_in_bucket(std::span<const OnCarriers> bucket, std::span<const OnCarriers> parts) {
-    std::vector<std::size_t> roots, roots_of_parts;
+    std::pmr::vector<std::size_t> roots(&memory_), roots_of_parts(&memory_);
+    roots.reserve(bucket.size());
     for (const OnCarriers& entry : bucket) roots.push_back(sets_.find_set(entry.contact));
+    if (std::ranges::count(roots, roots.front()) == std::ssize(roots)) return;
     for (const OnCarriers& part : parts) roots_of_parts.push_back(sets_.find_set(part.contact));
     std::ranges::sort(roots_of_parts);
     const auto is_of_part = [&](std::size_t k) {
       return std::ranges::binary_search(roots_of_parts, roots[k]);
     };
-    std::vector<std::size_t> sorted = roots;
+    std::pmr::vector<std::size_t> sorted(roots, &memory_);
     std::ranges::sort(sorted);
     std::size_t most = sorted.front(), count = 0;
     for (std::size_t i = 0, run = 0; i < sorted.size(); ++i) {
@@ -478,13 +492,13 @@ class Joining {
   // --- what is reported
 
   void report_all(LmdSet& lmds) {
-    std::vector<std::size_t> order(contacts_.size());
+    std::pmr::vector<std::size_t> order(contacts_.size(), &memory_);
     std::iota(order.begin(), order.end(), std::size_t{0});
-    const auto set_of = [&](std::size_t i) { return sets_.find_set(i); };
-    std::ranges::stable_sort(order, {}, set_of);
+    sets_.compress_sets(order.begin(), order.end());
+    std::ranges::sort(order, {}, [&](std::size_t i) { return std::pair(parents_[i], i); });
     for (std::size_t begin = 0; begin < order.size();) {
       std::size_t end = begin;
-      while (end < order.size() && set_of(order[end]) == set_of(order[begin])) ++end;
+      while (end < order.size() && parents_[order[end]] == parents_[order[begin]]) ++end;
       report_set(std::span(order).subspan(begin, end - begin), lmds);
       begin = end;
     }
@@ -506,7 +520,7 @@ class Joining {
     for (const std::size_t i : set)
       if (contacts_[i].distance <= highest && contacts_[i].is_minimum)
         dimension = std::max(dimension, contacts_[i].dimension);
-    std::vector<const Contact*> pieces, points;
+    Pieces pieces(&memory_), points(&memory_);
     for (const std::size_t i : set) {
       if (contacts_[i].distance > highest || !contacts_[i].is_minimum) continue;
       if (contacts_[i].dimension == dimension) pieces.push_back(&contacts_[i]);
@@ -555,7 +569,7 @@ class Joining {
         {has_index ? sum_of(set) : 1, is_minimum, has_index, has_index ? is_basin : is_minimum});
   }
 
-  static Contact middle_of_polygons(const std::vector<const Contact*>& pieces) {
+  static Contact middle_of_polygons(const Pieces& pieces) {
     Contact whole = *pieces.front();
     if (pieces.size() == 1) return whole;
     double total = 0.0;
@@ -577,7 +591,7 @@ class Joining {
 
   /// The centroid of what segments on one line cover, each part once; nothing where they are on several lines or it is on none
   /// of them.
-  std::optional<Contact> middle_of_segments(const std::vector<const Contact*>& pieces) const {
+  std::optional<Contact> middle_of_segments(const Pieces& pieces) const {
     const Contact& longest =
         **std::ranges::max_element(pieces, {}, [](const Contact* c) { return c->measure; });
     if (pieces.size() == 1) return longest;
@@ -626,7 +640,7 @@ class Joining {
 
   /// The nearest. Of several at one distance that are apart, one between features of the highest kind, which is where the
   /// minimum stays when the meshes are tilted further, and of those the first by place; of those in one place the first by name.
-  const Contact& nearest_contact(std::vector<const Contact*> contacts) {
+  const Contact& nearest_contact(Pieces& contacts) {
     const double least =
         (*std::ranges::min_element(contacts, {}, [](const Contact* c) { return c->distance; }))->distance;
     std::erase_if(contacts,
@@ -706,10 +720,14 @@ class Joining {
   /// Of the roots, while critical pairs that are no minima are joined.
   std::vector<bool> has_minimum_, is_extended_;
   double last_granted_ = 0.0;
-  std::vector<std::size_t> company_;
-  boost::disjoint_sets_with_storage<> sets_;
-  std::vector<std::optional<BoxGrid>> grids_;  ///< Of the polygons of many pieces, one a frame.
-  Carriers carriers_moving_, carriers_fixed_;
+  /// Where a few hundred contacts find room without an allocation.
+  std::array<std::byte, 1 << 15> room_;
+  std::pmr::monotonic_buffer_resource memory_{room_.data(), room_.size()};
+  std::pmr::vector<std::size_t> company_{&memory_}, ranks_{&memory_}, parents_{&memory_};
+  boost::disjoint_sets<std::size_t*, std::size_t*> sets_{nullptr, nullptr};
+  std::pmr::vector<std::optional<BoxGrid>> grids_{
+      &memory_};  ///< Of the polygons of many pieces, one a frame.
+  Carriers carriers_moving_{{}, Rows(&memory_)}, carriers_fixed_{{}, Rows(&memory_)};
 };
 
 }  // namespace

@@ -142,11 +142,11 @@ PlanarFrame frame_of_overlap(const ShapeSide& moving, std::int32_t region_moving
   return frame;
 }
 
-std::vector<SegmentPart> parts_over_region(const Vec3& begin_S, const Vec3& end_S, const ShapeSide& side,
-                                           std::int32_t region, double rounding) {
+SegmentParts parts_over_region(const Vec3& begin_S, const Vec3& end_S, const ShapeSide& side,
+                               std::int32_t region, double rounding) {
   const RegionShape* shape = side.shape.shapes.of_region(region);
   const double length = (end_S - begin_S).norm(), spare = SIDE_ROUNDING * rounding;
-  std::vector<SegmentPart> parts;
+  SegmentParts parts;
   const auto add = [&](const SegmentPart& part) {
     if (part.end > part.begin) parts.push_back(part);
   };
@@ -171,7 +171,10 @@ std::vector<SegmentPart> parts_over_region(const Vec3& begin_S, const Vec3& end_
       parts[count++] = part;
   }
   parts.resize(count);
-  std::erase_if(parts, [&](const SegmentPart& part) { return (part.end - part.begin) * length <= rounding; });
+  parts.erase(
+      std::remove_if(parts.begin(), parts.end(),
+                     [&](const SegmentPart& part) { return (part.end - part.begin) * length <= rounding; }),
+      parts.end());
   return parts;
 }
 
@@ -185,10 +188,6 @@ bool is_on_face(const ShapeSide& side, const Vec3& n_S, std::int32_t face, const
       if (beyond > 0.0 && beyond * beyond > reach * reach * along.squaredNorm()) return false;
     }
   return (point_triangle_distance(p_S, t).point - p_S).squaredNorm() <= reach * reach;
-}
-
-bool region_holds(const ShapeSide& side, std::int32_t region, const Vec3& p_S, double reach) {
-  return !for_each_face_at(side, region, p_S, reach, [](std::int32_t) { return false; });
 }
 
 }  // namespace lmdbench

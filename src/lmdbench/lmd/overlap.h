@@ -5,6 +5,8 @@
 #include <lmdbench/geometry/convex_polygon.h>
 #include <lmdbench/lmd/contact.h>
 
+#include <boost/container/small_vector.hpp>
+
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -31,11 +33,14 @@ std::vector<OverlapPart> overlap_of_regions(const ShapeSide& moving, std::int32_
                                             const ShapeSide& fixed, std::int32_t region_fixed,
                                             const PlanarFrame& frame_W, double rounding);
 
+/// Nearly always one.
+using SegmentParts = boost::container::small_vector<SegmentPart, 4>;
+
 /// Parts of a segment in a region's plane that lie in the region, by parameters from 0 at its first end to 1.
 /// @param begin_S, end_S  frame of the region's mesh
 /// @param rounding  parts that are no longer are none; parts that come this near are one [m]
-std::vector<SegmentPart> parts_over_region(const Vec3& begin_S, const Vec3& end_S, const ShapeSide& side,
-                                           std::int32_t region, double rounding);
+SegmentParts parts_over_region(const Vec3& begin_S, const Vec3& end_S, const ShapeSide& side,
+                               std::int32_t region, double rounding);
 
 /// Whether a point of the plane of a face lies in it, or beside it by no more than `reach` [m].
 /// @param n_S  the plane's normal; frame of the mesh, as p_S is
@@ -56,8 +61,5 @@ bool for_each_face_at(const ShapeSide& side, std::int32_t region, const Vec3& p_
   box.add(shape->frame.flat(p_S));
   return side.shape.for_each_face_near(region, box, reach, look_at);
 }
-
-/// Whether a point of a region's plane lies in the region, or beside it by no more than `reach` [m].
-bool region_holds(const ShapeSide& side, std::int32_t region, const Vec3& p_S, double reach);
 
 }  // namespace lmdbench

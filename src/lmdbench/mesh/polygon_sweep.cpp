@@ -37,6 +37,12 @@ struct Climb {
   double x_at(double y) const { return low[0] + slope * (y - low[1]); }
 };
 
+/// A side that meets a row, and where at its middle.
+struct Active {
+  const Climb* climb;
+  double x;
+};
+
 /// A convex piece that may still grow upwards.
 struct OpenPiece {
   std::vector<Vec2> left,
@@ -51,6 +57,8 @@ class Sweep {
   Sweep(std::array<std::span<const PolygonSide>, 2> polygons, double tolerance)
       : owners_(polygons[1].empty() ? 1 : 2), tolerance_(tolerance) {
     LMDBENCH_EXPECTS(tolerance >= 0.0, "a tolerance that is negative or not a number");
+    heights_.reserve(2 * (polygons[0].size() + polygons[1].size()));
+    climbs_.reserve(polygons[0].size() + polygons[1].size());
     for (std::size_t owner = 0; owner < owners_; ++owner)
       for (const PolygonSide& side : polygons[owner]) {
         heights_.push_back(side.from[1]);
@@ -66,7 +74,7 @@ class Sweep {
   /// The pieces with the parts that they are of, part by part.
   std::vector<SharedPart> run() {
     std::size_t next = 0;
-    std::vector<const Climb*> active;
+    std::vector<Active> active;
     for (std::size_t i = 0; i + 1 < heights_.size();) {
       // The next height that is not level with this one.
       std::size_t j = i + 1;
@@ -74,8 +82,8 @@ class Sweep {
       if (j == heights_.size()) break;
       const double bottom = heights_[i], top = heights_[j];
       for (; next < climbs_.size() && climbs_[next].low[1] <= bottom + tolerance_; ++next)
-        active.push_back(&climbs_[next]);
-      std::erase_if(active, [&](const Climb* climb) { return climb->high[1] <= bottom + tolerance_; });
+        active.push_back({&climbs_[next], 0.0});
+      std::erase_if(active, [&](const Active& side) { return side.climb->high[1] <= bottom + tolerance_; });
       row(active, bottom, top);
       i = j;
     }
@@ -101,14 +109,13 @@ class Sweep {
     }
   }
 
-  void row(std::vector<const Climb*>& active, double bottom, double top) {
+  void row(std::vector<Active>& active, double bottom, double top) {
     const double middle = 0.5 * (bottom + top);
     // Nearly sorted: the order of the row below.
-    for (std::size_t k = 1; k < active.size(); ++k) {
-      const Climb* const climb = active[k];
-      const double x = climb->x_at(middle);
+    for (std::size_t k = 0; k < active.size(); ++k) {
+      const Active climb{active[k].climb, active[k].climb->x_at(middle)};
       std::size_t at = k;
-      for (; at > 0 && active[at - 1]->x_at(middle) > x; --at) active[at] = active[at - 1];
+      for (; at > 0 && active[at - 1].x > climb.x; --at) active[at] = active[at - 1];
       active[at] = climb;
     }
     before_.swap(open_);
@@ -116,7 +123,7 @@ class Sweep {
     first_before_ = 0;
     std::array<int, 2> winding{0, owners_ == 1 ? 1 : 0};
     const Climb* left = nullptr;
-    for (const Climb* climb : active) {
+    for (const auto& [climb, x] : active) {
       const bool was_inside = winding[0] > 0 && winding[1] > 0;
       winding[climb->owner] += climb->winding;
       const bool is_inside = winding[0] > 0 && winding[1] > 0;
@@ -145,13 +152,7 @@ class Sweep {
         right_top[0] - left_top[0] <= tolerance_)
       return;
     const double gap = CONTINUATION * tolerance_;
-    OpenPiece piece{{left_bottom, left_top},
-                    {right_bottom, right_top},
-                    left.slope,
-                    right.slope,
-                    left_top[0],
-                    right_top[0],
-                    part_count_++};
+    OpenPiece piece{{}, {}, left.slope, right.slope, left_top[0], right_top[0], part_count_++};
     if (!open_.empty() &&
         (left_bottom[0] - last_right_bottom_ <= gap || left_top[0] - open_.back().right_x <= gap))
       meetings_.emplace_back(piece.part, open_.back().part);
@@ -176,6 +177,10 @@ class Sweep {
       piece.right_slope = below.right_slope;
       extend(piece.left, piece.left_slope, left_top, left.slope);
       extend(piece.right, piece.right_slope, right_top, right.slope);
+    }
+    if (!has_grown) {
+      piece.left = {left_bottom, left_top};
+      piece.right = {right_bottom, right_top};
     }
     open_.push_back(std::move(piece));
   }

@@ -25,10 +25,10 @@ void find_bar(RegionShape& shape) {
   const Extent of_length = extent_along(shape.hull, along), of_width = extent_along(shape.hull, across);
   const Vec2 centre = 0.5 * (of_length.least + of_length.greatest) * along +
                       0.5 * (of_width.least + of_width.greatest) * across;
-  shape.bar_centre = shape.frame.lifted(centre);
-  shape.bar_half =
+  shape.bar.centre = shape.frame.lifted(centre);
+  shape.bar.half =
       0.5 * (of_length.greatest - of_length.least) * (along[0] * shape.frame.u + along[1] * shape.frame.v);
-  shape.bar_radius = 0.5 * (of_width.greatest - of_width.least);
+  shape.bar.radius = 0.5 * (of_width.greatest - of_width.least);
 }
 
 RegionShape shape_of(const Surface& surface, const FlatRegions& regions, std::int32_t region,

@@ -14,6 +14,12 @@
 
 namespace lmdbench {
 
+/// A segment with a radius [m].
+struct Bar {
+  Vec3 centre = Vec3::Zero(), half = Vec3::Zero();  ///< The segment is centre +- half.
+  double radius = 0.0;
+};
+
 /// A flat region without its tessellation: a polygon, with holes where it has them, as convex pieces; and
 /// where its triangles lie. All in the plane's own frame.
 struct RegionShape {
@@ -24,9 +30,7 @@ struct RegionShape {
   BoxGrid piece_grid;                              ///< Of the pieces' boxes.
   std::vector<std::int32_t> corners;  ///< Vertices where straight edges of its border end, ascending.
   std::vector<Vec2> hull;             ///< Convex hull of the corners, counter-clockwise.
-  /// A bar that holds the region: its points are within `bar_radius` [m] of the segment bar_centre +- bar_half; frame S.
-  Vec3 bar_centre = Vec3::Zero(), bar_half = Vec3::Zero();
-  double bar_radius = 0.0;
+  Bar bar;                            ///< That holds the region; frame S.
   BoxGrid triangle_grid;  ///< Of the triangles' boxes, in the order of FlatRegions::region_triangles.
 };
 

@@ -127,6 +127,18 @@ TEST(PartsStudy, PosesThatWereFoundAreRight) {
                {Vec3(0.071388623231602499, -0.23124413973568475, -0.39823987806466504),
                 Eigen::Quaterniond(0.68819095895472615, 0.16245984792016782, 0.16245984990145354,
                                    0.68819096114140266)});
+  // Parallel edges that touch to rounding: what is between them has no direction that a cone of a hierarchy holds.
+  expect_right({"retaining ring on gear", Coordinates::EXACT, 108, 27},
+               {Vec3(-0.20479963923571631, -0.23941062268568203, 0.12499919112054809),
+                Eigen::Quaterniond(1, 0, 1.17883980572663e-13, 0)});
+  expect_right({"honeycomb on honeycomb", Coordinates::TURNED, 108, 19},
+               {Vec3(-0.81515057852453432, -0.0026207494845079671, 0.3512920904039496),
+                Eigen::Quaterniond(0.72313143699919447, -0.39879086308885225, 0.015337292955345194,
+                                   -0.56374776255443382)});
+  expect_right({"threaded rod in threaded nut", Coordinates::TURNED, 108, 40},
+               {Vec3(-0.13922516500732249, -0.029131019384604662, 0.58187167550989116),
+                Eigen::Quaterniond(-0.47087357376304401, 0.80848839156785568, 0.066390526035828706,
+                                   0.34672308299899318)});
   // Rounded, nearer than the planar tolerance.
   expect_right({"star prism on polycube", Coordinates::ROUNDED, 1, 9},
                {Vec3(-0.074400323817917446, 0.92235974455194869, 1.4108620553268474),

@@ -330,37 +330,20 @@ PairAnswer PairFilter::operator()(const FeatureId& on_moving, const FeatureId& o
                                   double lever_arm) const {
   const Test test(*this, lever_arm);
   const std::int32_t a = on_moving.index, b = on_fixed.index;
+  using enum FeatureKind;
   switch (on_moving.kind) {
-    case FeatureKind::VERTEX:
-      switch (on_fixed.kind) {
-        case FeatureKind::VERTEX:
-          return test.vertex_vertex(a, b);
-        case FeatureKind::EDGE:
-          return test.vertex_edge(test.moving, a, test.fixed, b);
-        case FeatureKind::FACE:
-          return test.vertex_face(test.moving, a, test.fixed, b);
-      }
-      break;
-    case FeatureKind::EDGE:
-      switch (on_fixed.kind) {
-        case FeatureKind::VERTEX:
-          return test.vertex_edge(test.fixed, b, test.moving, a);
-        case FeatureKind::EDGE:
-          return test.edge_edge(a, b);
-        case FeatureKind::FACE:
-          return test.edge_face(test.moving, a, test.fixed, b);
-      }
-      break;
-    case FeatureKind::FACE:
-      switch (on_fixed.kind) {
-        case FeatureKind::VERTEX:
-          return test.vertex_face(test.fixed, b, test.moving, a);
-        case FeatureKind::EDGE:
-          return test.edge_face(test.fixed, b, test.moving, a);
-        case FeatureKind::FACE:
-          return test.face_face(a, b);
-      }
-      break;
+    case VERTEX:
+      if (on_fixed.kind == VERTEX) return test.vertex_vertex(a, b);
+      if (on_fixed.kind == EDGE) return test.vertex_edge(test.moving, a, test.fixed, b);
+      return test.vertex_face(test.moving, a, test.fixed, b);
+    case EDGE:
+      if (on_fixed.kind == VERTEX) return test.vertex_edge(test.fixed, b, test.moving, a);
+      if (on_fixed.kind == EDGE) return test.edge_edge(a, b);
+      return test.edge_face(test.moving, a, test.fixed, b);
+    case FACE:
+      if (on_fixed.kind == VERTEX) return test.vertex_face(test.fixed, b, test.moving, a);
+      if (on_fixed.kind == EDGE) return test.edge_face(test.fixed, b, test.moving, a);
+      return test.face_face(a, b);
   }
   return {};
 }

@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 namespace lmdbench {
 
@@ -29,6 +30,12 @@ Vec3 face_normal(const ShapeSide& side, std::int32_t face) {
 Triangle triangle_of(const ShapeSide& side, std::int32_t face) {
   const Triangle t = side.surface.mesh.triangle(face);
   return side.is_moving ? side.X_WS.triangle(t) : t;
+}
+
+/// From end to end of a chain.
+Vec3 from_end_to_end(const ShapeSide& side, std::int32_t chain) {
+  const auto& ends = side.shape.ends_of_chain(chain);
+  return side.vertex(ends[1]) - side.vertex(ends[0]);
 }
 
 /// Gap between points and a plane, with the axis from the points towards it.
@@ -56,17 +63,6 @@ const RegionShape* shape_of(const ShapeSide& side, const FeatureId& face) {
   return region < 0 ? nullptr : side.shape.shapes.of_region(region);
 }
 
-/// The bar that holds a region, in the world.
-struct Bar {
-  Vec3 centre, half;
-  double radius;
-
-  Bar(const ShapeSide& side, const RegionShape& shape)
-      : centre(side.is_moving ? side.X_WS.point(shape.bar_centre) : shape.bar_centre),
-        half(side.direction(shape.bar_half)),
-        radius(shape.bar_radius) {}
-};
-
 /// Gap of two bars, square to the longer one: walls of a peg and of its bore stand side by side, and a disc round a wall meets half
 /// of the others.
 ClearGap gap_of_bars(const Bar& a, const Bar& b) {
@@ -85,15 +81,11 @@ ClearGap gap_of_bars(const Bar& a, const Bar& b) {
 ClearGap gap_along_side_products(const ShapeSide& moving, std::int32_t region_moving,
                                  std::span<const Vec3> corners_moving, const ShapeSide& fixed,
                                  std::int32_t region_fixed, std::span<const Vec3> corners_fixed) {
-  const auto side_of = [](const ShapeSide& side, std::int32_t chain) {
-    const auto& ends = side.shape.ends_of_chain(chain);
-    return Vec3(side.vertex(ends[1]) - side.vertex(ends[0]));
-  };
   ClearGap widest;
   for (const std::int32_t s : moving.shape.regions.straight_edges_of_region[region_moving]) {
-    const Vec3 u = side_of(moving, s);
+    const Vec3 u = from_end_to_end(moving, s);
     for (const std::int32_t t : fixed.shape.regions.straight_edges_of_region[region_fixed]) {
-      const Vec3 product = u.cross(side_of(fixed, t));
+      const Vec3 product = u.cross(from_end_to_end(fixed, t));
       const double length = product.norm();
       if (!(length > 0.0)) continue;
       const Vec3 axis = product / length;
@@ -133,6 +125,20 @@ void ask_corners(const TouchingPairs::Frame& frame, const ShapeSide& of_corners,
   }
 }
 
+/// Asks for what parallel chains of two triangles within touch share: its direction is one between points, too.
+void ask_parallel_chains(const TouchingPairs::Frame& frame, std::int32_t t_moving, std::int32_t t_fixed) {
+  const ShapeSide &moving = frame.pair.moving, &fixed = frame.pair.fixed;
+  for (const std::int32_t e : moving.surface.adjacency.triangle_edges[static_cast<std::size_t>(t_moving)])
+    for (const std::int32_t f : fixed.surface.adjacency.triangle_edges[static_cast<std::size_t>(t_fixed)]) {
+      const std::int32_t c = moving.shape.chain_of(e), d = fixed.shape.chain_of(f);
+      if (c < 0 || d < 0) continue;
+      const Vec3 u = from_end_to_end(moving, c), v = from_end_to_end(fixed, d);
+      if (u.cross(v).norm() > 2.0 * frame.pair.tolerance.largest_tilt * u.norm() * v.norm()) continue;
+      decide(frame.pair, {FeatureKind::EDGE, moving.shape.lead_of_chain(c)},
+             {FeatureKind::EDGE, fixed.shape.lead_of_chain(d)}, frame.contacts);
+    }
+}
+
 }  // namespace
 
 /// Pairs of triangles that are looked at together, in vectors.
@@ -159,6 +165,7 @@ std::span<const Certificate> TouchingPairs::decide(Frame& frame, std::span<const
   const bool is_joined = moving.shape.is_joined || fixed.shape.is_joined;
   const double margin = MARGIN_IN_TOUCHES * frame.touch;
   certificates_.assign(pairs.size(), Certificate{});
+  ++calls_;
   Batch batch, not_crossing;
   for (std::size_t k = 0; k < pairs.size(); ++k) {
     const FeatureId on_moving = pairs[k].a.feature_id(), on_fixed = pairs[k].b.feature_id();
@@ -166,7 +173,7 @@ std::span<const Certificate> TouchingPairs::decide(Frame& frame, std::span<const
     const RegionShape* const shape_moving = is_joined ? shape_of(moving, on_moving) : nullptr;
     const RegionShape* const shape_fixed = is_joined ? shape_of(fixed, on_fixed) : nullptr;
     if (shape_moving != nullptr && shape_fixed != nullptr) {
-      const ClearGap gap = gap_of_bars(Bar(moving, *shape_moving), Bar(fixed, *shape_fixed));
+      const ClearGap gap = gap_of_bars(moving_bar(moving, *shape_moving), shape_fixed->bar);
       if (gap.gap > margin) {
         certificates_[k] = {gap.gap - margin, gap.axis};
         continue;
@@ -183,6 +190,15 @@ std::span<const Certificate> TouchingPairs::decide(Frame& frame, std::span<const
   decide_batch(frame, batch, not_crossing);
   decide_not_crossing(frame, not_crossing);
   return certificates_;
+}
+
+const Bar& TouchingPairs::moving_bar(const ShapeSide& moving, const RegionShape& shape) {
+  const std::vector<RegionShape>& shapes = moving.shape.shapes.shapes;
+  moving_bars_.resize(shapes.size());
+  auto& [made_in, bar] = moving_bars_[static_cast<std::size_t>(&shape - shapes.data())];
+  if (std::exchange(made_in, calls_) != calls_)
+    bar = {moving.X_WS.point(shape.bar.centre), moving.X_WS.direction(shape.bar.half), shape.bar.radius};
+  return bar;
 }
 
 void TouchingPairs::decide_batch(Frame& frame, Batch& batch, Batch& not_crossing) {
@@ -240,87 +256,79 @@ Certificate TouchingPairs::decide_triangles(Frame& frame, std::int32_t t_moving,
   if (distance <= frame.touch) {
     ask_corners(frame, moving, t_moving, fixed, t_fixed);
     ask_corners(frame, fixed, t_fixed, moving, t_moving);
+    ask_parallel_chains(frame, t_moving, t_fixed);
     return {};
   }
   return {distance - MARGIN_IN_TOUCHES * frame.touch, (nearest.point_b - nearest.point_a) / distance};
 }
 
-void TouchingPairs::find_faces_near(const ShapeSide& side, std::int32_t region,
-                                    std::span<const Vec3> points_W, double reach,
-                                    std::vector<std::int32_t>& faces) const {
-  const RegionShape& shape = *side.shape.shapes.of_region(region);
-  Box2 box;
-  for (const Vec3& p : points_W) box.add(shape.frame.flat(side.point_to_surface(p)));
-  faces.clear();
-  side.shape.for_each_face_near(region, box, reach, [&](std::int32_t t) {
-    faces.push_back(t);
-    return true;
-  });
-}
+/// One feature of a pair of faces and regions.
+struct TouchingPairs::Half {
+  const ShapeSide& side;
+  std::int32_t lead, region;  ///< Region -1: a triangle without area.
+  const RegionShape* shape;   ///< Of a region of several faces.
+  std::vector<Vec3>& corners;
+
+  Half(const ShapeSide& of_side, const FeatureId& face, std::vector<Vec3>& room)
+      : side(of_side),
+        lead(face.index),
+        region(side.shape.region_of(lead)),
+        shape(shape_of(side, face)),
+        corners(room) {}
+
+  std::size_t corner_count() const { return shape != nullptr ? shape->corners.size() : 3; }
+  void collect_corners() const {
+    if (shape == nullptr) {
+      const Triangle t = triangle_of(side, lead);
+      corners.assign(t.begin(), t.end());
+      return;
+    }
+    corners.clear();
+    for (const std::int32_t v : shape->corners) corners.push_back(side.vertex(v));
+  }
+  /// From this one's plane to the other one.
+  ClearGap gap_to_other(const Half& other) const {
+    if (region < 0) return {};
+    const Plane plane = side.plane(region);
+    return other.shape != nullptr ? gap_to(plane, other.side, *other.shape)
+                                  : gap_to(plane, triangle_of(other.side, other.lead));
+  }
+  /// The faces that are near to points of the world.
+  void find_faces_near(std::span<const Vec3> points, double reach, std::vector<std::int32_t>& faces) const {
+    if (shape == nullptr) return faces.assign(1, lead);
+    Box2 box;
+    for (const Vec3& p : points) box.add(shape->frame.flat(side.point_to_surface(p)));
+    faces.clear();
+    side.shape.for_each_face_near(region, box, reach, [&](std::int32_t t) {
+      faces.push_back(t);
+      return true;
+    });
+  }
+};
 
 /// Of a pair of which at least one is a region of several faces: gaps between their outlines, then the triangles of the
 /// one with more corners near the other, against those of the other near each of them.
 Certificate TouchingPairs::decide_regions(Frame& frame, const WidePair& pair) {
   const ShapeSide &moving = frame.pair.moving, &fixed = frame.pair.fixed;
-  const FeatureId on_moving = pair.a.feature_id(), on_fixed = pair.b.feature_id();
-  const std::int32_t region_m = moving.shape.region_of(on_moving.index);
-  const std::int32_t region_f = fixed.shape.region_of(on_fixed.index);
+  const Half m(moving, pair.a.feature_id(), points_moving_), f(fixed, pair.b.feature_id(), points_fixed_);
   const double margin = MARGIN_IN_TOUCHES * frame.touch;
-  const auto clear = [&](const ClearGap& gap, double sign) {
-    return Certificate{gap.gap - margin, sign * gap.axis};
-  };
-  const RegionShape* const shape_m = shape_of(moving, on_moving);
-  const RegionShape* const shape_f = shape_of(fixed, on_fixed);
-  const auto collect = [](const ShapeSide& side, const FeatureId& lead, std::vector<std::int32_t>& corners,
-                          std::vector<Vec3>& points) {
-    corners.clear();
-    points.clear();
-    side.shape.append_corners(side.surface, lead, corners);
-    for (const std::int32_t v : corners) points.push_back(side.vertex(v));
-  };
-  // A triangle without area has no plane and separates nothing.
-  const auto clear_of = [&](const ShapeSide& with_plane, std::int32_t region, const ShapeSide& other,
-                            const FeatureId& lead, const RegionShape* shape) {
-    if (region < 0) return ClearGap{};
-    const Plane plane = with_plane.plane(region);
-    return shape != nullptr ? gap_to(plane, other, *shape) : gap_to(plane, triangle_of(other, lead.index));
-  };
-  if (const ClearGap gap = clear_of(fixed, region_f, moving, on_moving, shape_m); gap.gap > margin)
-    return clear(gap, 1.0);
-  if (const ClearGap gap = clear_of(moving, region_m, fixed, on_fixed, shape_f); gap.gap > margin)
-    return clear(gap, -1.0);
-  collect(moving, on_moving, corners_moving_, points_moving_);
-  collect(fixed, on_fixed, corners_fixed_, points_fixed_);
-  const std::size_t count_m = points_moving_.size(), count_f = points_fixed_.size();
-  if (region_m >= 0 && region_f >= 0 && count_m * count_f <= MOST_CORNER_PAIRS)
-    if (const ClearGap gap =
-            gap_along_side_products(moving, region_m, points_moving_, fixed, region_f, points_fixed_);
+  if (const ClearGap gap = f.gap_to_other(m); gap.gap > margin) return {gap.gap - margin, gap.axis};
+  if (const ClearGap gap = m.gap_to_other(f); gap.gap > margin) return {gap.gap - margin, -gap.axis};
+  const bool moving_is_large = m.corner_count() > f.corner_count();
+  const Half &large = moving_is_large ? m : f, &small = moving_is_large ? f : m;
+  small.collect_corners();
+  if (m.corner_count() * f.corner_count() <= MOST_CORNER_PAIRS && m.region >= 0 && f.region >= 0) {
+    large.collect_corners();
+    if (const ClearGap gap = gap_along_side_products(moving, m.region, m.corners, fixed, f.region, f.corners);
         gap.gap > margin)
-      return clear(gap, 1.0);
-
-  const bool moving_is_large = count_m > count_f;
-  const ShapeSide& large = moving_is_large ? moving : fixed;
-  const ShapeSide& small = moving_is_large ? fixed : moving;
-  const std::int32_t region_large = moving_is_large ? region_m : region_f;
-  const std::int32_t region_small = moving_is_large ? region_f : region_m;
-  const auto is_joined = [](const ShapeSide& side, std::int32_t region) {
-    return region >= 0 && side.shape.shapes.of_region(region) != nullptr;
-  };
-  if (is_joined(large, region_large))
-    find_faces_near(large, region_large, moving_is_large ? points_fixed_ : points_moving_, margin,
-                    faces_of_large_);
-  else
-    faces_of_large_.assign(1, (moving_is_large ? on_moving : on_fixed).index);
+      return {gap.gap - margin, gap.axis};
+  }
+  large.find_faces_near(small.corners, margin, faces_of_large_);
   for (const std::int32_t t_large : faces_of_large_) {
-    const Triangle t = triangle_of(large, t_large);
-    if (region_small >= 0) {
-      // What reaches the plane: a tooth that passes through the plane of a gear's end meets a few of its thousands.
-      if (gap_to(small.plane(region_small), t).gap > margin) continue;
-    }
-    if (is_joined(small, region_small))
-      find_faces_near(small, region_small, t, margin, faces_of_small_);
-    else
-      faces_of_small_.assign(1, (moving_is_large ? on_fixed : on_moving).index);
+    const Triangle t = triangle_of(large.side, t_large);
+    // What reaches the plane: a tooth that passes through the plane of a gear's end meets a few of its thousands.
+    if (small.region >= 0 && gap_to(small.side.plane(small.region), t).gap > margin) continue;
+    small.find_faces_near(t, margin, faces_of_small_);
     for (const std::int32_t t_small : faces_of_small_) {
       ++frame.triangle_pairs;
       const std::int32_t t_moving = moving_is_large ? t_large : t_small;
