@@ -38,22 +38,16 @@ class Body {
   const T& prepared() const {
     Preparation& preparation = preparation_for(typeid(T));
     std::call_once(preparation.once, [&] {
-      const auto make = [](const Body& body) {
-        if constexpr (requires { T::of(body); })
-          return T::of(body);  // It builds on other preparations.
-        else
-          return T::of(body.surface_);
-      };
-      auto value = std::make_shared<T>(make(*this));
+      auto value = std::make_shared<T>(make<T>());
       preparation.value = value;
       const std::lock_guard lock(mutex_);
-      followers_.emplace_back([value, make](const Body& body, const SurfaceChange& change) {
+      followers_.emplace_back([value](const Body& body, const SurfaceChange& change) {
         if constexpr (requires { value->follow(body, change); })
           value->follow(body, change);
         else if constexpr (requires { value->follow(body.surface_, change); })
           value->follow(body.surface_, change);
         else if (!change.moved.empty())
-          *value = make(body);
+          *value = body.make<T>();
       });
     });
     return *static_cast<const T*>(preparation.value.get());
@@ -79,6 +73,13 @@ class Body {
   std::uint32_t deformations() const { return deformations_; }
 
  private:
+  template <class T>
+  T make() const {
+    if constexpr (requires { T::of(*this); })
+      return T::of(*this);  // It builds on other preparations.
+    else
+      return T::of(surface_);
+  }
   struct Preparation {
     std::once_flag once;
     std::shared_ptr<const void> value;

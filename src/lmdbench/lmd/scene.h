@@ -18,8 +18,9 @@ struct FixedBody {
   std::shared_ptr<const Body> body;
   Pose X_WF;  ///< The identity where the vertices are already in the world frame.
 
-  FixedBody(std::shared_ptr<const Body> mesh)
-      : body(std::move(mesh)) {}  // NOLINT: a body that stands where it is
+  /// A body that stands where it is.
+  // NOLINTNEXTLINE(google-explicit-constructor): scenes are written as lists of bodies
+  FixedBody(std::shared_ptr<const Body> mesh) : body(std::move(mesh)) {}
   FixedBody(std::shared_ptr<const Body> mesh, const Pose& pose) : body(std::move(mesh)), X_WF(pose) {}
 
   const Body* operator->() const { return body.get(); }

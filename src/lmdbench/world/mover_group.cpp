@@ -35,8 +35,9 @@ void refuse_bad_poses(std::span<const Pose> poses, std::size_t movers) {
 
 }  // namespace
 
-MoverGroup::MoverGroup(std::vector<std::shared_ptr<const Body>> movers, std::vector<FixedBody> standing,
-                       double cutoff, MeshPair::Make make, const Tuning& tuning)
+MoverGroup::MoverGroup(const std::vector<std::shared_ptr<const Body>>& movers,
+                       const std::vector<FixedBody>& standing, double cutoff, MeshPair::Make make,
+                       const Tuning& tuning)
     : mover_count_(movers.size()), cutoff_(cutoff), make_(std::move(make)), tuning_(tuning) {
   objects_.reserve(movers.size() + standing.size());
   const auto add = [this](const std::shared_ptr<const Body>& body, const Pose& pose) {

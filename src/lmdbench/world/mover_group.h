@@ -66,11 +66,11 @@ class MoverGroup {
 
   /// @param make a method for a scene of two meshes, neither placed nor far from its origin, that searches in every frame
   ///             (`!tracks_locally`); methods/registry.h: `method_maker`
-  MoverGroup(std::vector<std::shared_ptr<const Body>> movers, std::vector<FixedBody> standing, double cutoff,
-             MeshPair::Make make)
+  MoverGroup(const std::vector<std::shared_ptr<const Body>>& movers, const std::vector<FixedBody>& standing,
+             double cutoff, MeshPair::Make make)
       : MoverGroup(std::move(movers), std::move(standing), cutoff, std::move(make), Tuning{}) {}
-  MoverGroup(std::vector<std::shared_ptr<const Body>> movers, std::vector<FixedBody> standing, double cutoff,
-             MeshPair::Make make, const Tuning& tuning);
+  MoverGroup(const std::vector<std::shared_ptr<const Body>>& movers, const std::vector<FixedBody>& standing,
+             double cutoff, MeshPair::Make make, const Tuning& tuning);
 
   /// The sets of all pairs that have an LMD. Where a body has deformed since, everything is made anew.
   /// @param poses X_WM of each mover
