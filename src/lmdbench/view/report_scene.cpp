@@ -27,6 +27,9 @@ void write_report_scene(const ResultReader& result, const std::filesystem::path&
   if (result_scene.deformation)
     throw UsageError(result.file().string(), "", "the view does not draw meshes that deform",
                      "lmdbench export writes the shape of each frame, for ParaView");
+  if (result_scene.movers)
+    throw UsageError(result.file().string(), "", "the view draws one mesh that moves",
+                     "lmdbench export writes all movers at their poses, for ParaView");
   const Scene& scene = result_scene.rest;
   write_off(folder / "moving.off", scene.moving->surface().mesh);
   const std::vector<ResultTrack> tracks = tracks_of_result(result, MOST_FRAMES);
