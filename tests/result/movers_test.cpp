@@ -37,14 +37,16 @@ using testing::ScratchDirectory;
 using testing::SHAPES_FILE;
 
 constexpr const char* SHAPES_PATH = R"({"file":"../paths/shapes.tum"})";
-constexpr const char* IN_METRES = R"(/force={"cutoff_m":0.005,"maximum_force_n":3})";
 constexpr const char* BLOBS =
-    R"({"mesh":"small-blob","diagonal_m":0.04,"pose":{"translation_m":[0,0,0.03]},)"
-    R"("instances":{"rule":"pile","count":5,"spacing_diagonals":0.6},"path":{"period_s":0.1,"seed":4}})";
+    R"({"mesh":"small-blob","diagonal_m":0.04,"pose":{"translation_m":[0,0,0.2]},)"
+    R"("instances":{"rule":"pile","count":5,"spacing_diagonals":0.68,"turned":false},)"
+    R"("path":{"way_diagonals":0.05,"period_s":0.1,"seed":4}})";
 constexpr const char* BALL =
-    R"({"mesh":"ball","diagonal_m":0.03,"pose":{"translation_m":[0.01,0,0.05]},"path":{"way_diagonals":0.5}})";
+    R"({"mesh":"ball","diagonal_m":0.03,"pose":{"translation_m":[0.013,0.009,0.09]},)"
+    R"("path":{"way_diagonals":0.5,"period_s":0.08}})";
 constexpr const char* CUBE =
-    R"({"mesh":"cube","diagonal_m":0.04,"pose":{"translation_m":[0.045,0,0.03]},"path":{"period_s":0.05}})";
+    R"({"mesh":"cube","diagonal_m":0.04,"pose":{"translation_m":[-0.027,-0.027,0.0345]},)"
+    R"("path":{"period_s":0.05}})";
 
 /// A small blob along a torus, with these movers.
 Experiment movers_scene(const std::vector<std::string>& entries, std::vector<Override> overrides = {},
@@ -80,34 +82,49 @@ double largest_of(const std::vector<double>& values) {
   return most;
 }
 
+/// Relative poses round otherwise than poses in the world.
+void expect_same_but_rounding(const std::vector<double>& a, const std::vector<double>& b,
+                              const std::string& what) {
+  ASSERT_EQ(a.size(), b.size()) << what;
+  const double tolerance = 1e-11 * largest_of(b);
+  for (std::size_t i = 0; i < a.size(); ++i) ASSERT_NEAR(a[i], b[i], tolerance) << what << ", number " << i;
+}
+
 TEST(Movers, OneOfThemFeelsWhatTheMovingMeshOfTheSameSceneFeels) {
   const ScratchDirectory scratch;
   const std::string methods = R"([{"name":"original"},{"name":"improved"},{"name":"certified"},)"
-                              R"({"name":"nearest"},{"name":"exhaustive"}])";
-  // The moving mesh is a speck amid the mover, out of reach of anything.
+                              R"({"name":"nearest"}])";
+  const std::string in_metres = R"(/force={"cutoff_m":0.02,"maximum_force_n":3})";
+  // The moving mesh is a speck, out of reach of anything.
+  const std::string far = scratch.write("far.tum", "0 5 0 0 0 0 0 1\n1 5 0 0 0 0 0 1\n");
   run_movers(
       movers_scene({std::string(R"({"mesh":"small-blob","diagonal_m":0.1,"path":)") + SHAPES_PATH + "}"},
-                   {R"(/moving={"mesh":"ball","diagonal_m":0.0001})", IN_METRES}, methods),
+                   {R"(/moving={"mesh":"ball","diagonal_m":0.01})", in_metres, "/path/file=" + far}, methods),
       scratch / "mover.h5");
-  run_movers(movers_scene({}, {IN_METRES}, methods), scratch / "plain.h5");
+  run_movers(movers_scene({}, {in_metres}, methods), scratch / "plain.h5");
   const OpenResult mover(scratch / "mover.h5"), plain(scratch / "plain.h5");
   EXPECT_FALSE(plain.has("/path/movers"));
-  for (const std::string label : {"original", "improved", "certified", "nearest", "exhaustive"}) {
+  for (const std::string label : {"original", "improved", "certified", "nearest"}) {
     const std::string group = "/methods/" + label;
     const std::vector<double> force = plain.doubles(group + "/force");
-    EXPECT_EQ(mover_column(mover.doubles(group + "/movers/force"), 2, 1, 3), force) << label;
     EXPECT_GT(largest_of(force), 0.1) << label;
-    EXPECT_EQ(mover_column(mover.doubles(group + "/movers/torque"), 2, 1, 3),
-              plain.doubles(group + "/torque"));
+    expect_same_but_rounding(mover_column(mover.doubles(group + "/movers/force"), 2, 1, 3), force, label);
+    expect_same_but_rounding(mover_column(mover.doubles(group + "/movers/torque"), 2, 1, 3),
+                             plain.doubles(group + "/torque"), label);
     EXPECT_EQ(largest_of(mover.doubles(group + "/force")), 0.0);
-    for (const char* name : {"distance", "point_moving", "point_fixed"})
-      EXPECT_EQ(mover.doubles(group + "/lmds/" + name), plain.doubles(group + "/lmds/" + name)) << label;
+    for (const char* name : {"distance", "point_moving", "point_fixed", "direction"})
+      expect_same_but_rounding(mover.doubles(group + "/lmds/" + name), plain.doubles(group + "/lmds/" + name),
+                               label + " " + name);
     EXPECT_THAT(mover.integers(group + "/lmds/moving_body"), Each(1));
     EXPECT_EQ(mover.integers(group + "/lmds/fixed_body"), plain.integers(group + "/lmds/fixed_body"));
     EXPECT_EQ(mover.integers(group + "/lmd_count"), plain.integers(group + "/lmd_count"));
-    EXPECT_EQ(mover.doubles(group + "/truth/force_error"), plain.doubles(group + "/truth/force_error"));
-    EXPECT_EQ(mover.doubles(group + "/truth/recall_adjacent"),
-              plain.doubles(group + "/truth/recall_adjacent"));
+    expect_same_but_rounding({mover.doubles(group + "/truth/force_error").back() + 1.0,
+                              mover.doubles(group + "/truth/recall").back(),
+                              mover.doubles(group + "/truth/recall_adjacent").back()},
+                             {plain.doubles(group + "/truth/force_error").back() + 1.0,
+                              plain.doubles(group + "/truth/recall").back(),
+                              plain.doubles(group + "/truth/recall_adjacent").back()},
+                             label + " truth");
   }
   EXPECT_EQ(mover.bytes("/scene/in_contact"), plain.bytes("/scene/in_contact"));
 }
@@ -193,7 +210,7 @@ TEST(Movers, OfAPairEachPushesTheOtherAsItIsPushed) {
   const std::string beside = R"({"mesh":"cube","diagonal_m":0.05,"pose":{"translation_m":[1.0,0.002,0.001]},)"
                              R"("path":{"way_diagonals":0.05,"turn_rad":0.2,"period_s":0.05}})";
   // Far from the torus: the two have nothing but each other.
-  const std::string path = scratch.write("path.tum", "0 1.049 0 0 0 0 0 1\n1 1.049 0 0 0 0 0 1\n");
+  const std::string path = scratch.write("path.tum", "0 1.046 0 0 0 0 0 1\n1 1.046 0 0 0 0 0 1\n");
   run_movers(movers_scene({beside}, {"/path/file=" + path, "/device=ideal"}), scratch / "two.h5");
   const OpenResult file(scratch / "two.h5");
   const std::vector<double> forces = file.doubles("/methods/certified/movers/force"),
