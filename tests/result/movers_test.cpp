@@ -9,6 +9,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 #include <record/result_reading.h>
 #include <result/deterministic_datasets.h>
 #include <support/committed.h>
@@ -18,6 +19,8 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
+#include <filesystem>
 #include <fstream>
 #include <numeric>
 #include <string>
@@ -298,7 +301,7 @@ TEST(Movers, AnInterruptedRunGoesOnToTheSameBits) {
   EXPECT_EQ(deterministic_datasets(scratch / "whole.h5"), deterministic_datasets(scratch / "again.h5"));
 }
 
-TEST(Movers, ExportWritesThemAllAndTheViewSaysThatItDrawsOne) {
+TEST(Movers, ExportAndTheViewHaveThemAll) {
   const ScratchDirectory scratch;
   run_movers(movers_scene({BLOBS, BALL}), scratch / "result.h5");
   const ResultReader result(scratch / "result.h5");
@@ -308,8 +311,16 @@ TEST(Movers, ExportWritesThemAllAndTheViewSaysThatItDrawsOne) {
   std::ifstream stream(scratch / "vtk" / "forces-movers" / "000000.vtu");
   const std::string text((std::istreambuf_iterator<char>(stream)), {});
   EXPECT_THAT(text, AllOf(HasSubstr("NumberOfPoints=\"7\""), HasSubstr("force of certified [N]")));
-  EXPECT_THAT(message_of<UsageError>([&] { write_report_scene(result, scratch / "view"); }),
-              AllOf(HasSubstr("one mesh that moves"), HasSubstr("lmdbench export")));
+  std::filesystem::create_directory(scratch / "view");
+  write_report_scene(result, scratch / "view");
+  for (const char* name : {"moving.off", "fixed_0.off", "mover_0.off", "mover_1.off"})
+    EXPECT_TRUE(std::filesystem::exists(scratch / "view" / name)) << name;
+  // The exact sets of all pairs.
+  std::ifstream lines(scratch / "view" / "lmds.jsonl");
+  const auto count = result.integers("/methods/certified/lmd_count");
+  std::string line;
+  for (std::size_t frame = 0; std::getline(lines, line); ++frame)
+    EXPECT_EQ(static_cast<std::int64_t>(nlohmann::json::parse(line)["lmds"].size()), count[frame]) << frame;
   EXPECT_THAT(message_of<UsageError>([&] { scene_of_result(result); }), HasSubstr("/movers/0"));
 }
 
