@@ -51,6 +51,11 @@ constexpr const char* CUBE =
     R"({"mesh":"cube","diagonal_m":0.04,"pose":{"translation_m":[-0.027,-0.027,0.0345]},)"
     R"("path":{"period_s":0.05}})";
 
+/// On top of the other one.
+constexpr const char* SECOND_CUBE =
+    R"({"mesh":"cube","diagonal_m":0.04,"pose":{"translation_m":[-0.027,-0.027,0.063]},)"
+    R"("path":{"period_s":0.07,"seed":2}})";
+
 /// A small blob along a torus, with these movers.
 Experiment movers_scene(const std::vector<std::string>& entries, std::vector<Override> overrides = {},
                         const std::string& methods = R"([{"name":"improved"},{"name":"certified"}])") {
@@ -182,25 +187,31 @@ TEST(Movers, AllPairsAgreeWithTruthAndWithFcl) {
 
 TEST(Movers, TheirOrderInTheFileIsOnlyTheirNumbering) {
   const ScratchDirectory scratch;
-  run_movers(movers_scene({BLOBS, BALL, CUBE}), scratch / "abc.h5");
-  run_movers(movers_scene({CUBE, BLOBS, BALL}), scratch / "cab.h5");
+  run_movers(movers_scene({BLOBS, BALL, CUBE, SECOND_CUBE}), scratch / "abc.h5");
+  run_movers(movers_scene({SECOND_CUBE, CUBE, BLOBS, BALL}), scratch / "cab.h5");
   const OpenResult abc(scratch / "abc.h5"), cab(scratch / "cab.h5");
   // Of the second file, where the movers of the first are.
-  const std::vector<std::size_t> place{0, 2, 3, 4, 5, 6, 7, 1};
+  const std::vector<std::size_t> place{0, 3, 4, 5, 6, 7, 8, 2, 1};
   for (const std::string label : {"improved", "certified"})
     for (const auto& [name, width] :
          {std::pair{"force", 3}, std::pair{"torque", 3}, std::pair{"minimum_distance", 1}}) {
       const std::string path = "/methods/" + label + "/movers/" + name;
-      for (std::size_t mover = 0; mover < 8; ++mover) {
+      for (std::size_t mover = 0; mover < 9; ++mover) {
         const auto w = static_cast<std::size_t>(width);
-        std::vector<double> a = mover_column(abc.doubles(path), 8, mover, w),
-                            b = mover_column(cab.doubles(path), 8, place[mover], w);
+        std::vector<double> a = mover_column(abc.doubles(path), 9, mover, w),
+                            b = mover_column(cab.doubles(path), 9, place[mover], w);
         for (std::vector<double>* values : {&a, &b})
           std::ranges::replace_if(
               *values, [](double x) { return std::isnan(x); }, -1.0);
         EXPECT_EQ(a, b) << path << " of mover " << mover;
       }
     }
+  // Two of one mesh change their places in the file, and are in contact.
+  const auto moving = abc.integers("/methods/certified/lmds/moving_body"),
+             other = abc.integers("/methods/certified/lmds/fixed_body");
+  std::size_t between = 0;
+  for (std::size_t i = 0; i < moving.size(); ++i) between += moving[i] == 7 && other[i] == 1 + 8 ? 1 : 0;
+  EXPECT_GT(between, 10u);
   for (const std::string label : {"improved", "certified"})
     EXPECT_EQ(abc.text_attribute("/methods/" + label, "result_hash"),
               cab.text_attribute("/methods/" + label, "result_hash"));
