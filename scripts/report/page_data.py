@@ -57,6 +57,15 @@ def force_panel(result, colours):
     return {"id": "force", "title": "Force", "unit": "N", "series": lines}
 
 
+def movers_panel(result, colours):
+    lines = []
+    for method in result.methods.values():
+        if method.has("movers/force"):
+            lengths = np.linalg.norm(method.read("movers/force"), axis=2)
+            lines.append(series(method.label, lengths.max(axis=1), colours[method.label]))
+    return {"id": "movers", "title": "Largest force on any mover", "unit": "N", "series": lines} if lines else None
+
+
 def count_panel(result, colours):
     lines = [series(method.label, method.read("lmd_count"), colours[method.label], steps=True)
              for method in result.methods.values()]
@@ -99,7 +108,7 @@ def recall_panel(result, colours):
     return {"id": "recall", "title": title, "unit": "%", "series": lines} if lines else None
 
 
-PANELS = (force_panel, count_panel, search_panel, update_panel, age_panel, recall_panel)
+PANELS = (force_panel, movers_panel, count_panel, search_panel, update_panel, age_panel, recall_panel)
 
 
 def page_colours(result):

@@ -31,6 +31,7 @@ function decoded_track(track) {
   const sets = (packed) => ({offset: packed.offset, rows: floats(packed.rows)});
   const each = (object, decode) => Object.fromEntries(Object.entries(object).map(([name, value]) => [name, decode(value)]));
   return {...track, time: floats(track.time), position: floats(track.position), orientation: floats(track.orientation),
+          movers: track.movers.map((mover) => ({...mover, position: floats(mover.position), orientation: floats(mover.orientation)})),
           exact: sets(track.exact), own: each(track.own, sets), forces: each(track.forces, floats)};
 }
 // LMDs of a frame: [point on the moving mesh, point on the fixed mesh, distance].
@@ -77,6 +78,16 @@ class View {
       const material = new THREE.MeshLambertMaterial({color: MESH_COLOURS[i % MESH_COLOURS.length], transparent: fixed,
                                                       opacity: fixed ? 0.6 : 1});
       const body = new THREE.Mesh(mesh_geometry(mesh, this.data.meshes), material);
+      if (!mesh.role.startsWith("mover_")) this.scene.add(body);
+      return body;
+    });
+    // The mesh of an entry of movers is drawn once a mover.
+    const roles = this.data.meshes.map((mesh) => mesh.role);
+    this.movers = this.tracks[0].movers.map((mover) => {
+      const {geometry, material} = this.bodies[roles.indexOf(mover.role)];
+      material.transparent = false;
+      material.opacity = 1;
+      const body = new THREE.Mesh(geometry, material);
       this.scene.add(body);
       return body;
     });
@@ -175,6 +186,10 @@ class View {
     this.moving.position.fromArray(track.position, 3 * index);
     this.moving.quaternion.fromArray(track.orientation, 4 * index);
     this.moving.updateMatrixWorld(true);
+    this.movers.forEach((body, i) => {
+      body.position.fromArray(track.movers[i].position, 3 * index);
+      body.quaternion.fromArray(track.movers[i].orientation, 4 * index);
+    });
     for (const mark of this.marks.children) mark.traverse((part) => { if (part.geometry) part.geometry.dispose(); });
     this.marks.remove(...this.marks.children);
     const exact = lmds_of(track.exact, index);

@@ -54,6 +54,17 @@ def polylines_json(result, group, frames):
             if frame in recorded else [] for frame in frames]
 
 
+def movers_json(result, frames):
+    """What moves beside the moving mesh: the role of its mesh, and where it is at the frames."""
+    if not result.has("/path/movers/position"):
+        return []
+    position, orientation = (result.read(f"/path/movers/{name}")[frames] for name in ("position", "orientation"))
+    entries = [group.attrs for role, group in sorted(result.h5["/scene"].items(), key=lambda item: (len(item[0]), item[0])) if role.startswith("mover_")]
+    return [{"role": f"mover_{entry}", "position": packed(position[:, mover]), "orientation": packed(orientation[:, mover])}
+            for entry, attributes in enumerate(entries)
+            for mover in range(attributes["first_mover"], attributes["first_mover"] + attributes["movers"])]
+
+
 def track_json(result, label, entries):
     """What one slider steps through: the shared path, or in a closed loop the poses of one method's device."""
     frames = [entry["frame"] for entry in entries]
@@ -65,6 +76,7 @@ def track_json(result, label, entries):
     return {"label": label, "frames": frames, "time": packed(result.time[frames]),
             "position": packed(result.read(f"{group}/path/position")[frames]), "orientation": packed(result.read(f"{group}/path/orientation")[frames]),
             "exact": sets_json([[[*lmd["point_moving"], *lmd["point_fixed"], lmd["distance"]] for lmd in entry["lmds"]] for entry in entries]),
+            "movers": movers_json(result, frames),
             "own": {name: sets for name, sets in own.items() if sets}, "polylines": polylines_json(result, curves, frames),
             "forces": {method.label: packed(method.read("force")[frames]) for method in methods}}
 

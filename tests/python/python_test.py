@@ -350,10 +350,26 @@ class Results(Files):
         for name in ("lmd_count_median", "candidates_median", "recall", "force_error_rms_n"):
             self.assertEqual(summary.loc["improved", name], told["improved"][name])
         self.assertEqual(summary.attrs["units"]["force_error_rms_n"], "N")
+        self.assertTrue(result.movers("improved").empty)
         with self.assertRaisesRegex(lmdbench.InputError, "has no method 'best'"):
             result.frames("best")
         with self.assertRaisesRegex(lmdbench.InputError, "is no sweep"):
             lmdbench.open_sweep(self.path("shapes.h5"))
+
+    def test_movers_of_a_run(self):
+        done = self.program("-q", "run", os.path.join(ROOT, "experiments", "movers.json"), "--out", "movers.h5", "--set", "/frames=20",
+                            "--set", "/driver/repetitions=1", "--set", "/probes/fcl/stride_frames=0", "--set", "/probes/truth/stride_frames=0")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        result = lmdbench.open_result(self.path("movers.h5"))
+        movers = result.movers("certified")
+        self.assertEqual(len(movers), 20 * 26)
+        h5 = result.result.h5
+        row = movers[(movers["frame"] == 7) & (movers["mover"] == 3)].iloc[0]
+        np.testing.assert_array_equal(row[["force_x", "force_y", "force_z"]], h5["/methods/certified/movers/force"][7, 3])
+        np.testing.assert_array_equal(row[["position_x", "position_y", "position_z"]], h5["/path/movers/position"][7, 3])
+        self.assertEqual(row["lmd_count"], h5["/methods/certified/movers/lmd_count"][7, 3])
+        self.assertEqual(movers.attrs["units"]["torque_y"], "N m")
+        self.assertIn("moving_body", result.lmds("certified"))
 
     def test_files_of_every_format_version(self):
         for version in (1, 2):

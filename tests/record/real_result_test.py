@@ -133,12 +133,13 @@ class RealResultTest(unittest.TestCase):
 
     @classmethod
     def special(cls):
-        """A closed loop, a run in real time, a law that counts LMDs without an index, meshes that deform."""
+        """A closed loop, a run in real time, a law that counts LMDs without an index, meshes that deform, several that move."""
         return [cls.committed("wall", "--set", "/frames=20", "--set", "/probes/truth/stride_frames=5"),
                 cls.committed("shapes", "--driver", "realtime", "--set", "/frames=100"),
                 cls.committed("shapes", "--set", "/frames=20", "--set", '/methods=[{"name": "certified"}]',
                               "--set", "/force/aggregation=shared"),
-                cls.committed("deforming", "--set", "/frames=20")]
+                cls.committed("deforming", "--set", "/frames=20"),
+                cls.committed("movers", "--set", "/frames=60", "--set", "/driver/repetitions=2")]
 
     def printed(self, main, *arguments):
         stream = io.StringIO()

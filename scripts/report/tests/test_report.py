@@ -156,6 +156,19 @@ class Scene(unittest.TestCase):
         self.assertEqual(track["own"]["improved"]["offset"], [0, 1, 2, 3])
         np.testing.assert_allclose(decoded(track["own"]["improved"]["rows"]).reshape(-1, 7)[:, 6], [0, 100, 200])
 
+    def test_shows_every_mover_at_its_poses(self):
+        def record(h5):
+            movers = h5.create_group("path/movers")
+            movers["position"] = np.arange(300 * 4 * 3.0).reshape(300, 4, 3)
+            movers["orientation"] = np.tile([0.0, 0.0, 0.0, 1.0], (300, 4, 1))
+            for entry, (first, count) in enumerate([(1, 2), (3, 1)]):
+                group = h5.require_group(f"scene/mover_{entry}")
+                group.attrs["first_mover"], group.attrs["movers"] = first, count
+        (track,) = self.made(record)["tracks"]
+        self.assertEqual([mover["role"] for mover in track["movers"]], ["mover_0", "mover_0", "mover_1"])
+        np.testing.assert_allclose(decoded(track["movers"][1]["position"])[3:6], [1206, 1207, 1208])  # frame 100, mover 2
+        self.assertEqual(self.made()["tracks"][0]["movers"], [])
+
     def test_shows_curves_at_their_frames(self):
         def record(h5):
             cut = h5.create_group("polylines")

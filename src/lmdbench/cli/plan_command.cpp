@@ -9,6 +9,7 @@
 #include <lmdbench/methods/registry.h>
 #include <lmdbench/run/deforming_distance.h>
 #include <lmdbench/run/expected_times.h>
+#include <lmdbench/run/mover_probe.h>
 #include <lmdbench/run/plan.h>
 #include <lmdbench/run/prepare.h>
 
@@ -57,7 +58,9 @@ void add_plan_command(CLI::App& app) {
         Deforming::FOLLOWED);
     Plan plan = make_plan(experiment);
     const std::vector<bool> in_contact =
-        frames_in_contact(prepared.scene(), prepared.input.deformation, prepared.input.poses);
+        prepared.input.movers
+            ? frames_in_contact(*prepared.input.movers, prepared.scene().cutoff)
+            : frames_in_contact(prepared.scene(), prepared.input.deformation, prepared.input.poses);
     plan.scene = look_at(experiment, prepared, in_contact);
     plan.rules =
         decide_rules({experiment, prepared.input.poses, in_contact, truth_frames(experiment, prepared)});

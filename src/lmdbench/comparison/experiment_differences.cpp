@@ -37,6 +37,12 @@ nlohmann::json deciding_part(const ResultReader& file) {
   };
   tell_rigid(experiment["moving"]);
   if (experiment["fixed"].is_array()) std::ranges::for_each(experiment["fixed"], tell_rigid);
+  // No movers, as in files from before there were any, is another scene than some.
+  nlohmann::json& movers = experiment["movers"];
+  if (movers.is_array())
+    for (nlohmann::json& mover : movers)
+      if (mover.is_object() && mover["path"].is_object() && mover["path"].erase("file") > 0)
+        mover["path"]["file"] = true;
   nlohmann::json by_label = nlohmann::json::object();
   for (const nlohmann::json& method : experiment["methods"])
     if (method.is_object()) by_label[method.value("label", method.value("name", ""))] = method;

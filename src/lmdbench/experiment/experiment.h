@@ -15,6 +15,7 @@
 #include <lmdbench/mesh/placement.h>
 #include <lmdbench/mesh/planar_tolerance.h>
 #include <lmdbench/motion/interpolate.h>
+#include <lmdbench/motion/sway.h>
 
 #include <nlohmann/json.hpp>
 
@@ -42,6 +43,16 @@ struct MeshChoice {
   /// Of a fixed mesh: how many of it stand where, about `pose`. The mesh then stays in its own frame.
   std::optional<InstanceChoice> instances;
   std::optional<MeshDeformation> deformation;  ///< Unset: the mesh is rigid.
+};
+
+/// An entry of `/movers`: a mesh that moves beside the moving one, or several instances of it.
+struct MoverChoice {
+  std::string place;  ///< JSON pointer of the entry.
+  MeshChoice mesh;    ///< Stays in its own frame; its pose and instances are where its paths are.
+  std::filesystem::path path_file;  ///< Empty: it sways.
+  Interpolation interpolation = Interpolation::CUBIC;
+  double gap_intervals = 0.0;
+  Sway sway;
 };
 
 /// Constants of the force profile (decision E8: the paper states none of them). Some are relative to the
@@ -97,6 +108,7 @@ struct Experiment {
   std::filesystem::path mesh_folder;  ///< Where the mesh manifest is.
   MeshChoice moving;
   std::vector<MeshChoice> fixed;
+  std::vector<MoverChoice> movers;  ///< Beside `moving`; mostly none.
   std::filesystem::path path_file;  ///< Empty: the path is made for the scene (`grazing_path`).
   Interpolation interpolation = Interpolation::CUBIC;
   double gap_intervals = 0.0;  ///< See PathInterpolator.
@@ -149,6 +161,13 @@ Experiment parse_experiment(const std::string& text, const std::filesystem::path
 
 /// @throws UsageError naming the place, where a mesh deforms: for what looks at meshes at rest alone
 void refuse_deformation(const Experiment& experiment);
+
+/// @throws UsageError naming the place, where there are movers beside the moving mesh: for what looks at one mesh that moves
+void refuse_movers(const Experiment& experiment);
+
+/// What does not go together with movers.
+/// @throws UsageError naming the place
+void check_movers(const Experiment& experiment);
 
 /// @throws UsageError naming the profile, where one has an aggregation that needs critical pairs
 void refuse_critical_pairs(const Experiment& experiment, const std::string& file, const std::string& problem,

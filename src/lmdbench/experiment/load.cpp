@@ -85,6 +85,27 @@ ForceChoice force_choice(const Json& entry, const std::string& place, const std:
   return force;
 }
 
+MoverChoice mover_choice(const Json& entry, const std::string& place, const std::filesystem::path& file) {
+  const Json& path = entry["path"];
+  MoverChoice mover{place, mesh_choice(entry, place, file.string()), {}, Interpolation::CUBIC, 0.0, {}};
+  mover.mesh.pose = pose_of(entry["pose"], place + "/pose", file.string());
+  if (entry.contains("instances"))
+    mover.mesh.instances = read_instance_choice(entry["instances"], place + "/instances", file);
+  if (path.contains("file"))
+    mover.path_file = (file.parent_path() / path["file"].get<std::string>()).lexically_normal();
+  mover.interpolation = path["interpolation"] == "linear" ? Interpolation::LINEAR : Interpolation::CUBIC;
+  mover.gap_intervals = path["gap_intervals"].get<double>();
+  for (const char* key : {"way_diagonals", "turn_rad", "period_s", "seed"})
+    if (path.contains("file") && path.contains(key))
+      throw UsageError(file.string(), fmt::format("{}/path/{}", place, key),
+                       "a path from a file does not sway", "give either \"file\" or how it sways");
+  mover.sway.way_diagonals = path.value("way_diagonals", mover.sway.way_diagonals);
+  mover.sway.turn_rad = path.value("turn_rad", mover.sway.turn_rad);
+  mover.sway.period_s = path.value("period_s", mover.sway.period_s);
+  mover.sway.seed = path.value("seed", mover.sway.seed);
+  return mover;
+}
+
 /// `/force`: one profile, or a list of named ones.
 std::vector<ForceChoice> force_choices(const Json& entry, const std::string& file) {
   if (entry.is_object()) return {force_choice(entry, "/force", file)};
@@ -178,6 +199,8 @@ Experiment from_json(Json document, const std::filesystem::path& path) {
       experiment.fixed.back().instances = read_instance_choice(document["fixed"][i]["instances"],
                                                                fmt::format("/fixed/{}/instances", i), path);
   }
+  for (std::size_t i = 0; i < document["movers"].size(); ++i)
+    experiment.movers.push_back(mover_choice(document["movers"][i], fmt::format("/movers/{}", i), path));
   if (document["path"].contains("file"))
     experiment.path_file =
         (path.parent_path() / document["path"]["file"].get<std::string>()).lexically_normal();
@@ -243,6 +266,8 @@ Experiment from_json(Json document, const std::filesystem::path& path) {
   if (experiment.is_world() && experiment.path_file.empty())
     throw UsageError(file, "/path/file", "no path is made among instances", "name a path (paths/README.md)");
   check_deformations(experiment, file);
+  check_movers(experiment);
+  if (experiment.movers.empty()) document.erase("movers");  // as the files from before there were any
   experiment.resolved_json = document.dump(2);
   return experiment;
 }

@@ -14,16 +14,22 @@ namespace lmdbench {
 namespace {
 
 constexpr const char* DEFORMS = "a mesh deforms: the same pose is not the same scene";
+constexpr const char* SEVERAL_MOVE = "several meshes move: the same pose of one is not the same scene";
 
 RuleVerdict shared_mesh(const RuleFacts& facts) {
   for (std::size_t i = 0; i < facts.experiment.fixed.size(); ++i)
     if (same_body(facts.experiment, i))
       return {true, fmt::format("the moving mesh and fixed_{} are {}, placed alike", i,
                                 facts.experiment.moving.mesh)};
+  for (const MoverChoice& mover : facts.experiment.movers)
+    if (same_mesh(facts.experiment.moving, mover.mesh))
+      return {true, fmt::format("the moving mesh and that of {} are {}", mover.place,
+                                facts.experiment.moving.mesh)};
   return {false, "no fixed mesh is the moving one, placed alike and unmoved"};
 }
 
 RuleVerdict contact_forecast(const RuleFacts& facts) {
+  if (!facts.experiment.movers.empty()) return {false, SEVERAL_MOVE};
   if (facts.poses.size() < 2) return {false, "the path has one frame"};
   return {true, fmt::format("{} frames follow one another", facts.poses.size())};
 }
@@ -59,6 +65,7 @@ RuleVerdict repeated_pose(const RuleFacts& facts) {
       probed_frames(static_cast<std::int64_t>(facts.poses.size()), facts.experiment.fcl_stride_frames);
   if (facts.truth_frames.empty() && fcl_frames.empty()) return {false, "no frame is probed"};
   if (facts.experiment.deforms()) return {false, DEFORMS};
+  if (!facts.experiment.movers.empty()) return {false, SEVERAL_MOVE};
   // What a closed loop's encoders will tell nobody knows, but they count in steps.
   if (facts.experiment.loop.closed) {
     const bool steps = facts.experiment.loop.resolution_m > 0.0;
@@ -80,6 +87,7 @@ RuleVerdict repeated_pose(const RuleFacts& facts) {
 RuleVerdict warm_crosscheck(const RuleFacts& facts) {
   if (facts.experiment.fcl_stride_frames == 0) return {false, "nothing is compared with FCL"};
   if (facts.experiment.deforms()) return {false, DEFORMS};
+  if (!facts.experiment.movers.empty()) return {false, SEVERAL_MOVE};
   return {true,
           fmt::format("minimum distances every {} frames of one path", facts.experiment.fcl_stride_frames)};
 }

@@ -6,6 +6,7 @@
 #include <lmdbench/methods/registry.h>
 #include <lmdbench/result/result_scene.h>
 #include <lmdbench/run/prepare.h>
+#include <lmdbench/run/prepare_movers.h>
 #include <lmdbench/world/broad_phase.h>
 
 #include <algorithm>
@@ -28,6 +29,7 @@ void use_recorded_files(Experiment& experiment, const ResultReader& result) {
   const std::vector<std::string> hashes = result.texts("/provenance/inputs/sha256");
   std::vector<MeshChoice*> choices{&experiment.moving};
   for (MeshChoice& fixed : experiment.fixed) choices.push_back(&fixed);
+  for (MoverChoice& mover : experiment.movers) choices.push_back(&mover.mesh);
   for (std::size_t i = 0; i < roles.size(); ++i) {
     if (!roles[i].starts_with(MESH_ROLE)) continue;
     if (sha256_of_file(files[i]) != hashes[i])
@@ -77,6 +79,29 @@ void check_vertex_files(const std::vector<MeshNote>& notes, const ResultReader& 
   }
 }
 
+/// Movers with the poses that the result has of them.
+std::shared_ptr<const MoverPlay> recorded_play(const LoadedMovers& loaded, const Scene& scene,
+                                               const ResultReader& result) {
+  if (loaded.movers.empty()) return nullptr;
+  const std::vector<double> p = result.reals("/path/movers/position");
+  const std::vector<double> q = result.reals("/path/movers/orientation");
+  const std::size_t movers = loaded.movers.size(), rows = p.size() / 3;
+  if (rows == 0 || rows % movers != 0 || q.size() != 4 * rows)
+    throw InputError(result.file().string(), "/path/movers", "has not one pose a mover and frame",
+                     "run the experiment again");
+  std::vector<std::shared_ptr<const Body>> bodies;
+  std::vector<std::string> names;
+  std::vector<std::vector<Pose>> poses(movers);
+  for (const LoadedMovers::Mover& mover : loaded.movers) {
+    bodies.push_back(mover.body);
+    names.push_back(mover.name);
+  }
+  for (std::size_t i = 0; i < rows; ++i)
+    poses[i % movers].push_back({Vec3(p[3 * i], p[3 * i + 1], p[3 * i + 2]),
+                                 Eigen::Quaterniond(q[4 * i + 3], q[4 * i], q[4 * i + 1], q[4 * i + 2])});
+  return std::make_shared<const MoverPlay>(make_play(bodies, names, scene.fixed, poses));
+}
+
 ResultScene scene_of_experiment(Experiment experiment, const ResultReader& result) {
   use_recorded_files(experiment, result);
   std::vector<MeshNote> notes;
@@ -87,7 +112,8 @@ ResultScene scene_of_experiment(Experiment experiment, const ResultReader& resul
     scene.cutoff =
         std::max(scene.cutoff, result.real_attribute("/methods/" + label, "cutoff_m").value_or(0.0));
   const auto frames = static_cast<std::int64_t>(result.reals("/path/time").size());
-  return {scene, deformation_of(scene, notes, frames)};
+  const auto deformation = deformation_of(scene, notes, frames);
+  return {scene, deformation, recorded_play(load_movers(experiment, scene, notes), scene, result)};
 }
 
 }  // namespace
@@ -95,6 +121,7 @@ ResultScene scene_of_experiment(Experiment experiment, const ResultReader& resul
 Scene scene_of_result(const ResultReader& result) {
   Experiment experiment = experiment_of_result(result);
   refuse_deformation(experiment);
+  refuse_movers(experiment);
   return scene_of_experiment(std::move(experiment), result).rest;
 }
 
@@ -146,12 +173,25 @@ TriangleMesh placed_mesh(const FixedBody& fixed) {
   return mesh;
 }
 
-std::unique_ptr<Method> exact_method(const Scene& scene) {
+namespace {
+
+const MethodDescription& exact_description() {
   for (const MethodDescription& description : method_descriptions())
-    if (description.promise == Promise::COMPLETE_SET && !description.brute_force)
-      return make_method(description.name, scene);
+    if (description.promise == Promise::COMPLETE_SET && !description.brute_force) return description;
   throw EnvironmentError("", "", "this build has no method that is complete in every frame",
                          "build all methods");
+}
+
+}  // namespace
+
+std::unique_ptr<Method> exact_method(const Scene& scene) {
+  return make_method(exact_description().name, scene);
+}
+
+std::unique_ptr<Method> exact_method(const MoverScene& scene,
+                                     std::shared_ptr<const std::vector<Pose>> poses) {
+  const MethodDescription& exact = exact_description();
+  return make_among_movers(scene, std::move(poses), exact, method_maker(exact.name));
 }
 
 }  // namespace lmdbench

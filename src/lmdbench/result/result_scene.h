@@ -6,6 +6,7 @@
 #include <lmdbench/lmd/scene.h>
 #include <lmdbench/motion/path.h>
 #include <lmdbench/record/result_reader.h>
+#include <lmdbench/run/mover_play.h>
 #include <lmdbench/run/scene_deformation.h>
 
 #include <cstddef>
@@ -18,13 +19,15 @@ namespace lmdbench {
 
 /// The meshes of a result as they stood in the scene, under the largest cutoff of its methods.
 /// @throws InputError where a mesh is not to be had any more or is no longer what was run; UsageError where the result's
-/// experiment is none, or a mesh of it deforms
+/// experiment is none, a mesh of it deforms, or several move
 Scene scene_of_result(const ResultReader& result);
 
 /// The same with how its bodies deform; null where none does.
 struct ResultScene {
   Scene rest;
   std::shared_ptr<const SceneDeformation> deformation;
+  std::shared_ptr<const MoverPlay> movers =
+      nullptr;  ///< Where several meshes move: with the poses that the result has.
 };
 ResultScene deforming_scene_of_result(const ResultReader& result);
 
@@ -48,6 +51,9 @@ std::vector<std::size_t> drawn_bodies(const Scene& scene, const std::vector<Resu
 
 /// The mesh in the world frame.
 TriangleMesh placed_mesh(const FixedBody& fixed);
+
+/// The same of several movers, whose poses the caller sets.
+std::unique_ptr<Method> exact_method(const MoverScene& scene, std::shared_ptr<const std::vector<Pose>> poses);
 
 /// The method whose sets are the truth at a price that every frame can pay.
 std::unique_ptr<Method> exact_method(const Scene& scene);

@@ -3,6 +3,7 @@
 #include <lmdbench/force/aggregation.h>
 #include <lmdbench/methods/registry.h>
 #include <lmdbench/metrics/summary.h>
+#include <lmdbench/result/write_movers.h>
 #include <lmdbench/result/write_polylines.h>
 #include <lmdbench/result/write_realtime.h>
 #include <lmdbench/result/write_result.h>
@@ -118,13 +119,24 @@ void write_truth(ResultWriter& writer, const std::string& group, const std::vect
          [](Row r) { return r.force_jump; });
 }
 
-void write_lmd_lists(ResultWriter& writer, const std::string& group, const MethodRecord& record) {
-  std::vector<std::int64_t> offsets{0};
+/// @param play of several movers; else null
+void write_lmd_lists(ResultWriter& writer, const std::string& group, const MethodRecord& record,
+                     const MoverPlay* play) {
+  std::vector<std::int64_t> offsets{0}, moving_bodies;
   LmdSet rows;
   for (std::int64_t frame = 0; frame < static_cast<std::int64_t>(record.frames.size()); ++frame) {
     const LmdSet& lmds = record.lmds.at(frame);
     rows.insert(rows.end(), lmds.begin(), lmds.end());
     offsets.push_back(static_cast<std::int64_t>(rows.size()));
+  }
+  if (play != nullptr) {
+    for (Lmd& lmd : rows) {
+      const FiledLmd filed = as_filed(lmd, *play);
+      lmd = filed.lmd;
+      moving_bodies.push_back(filed.moving_body);
+    }
+    writer.write({group + "/moving_body", "1", "which of the movers; 0: the moving mesh"},
+                 std::span<const std::int64_t>(moving_bodies), {moving_bodies.size()});
   }
   writer.write({group + "/frame_offset", "1", "frame f owns rows frame_offset[f] to frame_offset[f + 1] - 1"},
                std::span<const std::int64_t>(offsets), {offsets.size()});
@@ -146,7 +158,9 @@ void write_lmd_lists(ResultWriter& writer, const std::string& group, const Metho
          [](const Lmd& l) { return static_cast<std::int64_t>(l.feature_fixed.kind); });
   column("feature_fixed_index", "1", "index of the feature in its mesh",
          [](const Lmd& l) { return static_cast<std::int64_t>(l.feature_fixed.index); });
-  column("fixed_body", "1", "which of the fixed meshes",
+  column("fixed_body", "1",
+         play != nullptr ? "which of the fixed meshes, from their number on which of the movers"
+                         : "which of the fixed meshes",
          [](const Lmd& l) { return std::int64_t{l.fixed_body}; });
 }
 
@@ -190,7 +204,31 @@ void write_in_contact(ResultWriter& writer, const std::string& group, const std:
                std::span<const std::uint8_t>(flags), {flags.size()});
 }
 
-void write_fcl(ResultWriter& writer, const std::string& group, const FclCheck& check, double tolerance) {
+/// Exceptions of several movers as files name their bodies.
+/// @param moving_bodies receives the mover of each
+std::vector<FclException> filed_exceptions(const FclCheck& check, const MoverPlay& play,
+                                           std::vector<std::int64_t>& moving_bodies) {
+  std::vector<FclException> exceptions = check.exceptions;
+  for (FclException& exception : exceptions) {
+    Lmd pair;
+    pair.fixed_body = exception.fixed_body;
+    pair.triangle_moving = exception.triangle_moving;
+    pair.triangle_fixed = exception.triangle_fixed;
+    const FiledLmd filed = as_filed(pair, play);
+    exception.fixed_body = filed.lmd.fixed_body;
+    exception.triangle_moving = filed.lmd.triangle_moving;
+    exception.triangle_fixed = filed.lmd.triangle_fixed;
+    moving_bodies.push_back(filed.moving_body);
+    const auto mover = std::ranges::find(play.number, static_cast<std::size_t>(filed.moving_body));
+    exception.pose = play.poses[static_cast<std::size_t>(exception.frame)]
+                               [static_cast<std::size_t>(mover - play.number.begin())];
+  }
+  return exceptions;
+}
+
+/// @param play of several movers; else null
+void write_fcl(ResultWriter& writer, const std::string& group, const FclCheck& check, double tolerance,
+               const MoverPlay* play) {
   writer.attribute(group, "tolerance_relative", tolerance);
   const auto column = [&](const std::string& name, const std::string& units, const std::string& long_name,
                           auto project) {
@@ -206,13 +244,19 @@ void write_fcl(ResultWriter& writer, const std::string& group, const FclCheck& c
   column("agrees", "1", "1 where the two agree", [](const FclFrame& f) { return f.agrees; });
 
   const std::string exceptions = group + "/exceptions";
+  std::vector<std::int64_t> moving_bodies;
+  const std::vector<FclException> filed =
+      play != nullptr ? filed_exceptions(check, *play, moving_bodies) : check.exceptions;
+  if (play != nullptr)
+    writer.write({exceptions + "/moving_body", "1", "mover of FCL's nearest pair"},
+                 std::span<const std::int64_t>(moving_bodies), {moving_bodies.size()});
   const auto exception = [&](const std::string& name, const std::string& units, const std::string& long_name,
                              auto project) {
-    write_column(writer, {exceptions + "/" + name, units, long_name}, check.exceptions, project);
+    write_column(writer, {exceptions + "/" + name, units, long_name}, filed, project);
   };
   std::vector<std::string> who;
   std::vector<Pose> poses;
-  for (const FclException& entry : check.exceptions) {
+  for (const FclException& entry : filed) {
     who.push_back(entry.who);
     poses.push_back(entry.pose);
   }
@@ -250,7 +294,10 @@ void write_method(ResultWriter& writer, const Experiment& experiment, const RunR
   const PreparedProfile& profile = result.prepared.profiles[track.profile];
   writer.attribute(group, "profile", profile.name);
   write_profile(writer, group, profile, result.prepared.input.device);
+  const MoverPlay* movers = result.prepared.input.movers.get();
   write_frames(writer, group, choice, record, experiment);
+  if (movers != nullptr && experiment.record_frames)
+    write_mover_frames(writer, group, record, movers->count(), experiment.record_torque);
   if (method.tracks_locally) write_searches(writer, group, method, record, experiment);
   if (!track.truth.empty()) write_truth(writer, group + "/truth", track.truth, result.comparisons[index]);
   if (experiment.loop.closed) {
@@ -261,11 +308,13 @@ void write_method(ResultWriter& writer, const Experiment& experiment, const RunR
   if (!result.one_track) {
     write_in_contact(writer, experiment.loop.closed ? group + "/loop" : group, track.in_contact);
     if (!track.truth.empty()) write_reference(writer, group + "/reference", track.truth);
+    if (!track.truth.empty() && movers != nullptr)
+      write_mover_truth(writer, group + "/reference", track.truth, movers->count());
     if (track.fcl)
-      write_fcl(writer, group + "/crosscheck/fcl", *track.fcl, experiment.fcl_tolerance_relative);
+      write_fcl(writer, group + "/crosscheck/fcl", *track.fcl, experiment.fcl_tolerance_relative, movers);
     if (experiment.polyline_stride_frames > 0) write_polylines(writer, group + "/polylines", track.polylines);
   }
-  if (experiment.record_lmds) write_lmd_lists(writer, group + "/lmds", record);
+  if (experiment.record_lmds) write_lmd_lists(writer, group + "/lmds", record, movers);
   if (track.fcl) {
     const auto column = static_cast<std::size_t>(
         std::find(track.methods.begin(), track.methods.end(), index) - track.methods.begin());
@@ -286,6 +335,7 @@ void write_path(ResultWriter& writer, const RunResult& result) {
   writer.write({"/path/time", "s", "time of the haptic frame"}, std::span<const double>(prepared.times),
                {prepared.times.size()});
   write_poses(writer, "/path", prepared.input.poses);
+  if (prepared.input.movers) write_mover_poses(writer, *prepared.input.movers);
 }
 
 void write_result(ResultWriter& writer, const Experiment& experiment, const RunResult& result) {
@@ -303,8 +353,12 @@ void write_result(ResultWriter& writer, const Experiment& experiment, const RunR
   for (std::size_t i = 0; i < experiment.methods.size(); ++i) write_method(writer, experiment, result, i);
   if (result.one_track) {
     const Track& track = result.tracks.front();
+    const MoverPlay* movers = result.prepared.input.movers.get();
     if (!track.truth.empty()) write_reference(writer, "/reference", track.truth);
-    if (track.fcl) write_fcl(writer, "/crosscheck/fcl", *track.fcl, experiment.fcl_tolerance_relative);
+    if (!track.truth.empty() && movers != nullptr)
+      write_mover_truth(writer, "/reference", track.truth, movers->count());
+    if (track.fcl)
+      write_fcl(writer, "/crosscheck/fcl", *track.fcl, experiment.fcl_tolerance_relative, movers);
     if (experiment.polyline_stride_frames > 0) write_polylines(writer, "/polylines", track.polylines);
   }
   write_realtime(writer, result.clocks);

@@ -85,6 +85,10 @@ void write_scene(ResultWriter& writer, const RunResult& result) {
     writer.attribute(group, "turned_triangles", mesh.orientation.turned_triangles);
     writer.attribute(group, "validity", to_json(mesh.report).dump());
     if (!mesh.instances.empty()) write_instances(writer, group, mesh);
+    if (mesh.movers > 0) {
+      writer.attribute(group, "first_mover", mesh.first_mover);
+      writer.attribute(group, "movers", mesh.movers);
+    }
     if (mesh.vertices)
       write_deformation(writer, group, mesh, *prepared.input.deformation->find(mesh.body_index()));
   }

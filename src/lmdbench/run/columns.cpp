@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/methods/registry.h>
 #include <lmdbench/run/columns.h>
+#include <lmdbench/world/mover_method.h>
 #include <lmdbench/world/world_method.h>
 
 #include <fmt/format.h>
@@ -24,6 +25,7 @@ void add_counters(std::vector<Column<Row>>& columns, const std::string& group,
 }  // namespace
 
 MethodDescription described(const Experiment& experiment, const std::string& name) {
+  if (!experiment.movers.empty()) return among_movers(method_description(name));
   return experiment.is_world() ? in_world(method_description(name)) : method_description(name);
 }
 

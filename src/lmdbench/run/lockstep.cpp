@@ -66,12 +66,17 @@ class MethodRun {
         poses_(input.make_poses ? input.make_poses() : std::make_unique<PathPoses>(input.poses)),
         memory_(method.profile.cutoff),
         planted_(method.label) {
-    std::unique_ptr<Method> first = method.make_for(bodies_);
+    if (input.movers) mover_poses_ = std::make_shared<std::vector<Pose>>(input.movers->poses.front());
+    const auto make = [&] {
+      return input.movers ? method.make_among(input.movers->scene(profile_.cutoff), mover_poses_)
+                          : method.make_for(bodies_);
+    };
+    std::unique_ptr<Method> first = make();
     // The first repetition alone: the others leave the same.
     keeps_both_laws_ = input.keep_lmds && !first->description().tracks_locally &&
                        first->description().promise == Promise::COMPLETE_SET;
     if (first->description().tracks_locally)
-      two_rate_.emplace(std::move(first), method.make_for(bodies_), driver);
+      two_rate_.emplace(std::move(first), make(), driver);
     else
       every_frame_ = std::move(first);
     bodies_.prepare_to_deform();
@@ -84,6 +89,7 @@ class MethodRun {
     FrameRecord result;
     frame_counters_ = &result.counters;
     const double following = bodies_.to_frame(frame);
+    if (input_.movers) *mover_poses_ = input_.movers->poses[static_cast<std::size_t>(frame)];
     if (every_frame_) {
       found_.clear();
       run(Stage::LOCAL_UPDATE,
@@ -155,7 +161,9 @@ class MethodRun {
                      lmd_less);  // summation in an order that the scene alone decides
     result.contact_without_direction = memory_.complete(lmds);
     const Vec3 reference_W = RigidTransform(pose()).point(input_.reference_M);
-    const Wrench wrench = contacts_.combine(lmds, profile_, reference_W);
+    if (input_.movers) finish_movers(lmds);
+    const LmdSet& of_moving = input_.movers ? sets_[input_.movers->moving()] : lmds;
+    const Wrench wrench = contacts_.combine(of_moving, profile_, reference_W);
     const RenderedForce rendered = input_.device.render(wrench, profile_.largest_sum);
     result.force = rendered.force;
     result.force_clipped = rendered.clipped;
@@ -175,7 +183,7 @@ class MethodRun {
       add_feature(result_hash_, lmd.feature_fixed);
     }
     work_hash_.add(result.counters.values);
-    if (keeps_both_laws_) keep_both_laws(lmds, reference_W, rendered);
+    if (keeps_both_laws_) keep_both_laws(of_moving, reference_W, rendered);
     record_.frames.push_back(result);
     if (input_.keep_lmds && input_.keep_lmds(frame)) record_.lmds.emplace(frame, std::move(lmds));
     const Pose X_WM = poses_->pose();
@@ -184,6 +192,16 @@ class MethodRun {
       record_.poses.push_back(X_WM);
       record_.loop.push_back(*moved);
     }
+  }
+
+  /// Splits the set among the movers and renders each.
+  void finish_movers(const LmdSet& lmds) {
+    split_by_mover(lmds, *input_.movers, sets_);
+    const std::vector<MoverFrame> movers =
+        render_movers(sets_, *input_.movers, *mover_poses_, profile_, input_.device);
+    for (const std::size_t number : input_.movers->number)
+      for (int axis = 0; axis < 3; ++axis) result_hash_.add(movers[number].force[axis]);
+    record_.movers.insert(record_.movers.end(), movers.begin(), movers.end());
   }
 
   void keep_both_laws(const LmdSet& lmds, const Vec3& reference_W, const RenderedForce& own) {
@@ -208,9 +226,11 @@ class MethodRun {
   DirectionMemory memory_;
   bool keeps_both_laws_ = false;
   [[no_unique_address]] const PlantedSlowdown planted_;
-  LmdSet found_;                            ///< Of `every_frame_`.
-  WorkCounters* frame_counters_ = nullptr;  ///< Of the frame under way.
-  bool search_changed_ = false;             ///< Since the last frame that was kept.
+  std::shared_ptr<std::vector<Pose>> mover_poses_;  ///< Of the frame, where several meshes move.
+  std::vector<LmdSet> sets_;                        ///< Of each mover.
+  LmdSet found_;                                    ///< Of `every_frame_`.
+  WorkCounters* frame_counters_ = nullptr;          ///< Of the frame under way.
+  bool search_changed_ = false;                     ///< Since the last frame that was kept.
   MethodRecord record_;
   Hash result_hash_;
   Hash work_hash_;

@@ -8,6 +8,7 @@
 #include <lmdbench/geometry/pose.h>
 #include <lmdbench/lmd/method.h>
 #include <lmdbench/phantom/virtual_phantom.h>
+#include <lmdbench/run/mover_play.h>
 #include <lmdbench/run/pose_source.h>
 #include <lmdbench/run/records.h>
 #include <lmdbench/run/scene_deformation.h>
@@ -45,6 +46,10 @@ struct LockstepMethod {
   /// Makes it on another scene of the same meshes: where they deform, each run of a method has bodies of its own.
   std::function<std::unique_ptr<Method>(const Scene& scene)> make_on = nullptr;
 
+  /// Makes it among several movers, whose poses the driver sets.
+  std::function<std::unique_ptr<Method>(const MoverScene& scene, std::shared_ptr<const std::vector<Pose>>)>
+      make_among = nullptr;
+
   std::unique_ptr<Method> make_for(const DeformingScene& bodies) const {
     return bodies.deforms() ? make_on(bodies.scene()) : make();
   }
@@ -61,6 +66,8 @@ struct LockstepInput {
   Vec3 reference_M = Vec3::Zero();  ///< Point of the moving mesh about which torque is taken.
   VirtualPhantom device;
   std::function<bool(std::int64_t frame)> keep_lmds;  ///< Frames whose LMD sets are to be kept.
+  /// Null where one mesh moves; else every method needs `make_among` and `poses` are the moving mesh's.
+  std::shared_ptr<const MoverPlay> movers = nullptr;
   /// Null where all meshes are rigid; else every method needs `make_on` and a scene.
   std::shared_ptr<const SceneDeformation> deformation = nullptr;
 };

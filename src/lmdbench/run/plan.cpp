@@ -63,6 +63,21 @@ std::string loop_text(const LoopChoice& loop) {
                      loop.delay_frames);
 }
 
+/// What moves beside the moving mesh.
+std::string movers_text(const Experiment& experiment) {
+  std::vector<std::string> entries;
+  for (std::size_t i = 0; i < experiment.movers.size(); ++i) {
+    const MoverChoice& mover = experiment.movers[i];
+    entries.push_back(
+        fmt::format("mover_{} {}{}", i, mover.mesh.mesh,
+                    mover.path_file.empty()
+                        ? fmt::format(", sways {:g} diagonals and {:g} rad in {:g} s",
+                                      mover.sway.way_diagonals, mover.sway.turn_rad, mover.sway.period_s)
+                        : fmt::format(", path {}", mover.path_file.string())));
+  }
+  return fmt::format("{}; every pair is looked at, each mover has its force", fmt::join(entries, "; "));
+}
+
 /// Which meshes deform, and what each method makes of it.
 std::string deformation_text(const Experiment& experiment) {
   std::vector<std::string> meshes, following, remade;
@@ -110,6 +125,8 @@ Plan make_plan(const Experiment& experiment) {
       "planar_tolerance is off for every mesh");
   add(Part::DEFORMATION, "meshes that deform", experiment.deforms(), deformation_text(experiment),
       "no mesh has a deformation: all are rigid");
+  add(Part::MOVERS, "several meshes that move", !experiment.movers.empty(), movers_text(experiment),
+      "there are no movers: one mesh moves");
   add(Part::LOCAL_TRACKING, "global searches and local tracking", !tracking.empty(),
       experiment.realtime
           ? fmt::format("{}: in threads of their own", join_labels(tracking))

@@ -16,6 +16,7 @@ namespace lmdbench {
 enum class Part {
   FLATTENING,        ///< Vertices of rounded planes put back into them.
   DEFORMATION,       ///< Vertices that move from frame to frame.
+  MOVERS,            ///< Meshes that move beside the moving one.
   LOCAL_TRACKING,    ///< Global searches on a clock of their own, with local tracking between them.
   SEARCH_PER_FRAME,  ///< Methods that find their set from scratch in every frame.
   CRITICAL_PAIRS,    ///< Saddles beside LMDs, for an aggregation that needs them.

@@ -17,7 +17,10 @@
 #include <lmdbench/motion/tum_file.h>
 #include <lmdbench/phantom/device.h>
 #include <lmdbench/run/contact.h>
+#include <lmdbench/run/load_body.h>
+#include <lmdbench/run/mover_probe.h>
 #include <lmdbench/run/prepare.h>
+#include <lmdbench/run/prepare_movers.h>
 #include <lmdbench/run/realtime_driver.h>
 #include <lmdbench/run/truth_probe.h>
 #include <lmdbench/snch/hierarchy.h>
@@ -38,50 +41,6 @@ constexpr double CONVEX_TOLERANCE = 1e-7;
 constexpr std::size_t MOST_CONVEX_TRIANGLES = 2000;
 /// Of a made path's poses every so many are looked at for their contacts.
 constexpr std::size_t CONTACT_STRIDE = 5;
-
-/// A mesh at its place in the scene, with its note.
-std::shared_ptr<const Body> load_body(const MeshChoice& choice, const std::string& role,
-                                      const Experiment& experiment, std::vector<MeshNote>& notes) {
-  const ResolvedMesh resolved =
-      is_mesh_name(choice.mesh)
-          ? resolve_mesh(choice.mesh, experiment.mesh_folder)
-          : resolve_mesh((experiment.file.parent_path() / choice.mesh).lexically_normal().string());
-  TriangleMesh mesh = resolved.mesh;  // `resolved` keeps what vertex files are held against
-  // In the file's coordinates, which tell how they were rounded; scaling hides that.
-  const double scale = choice.placement.factor(mesh);
-  PlanarTolerance tolerance = choice.planar_tolerance;
-  if (tolerance.kind == PlanarTolerance::Kind::LENGTH) tolerance.value /= scale;
-  OrientationReport orientation;
-  if (choice.orientation == OrientationChoice::OUTWARD) orientation = orient_outward(mesh);
-  FlatteningReport flattening = flatten(mesh, tolerance);
-  flattening.tolerance *= scale;
-  flattening.largest_move *= scale;
-  mesh = placed(std::move(mesh), choice.placement);
-  std::shared_ptr<const FrameVertices> vertices;
-  if (choice.deformation)
-    vertices = std::make_shared<const FrameVertices>(
-        *choice.deformation,
-        DeformingMesh{resolved.mesh, choice.placement, mesh,
-                      role == "moving" ? std::nullopt : std::optional(choice.pose)},
-        experiment.frame_rate_hz);
-  const RigidTransform X_WF(choice.pose);
-  if (role != "moving" && !choice.instances)
-    for (Vec3& vertex : mesh.vertices) vertex = X_WF.point(vertex);
-  refuse_extreme_size(mesh, choice.mesh);
-  auto body = std::make_shared<const Body>(choice.mesh, build_surface(std::move(mesh)));
-  notes.push_back({role,
-                   choice.mesh,
-                   resolved.file,
-                   resolved.size,
-                   resolved.sha256,
-                   check_mesh(body->surface()),
-                   flattening,
-                   orientation,
-                   {},
-                   0,
-                   std::move(vertices)});
-  return body;
-}
 
 Path load_frames(const Experiment& experiment, std::vector<InputFile>& files,
                  std::vector<RecordingGap>& gaps) {
@@ -319,7 +278,10 @@ std::shared_ptr<const SceneDeformation> deformation_of(const Scene& scene, const
 }
 
 PreparedRun prepare(const Experiment& experiment, const Progress& progress, Deforming deforming) {
-  if (deforming == Deforming::REFUSED) refuse_deformation(experiment);
+  if (deforming == Deforming::REFUSED) {
+    refuse_deformation(experiment);
+    refuse_movers(experiment);
+  }
   const Device& device = device_named(experiment.device, experiment.file.string(), "/device");
   std::vector<InputFile> files;
   Path frames;
@@ -328,6 +290,7 @@ PreparedRun prepare(const Experiment& experiment, const Progress& progress, Defo
 
   std::vector<MeshNote> notes;
   const Scene scene = load_scene(experiment, notes);
+  const LoadedMovers movers = load_movers(experiment, scene, notes);
   std::vector<PreparedProfile> profiles;
   std::vector<DefaultNote> defaults = experiment.defaults;
   std::optional<double> open_cutoff;  // of profiles that give none
@@ -336,7 +299,7 @@ PreparedRun prepare(const Experiment& experiment, const Progress& progress, Defo
     const std::string place = choice.name.empty() ? "/force" : fmt::format("/force/{}", i);
     std::optional<double> cutoff = choice.cutoff(notes.front().report.diagonal);
     if (!cutoff) {
-      if (!open_cutoff) open_cutoff = default_cutoff(scene, defaults);
+      if (!open_cutoff) open_cutoff = default_cutoff(with_movers(scene, movers), defaults);
       cutoff = open_cutoff;
     }
     profiles.push_back({choice.name, profile_for(choice, *cutoff, place, experiment), scene});
@@ -353,6 +316,8 @@ PreparedRun prepare(const Experiment& experiment, const Progress& progress, Defo
     defaults.push_back(note_of(*made_path, hardest->force.cutoff));
   }
 
+  std::vector<std::string> warnings;
+  const auto play = play_of(experiment, movers, scene, frames, files, warnings);
   PreparedRun prepared{
       .profiles = std::move(profiles),
       .input = {.poses = {},
@@ -362,12 +327,13 @@ PreparedRun prepare(const Experiment& experiment, const Progress& progress, Defo
                 .reference_M = Vec3::Zero(),
                 .device = VirtualPhantom(device),
                 .keep_lmds = {},
+                .movers = play,
                 .deformation = deformation_of(scene, notes, static_cast<std::int64_t>(frames.size()))},
       .times = {},
       .meshes = std::move(notes),
       .files = std::move(files),
       .starts_touching = false,
-      .warnings = {},
+      .warnings = std::move(warnings),
       .path_gaps = std::move(gaps),
       .made_path = std::move(made_path),
       .defaults = std::move(defaults)};
@@ -412,7 +378,8 @@ PreparedRun prepare(const Experiment& experiment, const Progress& progress, Defo
   prepare_hierarchies(prepared.scene());
   DeformingScene first_frame(prepared.scene(), prepared.input.deformation);
   first_frame.to_frame(0);
-  prepared.starts_touching = touches(first_frame.scene(), prepared.input.poses.front());
+  prepared.starts_touching = play ? MoverDistances(*play).at(0, prepared.scene().cutoff).distance == 0.0
+                                  : touches(first_frame.scene(), prepared.input.poses.front());
   if (prepared.starts_touching)
     prepared.warnings.emplace_back(
         "the meshes touch in the first frame: LMDs at distance 0 have no direction there and exert no force "
@@ -445,6 +412,12 @@ std::vector<std::filesystem::path> input_files(const Experiment& experiment) {
     add(choice);
     if (choice.instances && !choice.instances->file.empty()) files.push_back(choice.instances->file);
   }
+  for (const MoverChoice& mover : experiment.movers) {
+    add(mover.mesh);
+    if (mover.mesh.instances && !mover.mesh.instances->file.empty())
+      files.push_back(mover.mesh.instances->file);
+    if (!mover.path_file.empty()) files.push_back(mover.path_file);
+  }
   return files;
 }
 
@@ -458,7 +431,12 @@ std::vector<LockstepMethod> lockstep_methods(const Experiment& experiment, const
       return make_method(name, scene, options);
     };
     methods.push_back({choice.label, [make_on, scene = profile.scene] { return make_on(scene); }, force,
-                       choice.aggregation, profile.scene, make_on});
+                       choice.aggregation, profile.scene, make_on,
+                       [name = choice.name, options = choice.options](
+                           const MoverScene& scene, std::shared_ptr<const std::vector<Pose>> poses) {
+                         return make_among_movers(scene, std::move(poses), method_description(name),
+                                                  method_maker(name, options));
+                       }});
   }
   return methods;
 }

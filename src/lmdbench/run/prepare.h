@@ -22,7 +22,7 @@ namespace lmdbench {
 
 /// A mesh of the scene with what is worth knowing of it when one reads the result.
 struct MeshNote {
-  std::string role;  ///< "moving", "fixed_0", ...
+  std::string role;  ///< "moving", "fixed_0", ..., "mover_0", ...
   std::string name;
   std::optional<std::filesystem::path> file;  ///< What was read; nothing for a generated shape.
   std::int64_t size = 0;                      ///< Bytes of that file
@@ -33,6 +33,8 @@ struct MeshNote {
   std::vector<Pose> instances;        ///< X_WF of each; empty for a mesh that is in the world frame.
   std::int64_t first_fixed_body = 0;  ///< `Lmd::fixed_body` of the first of a fixed mesh.
   std::shared_ptr<const FrameVertices> vertices = nullptr;  ///< Of a mesh that deforms, frame by frame.
+  std::int64_t first_mover = 0;  ///< Number of the first mover of an entry of `/movers`, and ...
+  std::int64_t movers = 0;       ///< ... how many it has; 0 of other meshes.
 
   /// DeformingBody::index of a mesh without instances.
   std::size_t body_index() const {
@@ -52,10 +54,10 @@ struct PreparedProfile {
 std::shared_ptr<const SceneDeformation> deformation_of(const Scene& scene, const std::vector<MeshNote>& notes,
                                                        std::int64_t frames);
 
-/// What who prepares a run makes of meshes that deform.
+/// What who prepares a run makes of meshes that deform, and of several that move.
 enum class Deforming : std::uint8_t {
-  REFUSED,  ///< Looks at the meshes at rest alone: an error where one deforms.
-  FOLLOWED  ///< Takes each frame at its shape (LockstepInput::deformation).
+  REFUSED,  ///< Looks at one moving mesh and at meshes at rest alone: an error where one deforms, or another moves.
+  FOLLOWED  ///< Takes each frame at its shape (LockstepInput::deformation) and its poses (LockstepInput::movers).
 };
 
 /// An experiment's inputs, loaded: all that a run works on.
@@ -76,7 +78,7 @@ struct PreparedRun {
 };
 
 /// The meshes of the scene at their places; the cutoff is left to the caller.
-/// @param notes receives one a mesh, the moving one first
+/// @param notes receives one a mesh, the moving one first; movers are left to `load_movers`
 /// @throws InputError for a mesh that cannot be used
 Scene load_scene(const Experiment& experiment, std::vector<MeshNote>& notes);
 

@@ -38,6 +38,15 @@ struct FrameRecord {
   WorkCounters counters;                ///< Of the frame's local part.
 };
 
+/// What one of several movers feels in a frame.
+struct MoverFrame {
+  Vec3 force = Vec3::Zero();   ///< As rendered: after the device's clipping [N].
+  Vec3 torque = Vec3::Zero();  ///< About the mover's centre, before the device's clipping [N m].
+  bool force_clipped = false;
+  std::int64_t lmd_count = 0;       ///< LMDs of its pairs within the cutoff.
+  double minimum_distance = UNSET;  ///< metres
+};
+
 /// A global search of one method, without its times.
 struct SearchRecord {
   std::int64_t frame = 0;       ///< Frame that it started in.
@@ -70,6 +79,9 @@ struct MethodRecord {
   std::vector<SearchRecord> searches;
   std::vector<RepetitionTimes> repetitions;  ///< The first one is the warm-up.
   std::map<std::int64_t, LmdSet> lmds;       ///< LMDs within the cutoff, of the frames that were to be kept.
+  /// Where several meshes move: one row of them a frame, by their numbers (mover_play.h). Forces of FrameRecord are the moving mesh's, its
+  /// LMD counts and distances those of all pairs. Else empty.
+  std::vector<MoverFrame> movers;
   /// What either law makes of its sets, where those are to be the truth of every frame: a method that promises the complete set
   /// and finds it anew in every frame. Empty for others.
   ForcesByLaw force_by_law;

@@ -3,6 +3,7 @@
 #include <lmdbench/experiment/probed_frames.h>
 #include <lmdbench/methods/registry.h>
 #include <lmdbench/run/deforming_distance.h>
+#include <lmdbench/run/mover_probe.h>
 #include <lmdbench/run/realtime_driver.h>
 #include <lmdbench/run/run.h>
 
@@ -132,8 +133,10 @@ RunResult run_experiment(const Experiment& experiment, const RunProgress& progre
   const std::unique_ptr<RunKeeper> keeper =
       make_keeper ? make_keeper(result, prepared.input.frames.value_or(frame_count)) : nullptr;
   const bool forecast = allowed(experiment.rules, Rule::CONTACT_FORECAST);
-  result.in_contact =
-      frames_in_contact(prepared.scene(), prepared.input.deformation, prepared.input.poses, forecast);
+  const std::shared_ptr<const MoverPlay> movers = prepared.input.movers;
+  result.in_contact = movers ? frames_in_contact(*movers, prepared.scene().cutoff)
+                             : frames_in_contact(prepared.scene(), prepared.input.deformation,
+                                                 prepared.input.poses, forecast);
   result.plan.scene = look_at(experiment, prepared, result.in_contact);
   for (const SceneWarning& warning : result.plan.scene->warnings) result.warnings.push_back(to_text(warning));
   result.plan.rules = decide_rules({experiment, prepared.input.poses, result.in_contact, probed});
@@ -160,14 +163,17 @@ RunResult run_experiment(const Experiment& experiment, const RunProgress& progre
     LockstepInput input = prepared.input;
     input.make_poses = nullptr;
     if (experiment.loop.closed) input.poses = result.records[track.methods.front()].poses;
-    track.in_contact = result.one_track
-                           ? result.in_contact
-                           : frames_in_contact(profile.scene, input.deformation, input.poses, forecast);
+    track.in_contact = result.one_track ? result.in_contact
+                       : movers         ? frames_in_contact(*movers, profile.scene.cutoff)
+                                : frames_in_contact(profile.scene, input.deformation, input.poses, forecast);
+    const std::vector<bool>* empty_elsewhere =
+        is_on(result.plan.rules, Rule::TRUTH_IN_CONTACT) ? &track.in_contact : nullptr;
     if (result.plan.needs(Part::TRUTH_PROBE))
-      track.truth = probe_truth(
-          profile.scene, input, profile.force, *experiment.profiles[track.profile].aggregation, probed,
-          phase("truth"), is_on(result.plan.rules, Rule::TRUTH_IN_CONTACT) ? &track.in_contact : nullptr,
-          shortcuts.reuse_repeated);
+      track.truth =
+          movers ? probe_mover_truth(*movers, input, profile.force, probed, phase("truth"), empty_elsewhere)
+                 : probe_truth(profile.scene, input, profile.force,
+                               *experiment.profiles[track.profile].aggregation, probed, phase("truth"),
+                               empty_elsewhere, shortcuts.reuse_repeated);
     if (result.plan.needs(Part::INTERSECTIONS))
       track.polylines =
           probe_polylines(profile.scene, input, probed_frames(frame_count, experiment.polyline_stride_frames),
@@ -175,16 +181,20 @@ RunResult run_experiment(const Experiment& experiment, const RunProgress& progre
     if (result.plan.needs(Part::FCL)) {
       std::vector<LockstepMethod> along;
       for (const std::size_t i : track.methods) along.push_back(methods[i]);
-      track.fcl =
-          probe_fcl(profile.scene, input, along, probed_frames(frame_count, experiment.fcl_stride_frames),
-                    experiment.fcl_tolerance_relative, phase("fcl"), shortcuts);
+      const std::vector<std::int64_t> checked = probed_frames(frame_count, experiment.fcl_stride_frames);
+      track.fcl = movers ? probe_mover_fcl(*movers, profile.scene.cutoff, along, checked,
+                                           experiment.fcl_tolerance_relative, phase("fcl"))
+                         : probe_fcl(profile.scene, input, along, checked, experiment.fcl_tolerance_relative,
+                                     phase("fcl"), shortcuts);
     }
   }
   if (result.plan.needs(Part::TRUTH_PROBE)) {
     for (std::size_t i = 0; i < methods.size(); ++i) {
       const Track& track = result.track_of(i);
-      result.comparisons.push_back(compare_with_truth(track.truth, result.records[i], methods[i].profile.law,
-                                                      prepared.profiles[track.profile].scene));
+      const ForceLaw law = methods[i].profile.law;
+      result.comparisons.push_back(movers ? compare_with_truth(track.truth, result.records[i], law, *movers)
+                                          : compare_with_truth(track.truth, result.records[i], law,
+                                                               prepared.profiles[track.profile].scene));
     }
     for (Track& track : result.tracks) find_complete_truth(experiment, result, track);
   }

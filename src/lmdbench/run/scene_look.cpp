@@ -3,6 +3,7 @@
 #include <lmdbench/mesh/winding_number.h>
 #include <lmdbench/run/contact.h>
 #include <lmdbench/run/deforming_distance.h>
+#include <lmdbench/run/mover_probe.h>
 #include <lmdbench/run/prepare.h>
 #include <lmdbench/run/scene_look.h>
 #include <lmdbench/world/nearest_instance.h>
@@ -75,6 +76,7 @@ void look_at_cutoff(SceneLook& look) {
 
 /// Distances do not tell inside from outside.
 void look_inside(SceneLook& look, const PreparedRun& prepared) {
+  if (prepared.input.movers) return;        // each of which would have to be looked at
   if (prepared.scene().is_world()) return;  // where meshes may well be in each other
   DeformingScene bodies(prepared.scene(), prepared.input.deformation);
   const std::size_t fixed_count = bodies.scene().fixed.size();
@@ -145,15 +147,18 @@ void look_at_path(SceneLook& look, const PreparedRun& prepared) {
   double bound = std::numeric_limits<double>::infinity();
   std::optional<BroadPhase> phase;
   if (prepared.scene().is_world()) phase.emplace(prepared.scene());
+  std::optional<MoverDistances> movers;
+  if (prepared.input.movers) movers.emplace(*prepared.input.movers);
   std::optional<DeformingDistance> deforming;
   if (prepared.input.deformation) deforming.emplace(prepared.scene(), prepared.input.deformation);
   for (std::size_t frame = 0; frame < prepared.input.poses.size(); ++frame) {
     const auto at = static_cast<std::int64_t>(frame);
     const Pose& pose = prepared.input.poses[frame];
     if (deforming && deforming->known(at, pose).least >= bound) continue;
-    const double least = deforming ? deforming->look(at, pose)
-                         : phase   ? nearest_instance(prepared.scene(), *phase, pose, bound).distance
-                                   : nearest_distance(prepared.scene(), pose, bound);
+    const double least = movers      ? movers->at(frame, bound).distance
+                         : deforming ? deforming->look(at, pose)
+                         : phase     ? nearest_instance(prepared.scene(), *phase, pose, bound).distance
+                                     : nearest_distance(prepared.scene(), pose, bound);
     if (!(least < bound)) continue;
     bound = least;
     look.nearest_frame = at;

@@ -60,7 +60,7 @@ std::vector<TruthFrame> probe_truth(const Scene& scene, const LockstepInput& inp
   for (const std::int64_t frame : frames) {
     Found found = search(frame);
     const Found next = search(frame + 1);
-    TruthFrame here{frame, std::move(found.lmds), found.force, {}};
+    TruthFrame here{frame, std::move(found.lmds), found.force, {}, {}};
     for (std::size_t law = 0; law < FORCE_LAW_COUNT; ++law)
       here.force_jump[law] = (next.force[law] - here.force[law]).norm();
     truth.push_back(std::move(here));

@@ -25,6 +25,7 @@ struct TruthFrame {
   LmdSet lmds;
   std::array<Vec3, FORCE_LAW_COUNT> force{Vec3::Zero(), Vec3::Zero()};  ///< Rendered, under each law [N].
   std::array<double, FORCE_LAW_COUNT> force_jump{};  ///< |force at the next frame - force| [N].
+  ForcesByLaw movers;  ///< Where several meshes move: of each by its number, the moving mesh first [N].
 };
 
 /// One method against one TruthFrame. NaN where a quantity does not exist.

@@ -120,6 +120,20 @@ struct RecordedLmds {
   }
 };
 
+/// The LMD lists that the run kept.
+void export_recorded(Exporter& exporter, const ResultReader& result, const std::vector<std::string>& labels,
+                     const ResultTrack& track) {
+  for (const std::string& label : labels) {
+    const std::string group = "/methods/" + label + "/lmds";
+    if (!result.has(group + "/frame_offset")) continue;
+    const RecordedLmds recorded(result, group);
+    Series series(exporter, "lmds", label);
+    for (std::size_t i = 0; i < track.frames.size(); ++i)
+      series.add(track.poses[i].time, track.frames[i], recorded.grid(track.frames[i]));
+    series.finish();
+  }
+}
+
 void export_track(Exporter& exporter, const ResultReader& result, const ResultScene& result_scene,
                   const ResultTrack& track) {
   DeformingScene bodies(result_scene.rest, result_scene.deformation);
@@ -162,15 +176,62 @@ void export_track(Exporter& exporter, const ResultReader& result, const ResultSc
   }
   for (Series* series : {&moving, &lmds, &forces}) series->finish();
   for (Series& series : fixed) series.finish();
-  for (const std::string& label : labels) {
-    const std::string group = "/methods/" + label + "/lmds";
-    if (!result.has(group + "/frame_offset")) continue;
-    const RecordedLmds recorded(result, group);
-    Series series(exporter, "lmds", label);
-    for (std::size_t i = 0; i < track.frames.size(); ++i)
-      series.add(track.poses[i].time, track.frames[i], recorded.grid(track.frames[i]));
-    series.finish();
+  export_recorded(exporter, result, labels, track);
+}
+
+/// Meshes, exact LMDs and forces of several movers; each carries its number.
+void export_movers(Exporter& exporter, const ResultReader& result, const ResultScene& result_scene,
+                   const ResultTrack& track) {
+  const MoverPlay& play = *result_scene.movers;
+  const auto poses = std::make_shared<std::vector<Pose>>();
+  const MoverScene scene = play.scene(result_scene.rest.cutoff);
+  const std::unique_ptr<Method> exact = exact_method(scene, poses);
+  const std::vector<std::string> labels = result.groups("/methods");
+  std::vector<std::vector<double>> force_of;
+  for (const std::string& label : labels)
+    force_of.push_back(result.reals("/methods/" + label + "/movers/force"));
+  Series movers(exporter, "movers", ""), lmds(exporter, "lmds-movers", ""),
+      forces(exporter, "forces-movers", "");
+  LmdSet set;
+  WorkCounters ignored;
+  for (std::size_t i = 0; i < track.frames.size(); ++i) {
+    const std::size_t frame = track.frames[i];
+    const double time = track.poses[i].time;
+    *poses = play.poses[frame];
+    VtuGrid meshes, middles, pairs = empty_lmd_grid();
+    meshes.cell = VtuCell::TRIANGLE;
+    meshes.cell_data = {{"mover", 1, {}}};
+    middles.point_data = {{"mover", 1, {}}};
+    for (const std::string& label : labels)
+      middles.point_data.push_back({"force of " + label + " [N]", 3, {}});
+    for (std::size_t m = 0; m < play.count(); ++m) {
+      const RigidTransform X_WM((*poses)[m]);
+      const VtuGrid mesh = mesh_grid(play.bodies[m]->surface().mesh, X_WM);
+      const auto first = static_cast<std::int32_t>(meshes.points.size()),
+                 ends = static_cast<std::int32_t>(meshes.corners.size());
+      meshes.points.insert(meshes.points.end(), mesh.points.begin(), mesh.points.end());
+      for (const std::int32_t corner : mesh.corners) meshes.corners.push_back(first + corner);
+      for (const std::int32_t end : mesh.ends) meshes.ends.push_back(ends + end);
+      meshes.cell_data[0].values.insert(meshes.cell_data[0].values.end(), mesh.ends.size(),
+                                        static_cast<double>(play.number[m]));
+      middles.add({X_WM.point(play.references_M[m])});
+      middles.point_data[0].values.push_back(static_cast<double>(play.number[m]));
+      for (std::size_t l = 0; l < labels.size(); ++l) {
+        const Vec3 force = row(force_of[l], frame * play.count() + play.number[m]);
+        middles.point_data[l + 1].values.insert(middles.point_data[l + 1].values.end(), force.begin(),
+                                                force.end());
+      }
+    }
+    exact->search(Pose{}, set, ignored);
+    for (const Lmd& lmd : set)
+      add_lmd(pairs, lmd.point_moving, lmd.point_fixed, lmd.distance,
+              static_cast<double>(lmd.feature_moving.kind), static_cast<double>(lmd.feature_fixed.kind));
+    movers.add(time, frame, meshes);
+    lmds.add(time, frame, pairs);
+    forces.add(time, frame, middles);
   }
+  for (Series* series : {&movers, &lmds, &forces}) series->finish();
+  export_recorded(exporter, result, labels, track);
 }
 
 void export_polylines(Exporter& exporter, const ResultReader& result, const std::string& method) {
@@ -213,7 +274,10 @@ std::vector<fs::path> export_frames(const ResultReader& result, const fs::path& 
       exporter.write_top(fmt::format("fixed_{}.vtu", i),
                          vtu_text(mesh_grid(placed_mesh(scene.fixed[i]), {})));
   for (const ResultTrack& track : tracks) {
-    export_track(exporter, result, result_scene, track);
+    if (result_scene.movers)
+      export_movers(exporter, result, result_scene, track);
+    else
+      export_track(exporter, result, result_scene, track);
     export_polylines(exporter, result, track.method);
   }
   return exporter.written();

@@ -36,6 +36,25 @@ class ResultFrames:
         table.index.name = "frame"
         return table
 
+    def movers(self, method: str) -> pd.DataFrame:
+        """A row a mover and frame, where several meshes move: frame, mover (0: the moving mesh), position, what it felt. Empty where not."""
+        group = self._group(method)
+        if "movers" not in group:
+            return pd.DataFrame()
+        datasets = {"position": self.result.h5["/path/movers/position"], **_datasets(group["movers"])}
+        frames, movers = datasets["position"].shape[:2]
+        columns = {"frame": np.repeat(np.arange(frames), movers), "mover": np.tile(np.arange(movers), frames)}
+        units = {"frame": "1", "mover": "1"}
+        for name, item in datasets.items():
+            values = item[()].reshape(frames * movers, -1)
+            endings = AXES[3] if item.ndim == 3 else ("",)
+            for ending, column in zip(endings, values.T):
+                columns[name + ending] = column
+                units[name + ending] = _unit(item)
+        table = pd.DataFrame(columns)
+        table.attrs["units"] = units
+        return table
+
     def searches(self, method: str) -> pd.DataFrame:
         """A row a global search (methods that track locally): frame, candidates, what was kept, the search's counters."""
         group = self._group(method)
