@@ -1,6 +1,5 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include <lmdbench/geometry/cone.h>
 #include <lmdbench/methods/registry.h>
 #include <lmdbench/run/mover_probe.h>
 #include <lmdbench/snch/minimum_distance.h>
@@ -37,11 +36,6 @@ Agreement agreement_of_pairs(const LmdSet& truth, const LmdSet& reported, Match 
                      {scene.movers[pair.mover], {scene.body(pair.other)}, scene.cutoff});
   }
   return sum;
-}
-
-/// NaN where one of them vanishes.
-double angle_of(const Vec3& a, const Vec3& b) {
-  return a.isZero(0.0) || b.isZero(0.0) ? UNSET : angle_between(a, b);
 }
 
 }  // namespace
@@ -139,7 +133,7 @@ std::vector<TruthComparison> compare_with_truth(const std::vector<TruthFrame>& t
     for (std::size_t i = 0; i < forces.size(); ++i) {
       const Vec3& force = record.movers[frame * forces.size() + i].force;
       comparison.force_error = std::max(comparison.force_error, (force - forces[i]).norm());
-      const double angle = angle_of(force, forces[i]);
+      const double angle = force_angle(force, forces[i]);
       if (!(angle <= comparison.force_angle_error) && !std::isnan(angle))
         comparison.force_angle_error = angle;
     }

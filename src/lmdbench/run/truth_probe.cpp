@@ -10,14 +10,10 @@
 #include <optional>
 
 namespace lmdbench {
-namespace {
 
-/// Angle between two forces [rad]; NaN where one of them vanishes.
 double force_angle(const Vec3& a, const Vec3& b) {
   return a.isZero(0.0) || b.isZero(0.0) ? UNSET : angle_between(a, b);
 }
-
-}  // namespace
 
 std::vector<TruthFrame> probe_truth(const Scene& scene, const LockstepInput& input,
                                     const ForceProfile& profile, const Aggregation& aggregation,

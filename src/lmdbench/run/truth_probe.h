@@ -38,6 +38,9 @@ struct TruthComparison {
   double force_jump = UNSET;              ///< The method's own |force at the next frame - force| [N].
 };
 
+/// Angle between two forces [rad]; NaN where one of them vanishes.
+double force_angle(const Vec3& a, const Vec3& b);
+
 /// Computes truth at the given frames.
 /// @param profile  the scene's; its law is ignored
 /// @param aggregation  makes the true forces of the exhaustive sets
