@@ -274,7 +274,8 @@ TEST(Movers, NearestIsTheNearestPairOfEach) {
                             certified = file.doubles("/methods/certified/movers/minimum_distance");
   for (std::size_t i = 0; i < nearest.size(); ++i) {
     ASSERT_EQ(std::isnan(nearest[i]), std::isnan(certified[i])) << i;
-    if (!std::isnan(nearest[i])) EXPECT_NEAR(nearest[i], certified[i], 1e-12);
+    if (std::isnan(nearest[i])) continue;
+    EXPECT_NEAR(nearest[i], certified[i], 1e-12);
   }
   const auto count = file.integers("/methods/nearest/lmd_count");
   EXPECT_LE(*std::ranges::max_element(count), 8);
