@@ -2,7 +2,8 @@
 # SPDX-FileCopyrightText: The lmdbench authors
 # SPDX-License-Identifier: BSD-3-Clause
 """Largest clean stiffness of PHANTOM presets: experiments/stability/device.json on each device, with its Coulomb friction and without
-friction, where a closed form exists. Markdown on standard output. Exit code 1 where the frictionless rows are farther than TOLERANCE from the closed form, or a search takes more processor time than MOST_SECONDS."""
+friction, where a closed form exists. Markdown on standard output. Exit code 1 where the frictionless rows are farther than TOLERANCE
+from the closed form, or a search takes more processor time than MOST_SECONDS."""
 
 import argparse
 import json
