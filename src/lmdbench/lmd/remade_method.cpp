@@ -11,8 +11,7 @@ RemadeMethod::RemadeMethod(const Scene& scene, Make make)
     : scene_(scene), bodies_{scene.moving}, make_(std::move(make)), method_(make_(scene_)) {
   for (const FixedBody& fixed : scene.fixed) bodies_.push_back(fixed.body);
   std::ranges::sort(bodies_);
-  const auto repeated = std::ranges::unique(bodies_);
-  bodies_.erase(repeated.begin(), repeated.end());
+  bodies_.erase(std::unique(bodies_.begin(), bodies_.end()), bodies_.end());
   deformations_ = deformations();
 }
 

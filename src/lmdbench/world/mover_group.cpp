@@ -52,8 +52,7 @@ MoverGroup::MoverGroup(const std::vector<std::shared_ptr<const Body>>& movers,
   for (const FixedBody& fixed : standing) add(fixed.body, fixed.X_WF);
   for (const Object& object : objects_) bodies_.push_back(object.body);
   std::ranges::sort(bodies_);
-  const auto repeated = std::ranges::unique(bodies_);
-  bodies_.erase(repeated.begin(), repeated.end());
+  bodies_.erase(std::unique(bodies_.begin(), bodies_.end()), bodies_.end());
   bodies_.shrink_to_fit();
   begin();
 }
