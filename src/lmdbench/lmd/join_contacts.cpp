@@ -417,8 +417,10 @@ class Joining {
       while (end < entries.size() && entries[end].moving == entries[begin].moving &&
              entries[end].fixed == entries[begin].fixed)
         ++end;
-      const auto own_parts = std::ranges::equal_range(parts, carriers_of(entries[begin]), {}, carriers_of);
-      join_in_bucket(std::span(entries).subspan(begin, end - begin), own_parts);
+      // Not std::ranges::equal_range, which clang 14 cannot read.
+      const auto first = std::ranges::lower_bound(parts, carriers_of(entries[begin]), {}, carriers_of);
+      const auto last = std::ranges::upper_bound(parts, carriers_of(entries[begin]), {}, carriers_of);
+      join_in_bucket(std::span(entries).subspan(begin, end - begin), std::span(first, last));
       begin = end;
     }
   }

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/result/write_movers.h>
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
@@ -71,10 +73,9 @@ void write_mover_truth(ResultWriter& writer, const std::string& group, const std
     for (const TruthFrame& frame : truth)
       for (const Vec3& force : frame.movers[static_cast<std::size_t>(law)])
         values.insert(values.end(), force.begin(), force.end());
-    const std::string name(to_string(law));
     write_vectors(writer,
-                  {group + "/movers/force_" + name, "N",
-                   "rendered force of the true set on each mover, " + name + " law"},
+                  {fmt::format("{}/movers/force_{}", group, to_string(law)), "N",
+                   fmt::format("rendered force of the true set on each mover, {} law", to_string(law))},
                   values, movers);
   }
 }

@@ -318,25 +318,25 @@ PreparedRun prepare(const Experiment& experiment, const Progress& progress, Defo
 
   std::vector<std::string> warnings;
   const auto play = play_of(experiment, movers, scene, frames, files, warnings);
-  PreparedRun prepared{
-      .profiles = std::move(profiles),
-      .input = {.poses = {},
-                .frame_rate_hz = experiment.frame_rate_hz,
-                .make_poses = {},
-                .frames = std::nullopt,
-                .reference_M = Vec3::Zero(),
-                .device = VirtualPhantom(device),
-                .keep_lmds = {},
-                .movers = play,
-                .deformation = deformation_of(scene, notes, static_cast<std::int64_t>(frames.size()))},
-      .times = {},
-      .meshes = std::move(notes),
-      .files = std::move(files),
-      .starts_touching = false,
-      .warnings = std::move(warnings),
-      .path_gaps = std::move(gaps),
-      .made_path = std::move(made_path),
-      .defaults = std::move(defaults)};
+  auto deformation = deformation_of(scene, notes, static_cast<std::int64_t>(frames.size()));
+  PreparedRun prepared{.profiles = std::move(profiles),
+                       .input = {.poses = {},
+                                 .frame_rate_hz = experiment.frame_rate_hz,
+                                 .make_poses = {},
+                                 .frames = std::nullopt,
+                                 .reference_M = Vec3::Zero(),
+                                 .device = VirtualPhantom(device),
+                                 .keep_lmds = {},
+                                 .movers = play,
+                                 .deformation = std::move(deformation)},
+                       .times = {},
+                       .meshes = std::move(notes),
+                       .files = std::move(files),
+                       .starts_touching = false,
+                       .warnings = std::move(warnings),
+                       .path_gaps = std::move(gaps),
+                       .made_path = std::move(made_path),
+                       .defaults = std::move(defaults)};
   prepared.input.reference_M = bounding_box_centre(prepared.scene().moving->surface().mesh);
   for (const TimedPose& frame : frames) {
     prepared.input.poses.push_back(frame.pose);

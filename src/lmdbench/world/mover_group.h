@@ -68,7 +68,7 @@ class MoverGroup {
   ///             (`!tracks_locally`); methods/registry.h: `method_maker`
   MoverGroup(const std::vector<std::shared_ptr<const Body>>& movers, const std::vector<FixedBody>& standing,
              double cutoff, MeshPair::Make make)
-      : MoverGroup(std::move(movers), std::move(standing), cutoff, std::move(make), Tuning{}) {}
+      : MoverGroup(movers, standing, cutoff, std::move(make), Tuning{}) {}
   MoverGroup(const std::vector<std::shared_ptr<const Body>>& movers, const std::vector<FixedBody>& standing,
              double cutoff, MeshPair::Make make, const Tuning& tuning);
 
