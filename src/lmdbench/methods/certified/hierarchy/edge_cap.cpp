@@ -139,9 +139,11 @@ std::optional<PolarCap> chain_cap(const Surface& surface, const ShapeComplex& sh
   const Vec3 from_to = surface.mesh.vertices[static_cast<std::size_t>(ends[1])] -
                        surface.mesh.vertices[static_cast<std::size_t>(ends[0])];
   if (!(from_to.squaredNorm() > 0.0)) return std::nullopt;
+  // Of a triangle without area the wing is rounding, in a direction that says nothing.
+  const double rounding = LEAST_HEIGHT * (from_to.norm() + shape.regions.extent);
   shape.for_each_chain_wing(surface, chain, [&](const Vec3& wing) {
     const double depth = wing.norm();
-    if (depth > 0.0) work.constraints.push_back({wing / depth, POLAR_SLACK});
+    if (depth > rounding) work.constraints.push_back({wing / depth, POLAR_SLACK});
     return true;
   });
   const FeatureId lead{FeatureKind::EDGE, shape.lead_of_chain(chain)};
