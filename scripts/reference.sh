@@ -28,15 +28,16 @@ sweep() {
   "$BUILD/lmdbench" work-precision "experiments/sweeps/$1.json" --out "$OUT/$1.h5"
   figure sweep "$OUT/$1.h5" --out "$OUT"
 }
-bunny_runs() {
+# Open loops with LMD lists, which several parts read.
+runs_with_lmds() {
   local scene
-  for scene in bunny-hard bunny-soft; do [[ -s $OUT/$scene.h5 ]] || run "$scene" --set /record/lmds=true; done
+  for scene in "$@"; do [[ -s $OUT/$scene.h5 ]] || run "$scene" --set /record/lmds=true; done
 }
 
 part() {
   case "$1" in
     claims)
-      bunny_runs
+      runs_with_lmds bunny-hard bunny-soft
       figure claims "$OUT/bunny-hard.h5" "$OUT/bunny-soft.h5" --out "$OUT"
       figure figure7 "$OUT/bunny-hard.h5" "$OUT/bunny-soft.h5" --out "$OUT"
       figure summary "$OUT/bunny-hard.h5" "$OUT/bunny-soft.h5"
@@ -85,8 +86,7 @@ part() {
         --complete-every 25 --seed 3
       ;;
     jumps)
-      local scene
-      for scene in bunny-hard bunny-soft recorded-hard recorded-soft; do run "$scene" --set /record/lmds=true; done
+      runs_with_lmds bunny-hard bunny-soft recorded-hard recorded-soft
       figure jumps "$OUT"/{bunny-hard,bunny-soft,recorded-hard,recorded-soft}.h5
       ;;
     kernel) sweep kernel ;;
@@ -95,7 +95,8 @@ part() {
         extreme/sliding-faces.json
       ;;
     ledger)
-      local scene results=()
+      local scene results=() OUT="$OUT/ledger" # with probes of its own, not in place of the others' runs
+      mkdir -p "$OUT"
       for scene in bunny-hard bunny-soft; do run "$scene" --set /probes/fcl/stride_frames=10; done
       for scene in experiments/extreme/*.json; do
         scene="$(basename "$scene" .json)"
