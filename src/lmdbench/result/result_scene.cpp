@@ -41,6 +41,12 @@ void use_recorded_files(Experiment& experiment, const ResultReader& result) {
   }
 }
 
+/// @param row of arrays of positions and of quaternions x, y, z, w
+Pose recorded_pose(const std::vector<double>& p, const std::vector<double>& q, std::size_t row) {
+  return {Vec3(p[3 * row], p[3 * row + 1], p[3 * row + 2]),
+          Eigen::Quaterniond(q[4 * row + 3], q[4 * row], q[4 * row + 1], q[4 * row + 2])};
+}
+
 ResultTrack track_of(const ResultReader& result, const std::string& method, std::size_t most_frames) {
   const std::string group = method.empty() ? "/path" : "/methods/" + method + "/path";
   const std::vector<double> times = result.reals("/path/time");
@@ -51,10 +57,8 @@ ResultTrack track_of(const ResultReader& result, const std::string& method, std:
   const std::size_t stride = std::max<std::size_t>(1, (times.size() + most_frames - 1) / most_frames);
   ResultTrack track{method, {}, {}};
   for (std::size_t f = 0; f < times.size(); f += stride) {
-    const Pose pose{Vec3(p[3 * f], p[3 * f + 1], p[3 * f + 2]),
-                    Eigen::Quaterniond(q[4 * f + 3], q[4 * f], q[4 * f + 1], q[4 * f + 2])};
     track.frames.push_back(f);
-    track.poses.push_back({times[f], pose});
+    track.poses.push_back({times[f], recorded_pose(p, q, f)});
   }
   return track;
 }
@@ -96,9 +100,7 @@ std::shared_ptr<const MoverPlay> recorded_play(const LoadedMovers& loaded, const
     bodies.push_back(mover.body);
     names.push_back(mover.name);
   }
-  for (std::size_t i = 0; i < rows; ++i)
-    poses[i % movers].push_back({Vec3(p[3 * i], p[3 * i + 1], p[3 * i + 2]),
-                                 Eigen::Quaterniond(q[4 * i + 3], q[4 * i], q[4 * i + 1], q[4 * i + 2])});
+  for (std::size_t i = 0; i < rows; ++i) poses[i % movers].push_back(recorded_pose(p, q, i));
   return std::make_shared<const MoverPlay>(make_play(bodies, names, scene.fixed, poses));
 }
 
@@ -114,6 +116,13 @@ ResultScene scene_of_experiment(Experiment experiment, const ResultReader& resul
   const auto frames = static_cast<std::int64_t>(result.reals("/path/time").size());
   const auto deformation = deformation_of(scene, notes, frames);
   return {scene, deformation, recorded_play(load_movers(experiment, scene, notes), scene, result)};
+}
+
+const MethodDescription& exact_description() {
+  for (const MethodDescription& description : method_descriptions())
+    if (description.promise == Promise::COMPLETE_SET && !description.brute_force) return description;
+  throw EnvironmentError("", "", "this build has no method that is complete in every frame",
+                         "build all methods");
 }
 
 }  // namespace
@@ -172,17 +181,6 @@ TriangleMesh placed_mesh(const FixedBody& fixed) {
   for (Vec3& vertex : mesh.vertices) vertex = X_WF.point(vertex);
   return mesh;
 }
-
-namespace {
-
-const MethodDescription& exact_description() {
-  for (const MethodDescription& description : method_descriptions())
-    if (description.promise == Promise::COMPLETE_SET && !description.brute_force) return description;
-  throw EnvironmentError("", "", "this build has no method that is complete in every frame",
-                         "build all methods");
-}
-
-}  // namespace
 
 std::unique_ptr<Method> exact_method(const Scene& scene) {
   return make_method(exact_description().name, scene);
