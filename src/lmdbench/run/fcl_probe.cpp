@@ -200,11 +200,6 @@ FclCheck probe_fcl(const Scene& scene, const LockstepInput& input, const std::ve
   FclCheck check;
   WorkCounters ignored;
   LmdSet lmds;
-  const auto tell = [&] {
-    if (progress &&
-        !progress(static_cast<std::int64_t>(check.frames.size()), static_cast<std::int64_t>(frames.size())))
-      throw Interrupted();
-  };
   std::size_t noted = 0;  // exceptions before those of the last frame
   for (const std::int64_t frame : frames) {
     const Pose& X_WM = input.poses[static_cast<std::size_t>(frame)];
@@ -219,7 +214,7 @@ FclCheck probe_fcl(const Scene& scene, const LockstepInput& input, const std::ve
         exception.frame = frame;
         check.exceptions.push_back(std::move(exception));
       }
-      tell();
+      tell_progress(progress, check.frames.size(), frames.size());
       continue;
     }
     noted = check.exceptions.size();
@@ -232,7 +227,7 @@ FclCheck probe_fcl(const Scene& scene, const LockstepInput& input, const std::ve
                     instances[i]->search(X_WM, lmds, ignored);
                     return lmds;
                   });
-    tell();
+    tell_progress(progress, check.frames.size(), frames.size());
   }
   sort_exceptions(check);
   return check;
@@ -261,9 +256,7 @@ FclCheck probe_mover_fcl(const MoverPlay& play, double cutoff, const std::vector
                     instances[i]->search(X_WM, lmds, ignored);
                     return lmds;
                   });
-    if (progress &&
-        !progress(static_cast<std::int64_t>(check.frames.size()), static_cast<std::int64_t>(frames.size())))
-      throw Interrupted();
+    tell_progress(progress, check.frames.size(), frames.size());
   }
   sort_exceptions(check);
   return check;

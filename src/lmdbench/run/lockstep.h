@@ -13,6 +13,7 @@
 #include <lmdbench/run/records.h>
 #include <lmdbench/run/scene_deformation.h>
 
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -78,6 +79,13 @@ using Progress = std::function<bool(std::int64_t done, std::int64_t total)>;
 
 /// Thrown when `Progress` asked to stop.
 class Interrupted {};
+
+/// Says how far a loop is, where anybody asks.
+/// @throws Interrupted when `progress` asked to stop
+inline void tell_progress(const Progress& progress, std::size_t done, std::size_t total) {
+  if (progress && !progress(static_cast<std::int64_t>(done), static_cast<std::int64_t>(total)))
+    throw Interrupted();
+}
 
 class RunKeeper;
 

@@ -87,7 +87,6 @@ std::vector<TruthFrame> probe_mover_truth(const MoverPlay& play, const LockstepI
   std::vector<LmdSet> sets;
   const auto search = [&](std::int64_t frame) {
     TruthFrame found;
-    found.frame = frame;
     const auto at = static_cast<std::size_t>(frame);
     *poses = play.poses[at];
     if (in_contact == nullptr || (*in_contact)[at]) exhaustive->search(Pose{}, found.lmds, ignored);
@@ -102,18 +101,7 @@ std::vector<TruthFrame> probe_mover_truth(const MoverPlay& play, const LockstepI
     }
     return found;
   };
-  std::vector<TruthFrame> truth;
-  for (const std::int64_t frame : frames) {
-    TruthFrame here = search(frame);
-    const TruthFrame next = search(frame + 1);
-    for (std::size_t law = 0; law < FORCE_LAW_COUNT; ++law)
-      here.force_jump[law] = (next.force[law] - here.force[law]).norm();
-    truth.push_back(std::move(here));
-    if (progress &&
-        !progress(static_cast<std::int64_t>(truth.size()), static_cast<std::int64_t>(frames.size())))
-      throw Interrupted();
-  }
-  return truth;
+  return truth_of_frames(frames, search, progress);
 }
 
 std::vector<TruthComparison> compare_with_truth(const std::vector<TruthFrame>& truth,

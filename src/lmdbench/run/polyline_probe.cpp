@@ -23,9 +23,7 @@ std::vector<PolylineFrame> probe_polylines(const Scene& scene, const LockstepInp
         tracer->trace(input.poses[static_cast<std::size_t>(frame)]);
     const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     result.push_back({frame, seconds, lines});
-    if (progress &&
-        !progress(static_cast<std::int64_t>(result.size()), static_cast<std::int64_t>(frames.size())))
-      throw Interrupted();
+    tell_progress(progress, result.size(), frames.size());
   }
   return result;
 }

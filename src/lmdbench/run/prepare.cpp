@@ -115,10 +115,7 @@ GrazingPath make_path(const Experiment& experiment, const Scene& scene, const Pr
   return rich_grazing_path(
       mesh_scene(scene.moving->surface().mesh, std::move(fixed)), scene.cutoff, experiment.frame_rate_hz,
       [&](const Path& path) { return one_contact ? RICH_CONTACTS : median_contacts(scene, path); },
-      [&](std::size_t done, std::size_t all) {
-        if (progress && !progress(static_cast<std::int64_t>(done), static_cast<std::int64_t>(all)))
-          throw Interrupted();
-      });
+      [&](std::size_t done, std::size_t all) { tell_progress(progress, done, all); });
 }
 
 DefaultNote note_of(const GrazingPath& made, double cutoff) {

@@ -134,9 +134,11 @@ RunResult run_experiment(const Experiment& experiment, const RunProgress& progre
       make_keeper ? make_keeper(result, prepared.input.frames.value_or(frame_count)) : nullptr;
   const bool forecast = allowed(experiment.rules, Rule::CONTACT_FORECAST);
   const std::shared_ptr<const MoverPlay> movers = prepared.input.movers;
-  result.in_contact = movers ? frames_in_contact(*movers, prepared.scene().cutoff)
-                             : frames_in_contact(prepared.scene(), prepared.input.deformation,
-                                                 prepared.input.poses, forecast);
+  const auto contact_along = [&](const Scene& scene, const std::vector<Pose>& poses) {
+    return movers ? frames_in_contact(*movers, scene.cutoff)
+                  : frames_in_contact(scene, prepared.input.deformation, poses, forecast);
+  };
+  result.in_contact = contact_along(prepared.scene(), prepared.input.poses);
   result.plan.scene = look_at(experiment, prepared, result.in_contact);
   for (const SceneWarning& warning : result.plan.scene->warnings) result.warnings.push_back(to_text(warning));
   result.plan.rules = decide_rules({experiment, prepared.input.poses, result.in_contact, probed});
@@ -163,9 +165,7 @@ RunResult run_experiment(const Experiment& experiment, const RunProgress& progre
     LockstepInput input = prepared.input;
     input.make_poses = nullptr;
     if (experiment.loop.closed) input.poses = result.records[track.methods.front()].poses;
-    track.in_contact = result.one_track ? result.in_contact
-                       : movers         ? frames_in_contact(*movers, profile.scene.cutoff)
-                                : frames_in_contact(profile.scene, input.deformation, input.poses, forecast);
+    track.in_contact = result.one_track ? result.in_contact : contact_along(profile.scene, input.poses);
     const std::vector<bool>* empty_elsewhere =
         is_on(result.plan.rules, Rule::TRUTH_IN_CONTACT) ? &track.in_contact : nullptr;
     if (result.plan.needs(Part::TRUTH_PROBE))

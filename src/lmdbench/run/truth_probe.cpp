@@ -8,11 +8,28 @@
 
 #include <cstddef>
 #include <optional>
+#include <utility>
 
 namespace lmdbench {
 
 double force_angle(const Vec3& a, const Vec3& b) {
   return a.isZero(0.0) || b.isZero(0.0) ? UNSET : angle_between(a, b);
+}
+
+std::vector<TruthFrame> truth_of_frames(const std::vector<std::int64_t>& frames,
+                                        const std::function<TruthFrame(std::int64_t frame)>& truth_at,
+                                        const Progress& progress) {
+  std::vector<TruthFrame> truth;
+  for (const std::int64_t frame : frames) {
+    TruthFrame here = truth_at(frame);
+    here.frame = frame;
+    const TruthFrame next = truth_at(frame + 1);
+    for (std::size_t law = 0; law < FORCE_LAW_COUNT; ++law)
+      here.force_jump[law] = (next.force[law] - here.force[law]).norm();
+    truth.push_back(std::move(here));
+    tell_progress(progress, truth.size(), frames.size());
+  }
+  return truth;
 }
 
 std::vector<TruthFrame> probe_truth(const Scene& scene, const LockstepInput& input,
@@ -24,20 +41,15 @@ std::vector<TruthFrame> probe_truth(const Scene& scene, const LockstepInput& inp
   const std::unique_ptr<Method> exhaustive = make_method("exhaustive", bodies.scene());
   ContactFinder contacts(aggregation, bodies.scene());
   WorkCounters ignored;
-  /// Set and rendered forces of a frame.
-  struct Found {
-    LmdSet lmds;
-    std::array<Vec3, FORCE_LAW_COUNT> force{Vec3::Zero(), Vec3::Zero()};
-  };
   std::optional<Pose> searched;  // where the last set was found, ...
-  Found last;                    // ... and what was found
-  const auto search = [&](std::int64_t frame) -> Found {
+  TruthFrame last;               // ... and what was found
+  const auto search = [&](std::int64_t frame) -> TruthFrame {
     const auto at = static_cast<std::size_t>(frame);
     if (in_contact != nullptr && !(*in_contact)[at]) return {};
     const Pose& X_WM = input.poses[at];
     if (reuse_repeated && searched && same_pose(*searched, X_WM)) return last;
     bodies.to_frame(frame);
-    Found found;
+    TruthFrame found;
     contacts.search(*exhaustive, X_WM, found.lmds, ignored);
     const Vec3 reference_W = RigidTransform(X_WM).point(input.reference_M);
     for (const ForceLaw law : force_laws()) {
@@ -52,19 +64,7 @@ std::vector<TruthFrame> probe_truth(const Scene& scene, const LockstepInput& inp
     }
     return found;
   };
-  std::vector<TruthFrame> truth;
-  for (const std::int64_t frame : frames) {
-    Found found = search(frame);
-    const Found next = search(frame + 1);
-    TruthFrame here{frame, std::move(found.lmds), found.force, {}, {}};
-    for (std::size_t law = 0; law < FORCE_LAW_COUNT; ++law)
-      here.force_jump[law] = (next.force[law] - here.force[law]).norm();
-    truth.push_back(std::move(here));
-    if (progress &&
-        !progress(static_cast<std::int64_t>(truth.size()), static_cast<std::int64_t>(frames.size())))
-      throw Interrupted();
-  }
-  return truth;
+  return truth_of_frames(frames, search, progress);
 }
 
 std::vector<TruthComparison> compare_with_truth(const std::vector<TruthFrame>& truth,

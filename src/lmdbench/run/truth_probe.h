@@ -10,6 +10,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 /// The truth probe: on a stride of frames the exhaustive LMD set is computed at the frame and at the next
@@ -40,6 +41,13 @@ struct TruthComparison {
 
 /// Angle between two forces [rad]; NaN where one of them vanishes.
 double force_angle(const Vec3& a, const Vec3& b);
+
+/// Truth at the given frames, with the jump of the force to each one's next.
+/// @param truth_at set and rendered forces of a frame
+/// @throws Interrupted when `progress` asked to stop
+std::vector<TruthFrame> truth_of_frames(const std::vector<std::int64_t>& frames,
+                                        const std::function<TruthFrame(std::int64_t frame)>& truth_at,
+                                        const Progress& progress);
 
 /// Computes truth at the given frames.
 /// @param profile  the scene's; its law is ignored
