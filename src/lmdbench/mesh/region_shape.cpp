@@ -1,6 +1,5 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include <lmdbench/geometry/extent.h>
 #include <lmdbench/geometry/tolerance.h>
 #include <lmdbench/mesh/region_shape.h>
 
@@ -12,24 +11,6 @@
 namespace lmdbench {
 
 namespace {
-
-/// The bar along the longest side of the hull.
-void find_bar(RegionShape& shape) {
-  if (shape.hull.empty()) return;
-  Vec2 longest = Vec2::Zero();
-  for (std::size_t k = 0; k < shape.hull.size(); ++k) {
-    const Vec2 side = shape.hull[(k + 1) % shape.hull.size()] - shape.hull[k];
-    if (side.squaredNorm() > longest.squaredNorm()) longest = side;
-  }
-  const Vec2 along = longest.normalized(), across(-along[1], along[0]);
-  const Extent of_length = extent_along(shape.hull, along), of_width = extent_along(shape.hull, across);
-  const Vec2 centre = 0.5 * (of_length.least + of_length.greatest) * along +
-                      0.5 * (of_width.least + of_width.greatest) * across;
-  shape.bar.centre = shape.frame.lifted(centre);
-  shape.bar.half =
-      0.5 * (of_length.greatest - of_length.least) * (along[0] * shape.frame.u + along[1] * shape.frame.v);
-  shape.bar.radius = 0.5 * (of_width.greatest - of_width.least);
-}
 
 RegionShape shape_of(const Surface& surface, const FlatRegions& regions, std::int32_t region,
                      double tolerance) {
@@ -74,7 +55,6 @@ RegionShape shape_of(const Surface& surface, const FlatRegions& regions, std::in
   std::vector<Vec2> outline;
   for (const std::int32_t v : shape.corners) outline.push_back(shape.frame.flat(vertex(v)));
   shape.hull = convex_hull(std::move(outline));
-  find_bar(shape);
   return shape;
 }
 

@@ -14,12 +14,6 @@
 
 namespace lmdbench {
 
-/// A segment with a radius [m].
-struct Bar {
-  Vec3 centre = Vec3::Zero(), half = Vec3::Zero();  ///< The segment is centre +- half.
-  double radius = 0.0;
-};
-
 /// A flat region without its tessellation: a polygon, with holes where it has them, as convex pieces; and
 /// where its triangles lie. All in the plane's own frame.
 struct RegionShape {
@@ -30,7 +24,6 @@ struct RegionShape {
   BoxGrid piece_grid;                              ///< Of the pieces' boxes.
   std::vector<std::int32_t> corners;  ///< Vertices where straight edges of its border end, ascending.
   std::vector<Vec2> hull;             ///< Convex hull of the corners, counter-clockwise.
-  Bar bar;                            ///< That holds the region; frame S.
   BoxGrid triangle_grid;  ///< Of the triangles' boxes, in the order of FlatRegions::region_triangles.
 };
 

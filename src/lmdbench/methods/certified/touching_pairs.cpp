@@ -10,7 +10,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <utility>
 
 namespace lmdbench {
 
@@ -19,6 +18,9 @@ namespace {
 /// Of features with more pairs of corners the sides are not tried as separating axes, because the triangles that are near each
 /// other may be fewer (scripts/tuned_constants.py --only MOST_CORNER_PAIRS experiments/extreme/peg-square.json).
 constexpr std::size_t MOST_CORNER_PAIRS = 64;
+
+/// Corners of a hull that are asked first whether it lies on both sides of a plane.
+constexpr std::size_t FEW_CORNERS = 4;
 
 /// Gaps that say that two triangles are apart are wider than this many touches.
 constexpr double MARGIN_IN_TOUCHES = 2.0;
@@ -52,6 +54,11 @@ ClearGap gap_to(const Plane& plane, const ShapeSide& side, const RegionShape& sh
   const double height = plane.height(side.is_moving ? side.X_WS.point(origin) : origin);
   const Vec2 rise(plane.normal.dot(side.direction(shape.frame.u)),
                   plane.normal.dot(side.direction(shape.frame.v)));
+  // Nearly all that are asked lie on both sides, which a few corners tell.
+  Extent of_few;
+  for (std::size_t k = 0; k < FEW_CORNERS && !shape.hull.empty(); ++k)
+    of_few.add(height + rise.dot(shape.hull[k * shape.hull.size() / FEW_CORNERS]));
+  if (of_few.least < 0.0 && of_few.greatest > 0.0) return {};
   const Extent along = extent_along(shape.hull, rise);
   const double least = height + along.least, greatest = height + along.greatest;
   return least >= -greatest ? ClearGap{least, -plane.normal} : ClearGap{-greatest, plane.normal};
@@ -61,19 +68,6 @@ ClearGap gap_to(const Plane& plane, const ShapeSide& side, const RegionShape& sh
 const RegionShape* shape_of(const ShapeSide& side, const FeatureId& face) {
   const std::int32_t region = side.shape.region_of(face.index);
   return region < 0 ? nullptr : side.shape.shapes.of_region(region);
-}
-
-/// Gap of two bars, square to the longer one: walls of a peg and of its bore stand side by side, and a disc round a wall meets half
-/// of the others.
-ClearGap gap_of_bars(const Bar& a, const Bar& b) {
-  const bool a_is_longer = a.half.squaredNorm() > b.half.squaredNorm();
-  const Vec3 &longer = a_is_longer ? a.half : b.half, &shorter = a_is_longer ? b.half : a.half;
-  const Vec3 between = b.centre - a.centre;
-  const Vec3 across = between - between.dot(longer) / longer.squaredNorm() * longer;
-  const double distance = across.norm();
-  if (!(distance > 0.0)) return {};
-  const Vec3 axis = across / distance;
-  return {distance - std::abs(axis.dot(shorter)) - a.radius - b.radius, axis};
 }
 
 /// Largest gap between two regions along the products of a side of one and a side of the other: with their own planes the
@@ -163,23 +157,12 @@ struct TouchingPairs::Batch {
 std::span<const Certificate> TouchingPairs::decide(Frame& frame, std::span<const WidePair> pairs) {
   const ShapeSide &moving = frame.pair.moving, &fixed = frame.pair.fixed;
   const bool is_joined = moving.shape.is_joined || fixed.shape.is_joined;
-  const double margin = MARGIN_IN_TOUCHES * frame.touch;
   certificates_.assign(pairs.size(), Certificate{});
-  ++calls_;
   Batch batch, not_crossing;
   for (std::size_t k = 0; k < pairs.size(); ++k) {
     const FeatureId on_moving = pairs[k].a.feature_id(), on_fixed = pairs[k].b.feature_id();
     ++frame.triangle_pairs;
-    const RegionShape* const shape_moving = is_joined ? shape_of(moving, on_moving) : nullptr;
-    const RegionShape* const shape_fixed = is_joined ? shape_of(fixed, on_fixed) : nullptr;
-    if (shape_moving != nullptr && shape_fixed != nullptr) {
-      const ClearGap gap = gap_of_bars(moving_bar(moving, *shape_moving), shape_fixed->bar);
-      if (gap.gap > margin) {
-        certificates_[k] = {gap.gap - margin, gap.axis};
-        continue;
-      }
-    }
-    if (shape_moving != nullptr || shape_fixed != nullptr) {
+    if (is_joined && (shape_of(moving, on_moving) != nullptr || shape_of(fixed, on_fixed) != nullptr)) {
       certificates_[k] = decide_regions(frame, pairs[k]);
       continue;
     }
@@ -190,15 +173,6 @@ std::span<const Certificate> TouchingPairs::decide(Frame& frame, std::span<const
   decide_batch(frame, batch, not_crossing);
   decide_not_crossing(frame, not_crossing);
   return certificates_;
-}
-
-const Bar& TouchingPairs::moving_bar(const ShapeSide& moving, const RegionShape& shape) {
-  const std::vector<RegionShape>& shapes = moving.shape.shapes.shapes;
-  moving_bars_.resize(shapes.size());
-  auto& [made_in, bar] = moving_bars_[static_cast<std::size_t>(&shape - shapes.data())];
-  if (std::exchange(made_in, calls_) != calls_)
-    bar = {moving.X_WS.point(shape.bar.centre), moving.X_WS.direction(shape.bar.half), shape.bar.radius};
-  return bar;
 }
 
 void TouchingPairs::decide_batch(Frame& frame, Batch& batch, Batch& not_crossing) {

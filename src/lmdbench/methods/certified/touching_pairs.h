@@ -10,7 +10,6 @@
 
 #include <cstdint>
 #include <span>
-#include <utility>
 #include <vector>
 
 namespace lmdbench {
@@ -41,17 +40,12 @@ class TouchingPairs {
   struct Batch;
   struct Half;
 
-  /// In the world.
-  const Bar& moving_bar(const ShapeSide& moving, const RegionShape& shape);
   void decide_batch(Frame& frame, Batch& batch, Batch& not_crossing);
   void decide_not_crossing(Frame& frame, Batch& batch);
   Certificate decide_triangles(Frame& frame, std::int32_t t_moving, std::int32_t t_fixed);
   Certificate decide_regions(Frame& frame, const WidePair& pair);
 
   std::vector<Certificate> certificates_;
-  std::uint64_t calls_ = 0;
-  std::vector<std::pair<std::uint64_t, Bar>>
-      moving_bars_;  ///< Of the moving shapes, with the call that made each.
   std::vector<std::int32_t> faces_of_large_, faces_of_small_;
   std::vector<Vec3> points_moving_, points_fixed_;
 };

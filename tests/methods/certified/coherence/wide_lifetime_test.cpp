@@ -26,28 +26,29 @@ TEST(WideLifetime, VectorAndScalarAgreeBitForBit) {
   std::mt19937_64 random(4);
   std::size_t alive = 0, dead = 0;
   bool moving_lanes = false;
-  for_each_random_node_test(
-      random, [&](const WideQuery& query, const WideNode& node, const WideProbe& probe) {
-        moving_lanes = !moving_lanes;
-        WideForecast forecast;
-        forecast.in_moving = WideTransform(0.01 * testing::random_rotation(random).toRotationMatrix(),
-                                           0.01 * random_direction(random));
-        forecast.creep = random_float(1e-3, random);
-        forecast.spin = random_float(1e-2, random);
-        forecast.cutoff = query.limits.cutoff;
-        forecast.base = random_float(1e-3, random);
-        forecast.drift = random_float(1e-3, random);
-        forecast.reach = 3.0F;
-        const WideLifetimeTest test{
-            moving_lanes,
-            {random_float(0.01, random), random_float(0.01, random), -random_float(0.01, random)},
-            static_cast<std::uint32_t>(random() & 0xFFu)};
-        forecast.horizon = random_float(4.0, random);
-        const WideLifetimes scalar = test_lanes_lifetime_scalar(node, probe, query.limits, forecast, test);
-        const WideLifetimes vector = test_lanes_lifetime(node, probe, query.limits, forecast, test);
-        ASSERT_NO_FATAL_FAILURE(expect_same_lifetimes(vector, scalar));
-        ++(scalar.lmd != 0 ? alive : dead);
-      });
+  for_each_random_node_test(random, [&](const WideQuery& query, const WideNode& node, const WideProbe& probe,
+                                        const WideWidthTest* widths) {
+    moving_lanes = !moving_lanes;
+    WideForecast forecast;
+    forecast.in_moving = WideTransform(0.01 * testing::random_rotation(random).toRotationMatrix(),
+                                       0.01 * random_direction(random));
+    forecast.creep = random_float(1e-3, random);
+    forecast.spin = random_float(1e-2, random);
+    forecast.cutoff = query.limits.cutoff;
+    forecast.base = random_float(1e-3, random);
+    forecast.drift = random_float(1e-3, random);
+    forecast.reach = 3.0F;
+    const WideLifetimeTest test{
+        moving_lanes,
+        {random_float(0.01, random), random_float(0.01, random), -random_float(0.01, random)},
+        static_cast<std::uint32_t>(random() & 0xFFu)};
+    forecast.horizon = random_float(4.0, random);
+    const WideLifetimes scalar =
+        test_lanes_lifetime_scalar(node, probe, query.limits, forecast, test, widths);
+    const WideLifetimes vector = test_lanes_lifetime(node, probe, query.limits, forecast, test, widths);
+    ASSERT_NO_FATAL_FAILURE(expect_same_lifetimes(vector, scalar));
+    ++(scalar.lmd != 0 ? alive : dead);
+  });
   EXPECT_GT(alive, 100u);
   EXPECT_GT(dead, 100u);
 }
@@ -64,10 +65,7 @@ struct EndsAsLmd {
     cutoff = 0.2 * uniform(random);
     const double distance = cutoff * uniform(random);
     const Mat3 opposite = Eigen::Quaterniond::FromTwoVectors(b.direction, -a.direction).toRotationMatrix();
-    const Vec3 offset = a.point + distance * a.direction - opposite * b.point;
-    b.centre = opposite * b.centre + offset;
-    b.axis = opposite * b.axis;
-    b.point = opposite * b.point + offset;
+    b.turn(opposite, a.point + distance * a.direction - opposite * b.point);
     frames = 20.0 * uniform(random);
     angle = 0.3 * uniform(random) * uniform(random) * uniform(random);
     turn = Eigen::AngleAxisd(angle, random_direction(random)).toRotationMatrix();
@@ -79,7 +77,7 @@ struct EndsAsLmd {
 
 TEST(WideLifetime, NothingIsAnLmdBeforeItsFramesAreOver) {
   std::mt19937_64 random(5);
-  std::size_t rejected = 0, beyond = 0, held = 0;
+  std::size_t rejected = 0, beyond = 0, held = 0, by_width = 0;
   for (int i = 0; i < 400000; ++i) {
     const EndsAsLmd pair(random);
     // The moving mesh's own frame is the world at the end of the motion. At the start, its points were at
@@ -100,6 +98,10 @@ TEST(WideLifetime, NothingIsAnLmdBeforeItsFramesAreOver) {
     const WideTransform place = moving_lanes ? WideTransform(to_moving, -(to_moving * X_start.translation))
                                              : WideTransform(X_start.rotation, X_start.translation);
     const WideProbe probe = make_probe(WideChild(home, 0), place);
+    WideWidths of_home{}, of_node{};
+    (moving_lanes ? pair.b : pair.a).store(of_home, 0);
+    (moving_lanes ? pair.a : pair.b).store(of_node, 3);
+    const WideWidthTest widths = make_width_test(of_node, of_home, 0, place);
     const double size = 3.0 + pair.b.centre.norm();
     const WideLimits limits{static_cast<float>(pair.cutoff * (1.0 + 1e-7)), 0.0F,
                             static_cast<float>(POSITION_ROUNDING * size)};
@@ -114,9 +116,12 @@ TEST(WideLifetime, NothingIsAnLmdBeforeItsFramesAreOver) {
     forecast.reach = 4.0F;
     WideLifetimeTest test{moving_lanes, {}, 0u};
     for (int k = 0; k < 3; ++k) test.probe_velocity[k] = static_cast<float>(pair.velocity[k]);
-    const WideLifetimes result = test_lanes_lifetime(node, probe, limits, forecast, test);
+    const bool with_widths = i / 2 % 2 == 1;
+    const WideLifetimes result =
+        test_lanes_lifetime(node, probe, limits, forecast, test, with_widths ? &widths : nullptr);
     if (result.lmd != 0) continue;
     ++rejected;
+    if (with_widths && test_lanes_lifetime(node, probe, limits, forecast, test).lmd != 0) ++by_width;
     if (pair.deviation > static_cast<double>(result.deviation_budget)) {
       ++beyond;
       continue;
@@ -127,6 +132,7 @@ TEST(WideLifetime, NothingIsAnLmdBeforeItsFramesAreOver) {
   EXPECT_GT(rejected, 20000u);
   EXPECT_GT(beyond, 1000u);
   EXPECT_GT(held, 5000u);
+  EXPECT_GT(by_width, 1000u);
 }
 
 /// A turn that changes only how far a direction is outside a cone, by all that lemma 15 of PROOF.md grants: a disc with a
@@ -165,7 +171,7 @@ TEST(WideLifetime, ATurnLeavesAConeNoEarlierThanItsFramesAreOver) {
 /// Two children of which a point each touches at the end of a motion.
 TEST(WideLifetime, NothingTouchesBeforeItsFramesAreOver) {
   std::mt19937_64 random(6);
-  std::size_t apart = 0, held = 0;
+  std::size_t apart = 0, held = 0, by_width = 0;
   for (int i = 0; i < 200000; ++i) {
     LaneSample a(random), b(random);
     const Vec3 together = a.point - b.point;  // at the end, in the frame of both
@@ -182,6 +188,10 @@ TEST(WideLifetime, NothingTouchesBeforeItsFramesAreOver) {
     (moving_lanes ? start : b).store(node, 3);
     const WideTransform same_frame(Mat3::Identity(), Vec3::Zero());
     const WideProbe probe = make_probe(WideChild(home, 0), same_frame);
+    WideWidths of_home{}, of_node{};
+    (moving_lanes ? b : start).store(of_home, 0);
+    (moving_lanes ? start : b).store(of_node, 3);
+    const WideWidthTest widths = make_width_test(of_node, of_home, 0, same_frame);
     const double size = 3.0 + b.centre.norm() + displacement.norm();
     const WideLimits limits{0.2F, 1e-9F, static_cast<float>(POSITION_ROUNDING * size)};
     WideForecast forecast;
@@ -191,15 +201,19 @@ TEST(WideLifetime, NothingTouchesBeforeItsFramesAreOver) {
     forecast.reach = 4.0F;
     WideLifetimeTest test{moving_lanes, {}, 1u << 3};
     for (int k = 0; k < 3; ++k) test.probe_velocity[k] = static_cast<float>(velocity[k]);
-    const WideLifetimes result = test_lanes_lifetime(node, probe, limits, forecast, test);
+    const bool with_widths = i / 2 % 2 == 1;
+    const WideLifetimes result =
+        test_lanes_lifetime(node, probe, limits, forecast, test, with_widths ? &widths : nullptr);
     if (result.touch != 0) continue;
     ++apart;
+    if (with_widths && test_lanes_lifetime(node, probe, limits, forecast, test).touch != 0) ++by_width;
     ASSERT_LE(static_cast<double>(result.frames), frames * (1.0 + 1e-5)) << i;
     // The bound is worth something: a good part of the way is covered.
     if (static_cast<double>(result.frames) > 0.3 * frames) ++held;
   }
   EXPECT_GT(apart, 20000u);
   EXPECT_GT(held, 2000u);
+  EXPECT_GT(by_width, 1000u);
 }
 
 TEST(WideLifetime, TouchingIsAskedForLanesOfFacesAlone) {
@@ -227,7 +241,9 @@ TEST(WideLifetime, DirectionOfTheMotionCounts) {
   LaneSample a(random), b(random);
   a.centre = Vec3::Zero();
   b.centre = {1.0, 0.0, 0.0};
-  a.radius = b.radius = 0.1;
+  a.axis = Vec3::UnitX();
+  b.axis = -Vec3::UnitX();
+  a.radius = b.radius = a.thickness = b.thickness = 0.1;
   WideNode home{}, node{};
   a.store(home, 0);
   b.store(node, 0);

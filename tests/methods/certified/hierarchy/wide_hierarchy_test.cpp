@@ -15,6 +15,7 @@
 #include <algorithm>
 #include <cstring>
 #include <functional>
+#include <numbers>
 #include <random>
 #include <set>
 #include <vector>
@@ -25,6 +26,7 @@ namespace {
 using testing::expect_same_pairs;
 using testing::for_each_random_node_test;
 using testing::LaneSample;
+using testing::make_bushing;
 using testing::random_direction;
 using testing::random_transform;
 using testing::shapes;
@@ -131,7 +133,7 @@ TEST(PolarCap, IsTight) {
 /// Calls visit(node, lane, features below).
 std::vector<FeatureId> visit_lanes(
     const WideHierarchy& hierarchy, std::uint32_t node_index,
-    const std::function<void(const WideNode&, std::size_t, const std::vector<FeatureId>&)>& visit) {
+    const std::function<void(std::uint32_t, std::size_t, const std::vector<FeatureId>&)>& visit) {
   std::vector<FeatureId> all;
   const WideNode& node = hierarchy.nodes[node_index];
   for (std::size_t lane = 0; lane < WIDE_WIDTH; ++lane) {
@@ -139,7 +141,7 @@ std::vector<FeatureId> visit_lanes(
     if (ref.is_empty()) continue;
     const std::vector<FeatureId> below = ref.is_feature() ? std::vector<FeatureId>{ref.feature_id()}
                                                           : visit_lanes(hierarchy, ref.node_index(), visit);
-    visit(node, lane, below);
+    visit(node_index, lane, below);
     all.insert(all.end(), below.begin(), below.end());
   }
   return all;
@@ -148,7 +150,10 @@ std::vector<FeatureId> visit_lanes(
 /// @param shape  null: of the mesh itself
 void expect_owns_and_bounds(const WideHierarchy& hierarchy, const Surface& surface,
                             const ShapeComplex* shape) {
-  const auto check = [&](const WideNode& node, std::size_t lane, const std::vector<FeatureId>& below) {
+  const auto check = [&](std::uint32_t node_index, std::size_t lane, const std::vector<FeatureId>& below) {
+    const WideNode& node = hierarchy.nodes[node_index];
+    const WideWidths& widths = widths_of(hierarchy, node_index);
+    const Vec3 across(widths.across[0][lane], widths.across[1][lane], widths.across[2][lane]);
     const Vec3 centre(node.centre[0][lane], node.centre[1][lane], node.centre[2][lane]);
     const Vec3 axis(node.axis[0][lane], node.axis[1][lane], node.axis[2][lane]);
     for (const FeatureId& feature : below) {
@@ -162,6 +167,7 @@ void expect_owns_and_bounds(const WideHierarchy& hierarchy, const Surface& surfa
         const Vec3 p = surface.mesh.vertices[static_cast<std::size_t>(corner)] - hierarchy.origin;
         ASSERT_LE((p - centre).norm(), static_cast<double>(node.radius[lane]));
         ASSERT_LE(std::abs((p - centre).dot(axis)), static_cast<double>(node.thickness[lane]));
+        ASSERT_LE(std::abs((p - centre).dot(across)), static_cast<double>(widths.half_width[lane]));
         ASSERT_LE(p.norm(), hierarchy.radius);
       }
       if (axis.isZero(0.0)) continue;
@@ -187,6 +193,65 @@ TEST(WideHierarchy, OwnsEveryFeatureOnceAndBoundsIt) {
     const Surface surface = build_surface(mesh);
     expect_owns_and_bounds(build_wide_hierarchy(surface), surface, nullptr);
   }
+}
+
+/// With the shape a lane holds a whole wall: every vertex of its region.
+TEST(WideHierarchy, KnowsHowNarrowLongWallsAre) {
+  const TriangleMesh mesh = make_bushing(48);
+  const Body body("bushing", build_surface(mesh));
+  const auto& hierarchy = body.prepared<WideHierarchy>();
+  const auto& shape = body.prepared<ShapeComplex>();
+  expect_owns_and_bounds(hierarchy, body.surface(), &shape);
+  ASSERT_EQ(hierarchy.widths.size(), hierarchy.nodes.size());
+  const double wall = 2.0 * 0.5 * std::sin(std::numbers::pi / 48.0);
+  std::size_t walls = 0;
+  visit_lanes(hierarchy, 0, [&](std::uint32_t n, std::size_t lane, const std::vector<FeatureId>& below) {
+    const WideNode& node = hierarchy.nodes[n];
+    const WideWidths& widths = hierarchy.widths[n];
+    const Vec3 across(widths.across[0][lane], widths.across[1][lane], widths.across[2][lane]);
+    const Vec3 axis(node.axis[0][lane], node.axis[1][lane], node.axis[2][lane]);
+    if (widths.half_width[lane] == 0.0F) {
+      EXPECT_TRUE(across.isZero(0.0));
+      return;
+    }
+    EXPECT_NEAR(across.norm(), 1.0, 1e-6);
+    EXPECT_NEAR(across.dot(axis), 0.0, 1e-6);
+    if (below.size() != 1 || below[0].kind != FeatureKind::FACE) return;
+    EXPECT_LE(static_cast<double>(widths.half_width[lane]), 0.51 * wall);
+    const Vec3 centre(node.centre[0][lane], node.centre[1][lane], node.centre[2][lane]);
+    std::vector<std::int32_t> corners;
+    shape.append_corners(body.surface(), below[0], corners);
+    for (const std::int32_t v : corners)
+      EXPECT_LE(
+          std::abs((mesh.vertices[static_cast<std::size_t>(v)] - hierarchy.origin - centre).dot(across)),
+          static_cast<double>(widths.half_width[lane]));
+    ++walls;
+  });
+  EXPECT_EQ(walls, 96u);
+
+  Body deforming("deforming", build_surface(mesh));
+  const auto& followed = deforming.prepared<WideHierarchy>();
+  deforming.prepared<ShapeComplex>();
+  std::vector<Vec3> vertices = mesh.vertices;
+  for (Vec3& p : vertices) p.x() *= 1.5;
+  deforming.deform(vertices);
+  EXPECT_TRUE(followed.widths.empty()) << "widths of another mesh";
+}
+
+TEST(WideHierarchy, WallsOfABoreMeetAFewOfAPeg) {
+  // Whatever the number of walls: a disc round a wall meets half of all others.
+  const auto touching_a_wall = [](int segments) {
+    const Body peg("peg", build_surface(make_sleeve(circle_outline(0.3999), nullptr,
+                                                    {.height = 1.0, .around = segments})));
+    const Body bushing("bushing", build_surface(make_bushing(segments)));
+    const auto &a = peg.prepared<WideHierarchy>(), &b = bushing.prepared<WideHierarchy>();
+    WideScratch scratch;
+    WideCounters counters;
+    find_wide_pairs(a, b, WideQuery(a, b, RigidTransform(), 0.01, 2e-8), WideKernel::VECTOR, scratch,
+                    counters);
+    return static_cast<double>(scratch.touch_pairs.size()) / segments;
+  };
+  EXPECT_LE(touching_a_wall(256), 8.0);
 }
 
 TEST(WideHierarchy, OwnsEveryFeatureOnceAndBoundsItWhileTheMeshDeforms) {
@@ -224,7 +289,7 @@ TEST(WideHierarchy, IsTheSameEveryTime) {
       build_surface(make_blob(1.0, 0.3, 5));  // large enough to be built by several threads
   const WideHierarchy a = build_wide_hierarchy(surface), b = build_wide_hierarchy(surface);
   ASSERT_EQ(a.nodes.size(), b.nodes.size());
-  EXPECT_EQ(std::memcmp(a.nodes.data(), b.nodes.data(), a.bytes()), 0);
+  EXPECT_EQ(std::memcmp(a.nodes.data(), b.nodes.data(), a.nodes.size() * sizeof(WideNode)), 0);
 }
 
 TEST(WideHierarchy, DoesNotDependOnTheNumberOfThreads) {
@@ -235,7 +300,7 @@ TEST(WideHierarchy, DoesNotDependOnTheNumberOfThreads) {
   };
   const WideHierarchy one = with_threads(1), four = with_threads(4);
   ASSERT_EQ(one.nodes.size(), four.nodes.size());
-  EXPECT_EQ(std::memcmp(one.nodes.data(), four.nodes.data(), one.bytes()), 0);
+  EXPECT_EQ(std::memcmp(one.nodes.data(), four.nodes.data(), one.nodes.size() * sizeof(WideNode)), 0);
 }
 
 TEST(WideHierarchy, IsCompact) {
@@ -252,17 +317,20 @@ TEST(WideHierarchy, OfAnEmptyMeshIsEmpty) {
 TEST(WideNodeTest, VectorAndScalarAgreeBitForBit) {
   std::mt19937_64 random(1);
   std::size_t alive = 0;
-  for_each_random_node_test(random,
-                            [&](const WideQuery& query, const WideNode& node, const WideProbe& probe) {
-                              const WideMasks scalar = test_lanes_scalar(node, probe, query.limits);
-                              const WideMasks vector = test_lanes_vector(node, probe, query.limits);
-                              ASSERT_EQ(scalar.lmd, vector.lmd);
-                              ASSERT_EQ(scalar.touch, vector.touch);
-                              ASSERT_EQ(scalar.used, vector.used);
-                              ASSERT_EQ(scalar.beyond, vector.beyond);
-                              ASSERT_EQ(scalar.not_collinear, vector.not_collinear);
-                              if (scalar.lmd != 0) ++alive;
-                            });
+  std::size_t with_widths = 0;
+  for_each_random_node_test(random, [&](const WideQuery& query, const WideNode& node, const WideProbe& probe,
+                                        const WideWidthTest* widths) {
+    const WideMasks scalar = test_lanes_scalar(node, probe, query.limits, widths);
+    const WideMasks vector = test_lanes_vector(node, probe, query.limits, widths);
+    ASSERT_EQ(scalar.lmd, vector.lmd);
+    ASSERT_EQ(scalar.touch, vector.touch);
+    ASSERT_EQ(scalar.used, vector.used);
+    ASSERT_EQ(scalar.beyond, vector.beyond);
+    ASSERT_EQ(scalar.not_collinear, vector.not_collinear);
+    if (scalar.lmd != 0) ++alive;
+    if (widths != nullptr && scalar.lmd != 0) ++with_widths;
+  });
+  EXPECT_GT(with_widths, 10u);
   EXPECT_GT(alive, 100u);
 }
 
@@ -271,7 +339,7 @@ TEST(WideNodeTest, NeverRejectsAPairOfOppositeDirections) {
   // distance within the cutoff: whatever the bodies, the pair must survive. Distance at most the touch
   // distance: must touch.
   std::mt19937_64 random(2);
-  std::size_t rejected = 0;
+  std::size_t rejected = 0, by_width = 0;
   for (int i = 0; i < 200000; ++i) {
     const LaneSample a(random);
     LaneSample b(random);
@@ -279,34 +347,44 @@ TEST(WideNodeTest, NeverRejectsAPairOfOppositeDirections) {
     const double distance = cutoff * (i % 2 == 0 ? 1.0 : uniform(random));
     // Turn b so that its direction is the opposite of a's, then move its point to a's point + distance.
     const Mat3 turn = Eigen::Quaterniond::FromTwoVectors(b.direction, -a.direction).toRotationMatrix();
-    const Vec3 offset = a.point + distance * a.direction - turn * b.point;
-    b.centre = turn * b.centre + offset;
-    b.axis = turn * b.axis;
+    b.turn(turn, a.point + distance * a.direction - turn * b.point);
     WideNode home{}, node{};
+    WideWidths of_probe{}, of_node{};
     a.store(home, 0);
     b.store(node, 3);
-    const WideProbe probe = make_probe(WideChild(home, 0), WideTransform(Mat3::Identity(), Vec3::Zero()));
+    if (i % 3 != 1) a.store(of_probe, 0);
+    if (i % 3 != 2) b.store(of_node, 3);
+    const WideTransform same(Mat3::Identity(), Vec3::Zero());
+    const WideProbe probe = make_probe(WideChild(home, 0), same);
+    const WideWidthTest widths = make_width_test(of_node, of_probe, 0, same);
     const double size = 1.0 + b.centre.norm();
     const WideLimits limits{static_cast<float>(cutoff * (1.0 + 1e-7)),
                             static_cast<float>(distance * (1.0 + 1e-7)),
                             static_cast<float>(POSITION_ROUNDING * size)};
-    const WideMasks masks = test_lanes_scalar(node, probe, limits);
-    ASSERT_EQ(masks.lmd, 8u) << i;
-    ASSERT_EQ(masks.touch, 8u) << i;
+    for (const WideWidthTest* const with : {static_cast<const WideWidthTest*>(nullptr), &widths}) {
+      const WideMasks masks = test_lanes_scalar(node, probe, limits, with);
+      ASSERT_EQ(masks.lmd, 8u) << i;
+      ASSERT_EQ(masks.touch, 8u) << i;
+    }
     // A slightly larger gap than the cutoff along a's axis is what the test is for.
     WideLimits shorter = limits;
     shorter.cutoff *= 0.5F;
     shorter.touch = 0.0F;
-    if (test_lanes_scalar(node, probe, shorter).lmd == 0) ++rejected;
+    if (test_lanes_scalar(node, probe, shorter).lmd == 0)
+      ++rejected;
+    else if (test_lanes_scalar(node, probe, shorter, &widths).lmd == 0)
+      ++by_width;
   }
   EXPECT_GT(rejected, 10000u);
+  EXPECT_GT(by_width, 1000u);
 }
 
 TEST(WideTraversal, VectorAndScalarFindTheSamePairs) {
   std::mt19937_64 random(3);
   std::size_t pairs = 0;
   for (const TriangleMesh& mesh : shapes()) {
-    const WideHierarchy hierarchy = build_wide_hierarchy(build_surface(mesh));
+    const Body body("shape", build_surface(mesh));
+    const auto& hierarchy = body.prepared<WideHierarchy>();
     for (int i = 0; i < 30; ++i) {
       const WideQuery query(hierarchy, hierarchy,
                             random_transform(2.0 * hierarchy.radius * uniform(random), random),

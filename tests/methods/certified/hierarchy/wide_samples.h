@@ -2,7 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <lmdbench/catalogue/rounded_circle.h>
 #include <lmdbench/catalogue/shapes.h>
+#include <lmdbench/catalogue/sleeve.h>
+#include <lmdbench/lmd/body.h>
 #include <lmdbench/methods/certified/coherence/wide_lifetime.h>
 #include <lmdbench/methods/certified/hierarchy/wide_hierarchy.h>
 #include <lmdbench/methods/certified/hierarchy/wide_traversal.h>
@@ -20,6 +23,11 @@
 /// What the tests of the wide hierarchy draw at random.
 namespace lmdbench::testing {
 
+/// A ring of long walls, inside and outside: its hierarchy has widths.
+inline TriangleMesh make_bushing(int segments) {
+  return make_sleeve(circle_outline(0.5), circle_outline(0.4), {.height = 1.0, .around = segments});
+}
+
 inline std::vector<TriangleMesh> shapes() {
   return {make_blob(1.0, 0.3, 3),
           make_torus(1.0, 0.4, 20, 10),
@@ -29,7 +37,8 @@ inline std::vector<TriangleMesh> shapes() {
           make_box({1.0, 2.0, 3.0}, 3),
           make_l_block(1.0),
           make_sphere(1.0, 2),
-          translated(make_blob(1.0, 0.3, 2), {1e4, 0.0, 0.0})};
+          translated(make_blob(1.0, 0.3, 2), {1e4, 0.0, 0.0}),
+          make_bushing(48)};
 }
 
 /// A random rotation between two hierarchies with the moving one at about `distance`.
@@ -39,23 +48,32 @@ inline RigidTransform random_transform(double distance, std::mt19937_64& random)
 
 /// Fills a lane with a random body and cone, and draws a point and a direction inside.
 struct LaneSample {
-  Vec3 centre, axis, point, direction;
-  double radius, thickness, cosine;
+  Vec3 centre, axis, across, point, direction;
+  double radius, thickness, half_width, cosine;
 
   explicit LaneSample(std::mt19937_64& random) {
     centre = uniform(random) * random_direction(random);
     axis = random_direction(random);
     radius = 0.3 * uniform(random) * uniform(random);
     thickness = radius * uniform(random) * uniform(random);
+    half_width = radius * uniform(random) * uniform(random);
+    across = Eigen::AngleAxisd(2.0 * std::numbers::pi * uniform(random), axis) * axis.unitOrthogonal();
     cosine = 1.0 - uniform(random) * uniform(random);
     do {
       point = radius * uniform(random) * random_direction(random);
-    } while (std::abs(point.dot(axis)) > thickness);
+    } while (std::abs(point.dot(axis)) > thickness || std::abs(point.dot(across)) > half_width);
     point += centre;
-    Vec3 across = axis.unitOrthogonal();
-    across = Eigen::AngleAxisd(2.0 * std::numbers::pi * uniform(random), axis) * across;
+    const Vec3 beside =
+        Eigen::AngleAxisd(2.0 * std::numbers::pi * uniform(random), axis) * axis.unitOrthogonal();
     const double c = cosine + (1.0 - cosine) * uniform(random);
-    direction = c * axis + std::sqrt(1.0 - c * c) * across;
+    direction = c * axis + std::sqrt(1.0 - c * c) * beside;
+  }
+
+  void turn(const Mat3& rotation, const Vec3& offset) {
+    centre = rotation * centre + offset;
+    axis = rotation * axis;
+    across = rotation * across;
+    point = rotation * point + offset;
   }
 
   void store(WideNode& node, std::size_t lane) const {
@@ -69,21 +87,30 @@ struct LaneSample {
     node.sine[lane] = std::min(1.0F, static_cast<float>(std::sqrt(1.0 - cosine * cosine) + 5e-7));
     node.child[lane] = 1;
   }
+  void store(WideWidths& widths, std::size_t lane) const {
+    for (int k = 0; k < 3; ++k) widths.across[k][lane] = static_cast<float>(across[k]);
+    widths.half_width[lane] = static_cast<float>(half_width + 1e-6);
+  }
 };
 
-/// Calls visit(query, node, probe) for random nodes and children of every shape's hierarchy, against itself.
+/// Calls visit(query, node, probe, widths) for random nodes and children of every shape's hierarchy, against itself; `widths` is
+/// null where there are none.
 template <class Visit>
 void for_each_random_node_test(std::mt19937_64& random, Visit&& visit) {
   for (const TriangleMesh& mesh : shapes()) {
-    const WideHierarchy hierarchy = build_wide_hierarchy(build_surface(mesh));
+    const Body body("sample", build_surface(mesh));
+    const auto& hierarchy = body.prepared<WideHierarchy>();
     for (int i = 0; i < 2000; ++i) {
       const WideQuery query(hierarchy, hierarchy, random_transform(uniform(random), random),
                             0.3 * uniform(random), 1e-9);
-      const auto& node = hierarchy.nodes[random() % hierarchy.nodes.size()];
-      const auto& home = hierarchy.nodes[random() % hierarchy.nodes.size()];
+      const std::size_t n = random() % hierarchy.nodes.size(), of_probe = random() % hierarchy.nodes.size();
       const auto lane = static_cast<std::uint32_t>(random() % WIDE_WIDTH);
+      const WideNode& home = hierarchy.nodes[of_probe];
       if (!query.possible || home.child[lane] == 0) continue;
-      visit(query, node, make_probe(WideChild(home, lane), query.a_in_b));
+      const WideWidthTest widths =
+          make_width_test(widths_of(hierarchy, n), widths_of(hierarchy, of_probe), lane, query.a_in_b);
+      visit(query, hierarchy.nodes[n], make_probe(WideChild(home, lane), query.a_in_b),
+            hierarchy.widths.empty() ? nullptr : &widths);
       if (::testing::Test::HasFatalFailure()) return;
     }
   }

@@ -76,7 +76,9 @@ TEST(WideTargets, EveryInstructionSetBuildsTheSameHierarchy) {
     const OneTarget only(target);
     const WideHierarchy hierarchy = build_wide_hierarchy(surface);
     ASSERT_EQ(hierarchy.nodes.size(), reference.nodes.size());
-    EXPECT_EQ(std::memcmp(hierarchy.nodes.data(), reference.nodes.data(), reference.bytes()), 0)
+    EXPECT_EQ(std::memcmp(hierarchy.nodes.data(), reference.nodes.data(),
+                          reference.nodes.size() * sizeof(WideNode)),
+              0)
         << wide_kernel_target();
   }
 }

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <type_traits>
 
 // The rest of this file is compiled once for every instruction set.
 #undef HWY_TARGET_INCLUDE
@@ -51,9 +52,11 @@ HWY_INLINE Criterion<Number> better(const Criterion<Number>& a, const Criterion<
 }
 
 /// The test of wide_lifetime.h.
-template <class Lanes>
+/// @param widths  WideWidthTest or NoWidths
+template <class Lanes, class Widths>
 HWY_INLINE WideLifetimes test_lifetime(const WideNode& node, const WideProbe& probe, const WideLimits& limits,
-                                       const WideForecast& forecast, const WideLifetimeTest& test) {
+                                       const WideForecast& forecast, const WideLifetimeTest& test,
+                                       const Widths& widths) {
   using Number = typename Lanes::Number;
   using Bounds = LaneBounds<Lanes>;
   const auto set = [](float x) HWY_ATTR { return Lanes::set(x); };
@@ -123,8 +126,21 @@ HWY_INLINE WideLifetimes test_lifetime(const WideNode& node, const WideProbe& pr
     };
     length = better(length, farther_than(cutoff));
     const Number touch_limit = set(limits.touch);
-    const auto touching = better(farther_than(touch_limit),
-                                 better(past(below_probe, touch_limit), past(below_lane, touch_limit)));
+    auto touching = better(farther_than(touch_limit),
+                           better(past(below_probe, touch_limit), past(below_lane, touch_limit)));
+    if constexpr (std::is_same_v<Widths, WideWidthTest>) {
+      const LaneWidths<Lanes> across(bounds, node, first, probe, widths, limits.rounding);
+      const auto beyond = [&](Number gap, Number along, Number rise)
+                              HWY_ATTR { return criterion(gap, lost(select(along < zero, rise, -rise))); };
+      const auto across_probe =
+          beyond(across.gap_probe, across.along_probe,
+                 Bounds::dot(ex, ey, ez, across.across_x, across.across_y, across.across_z));
+      const auto across_lane = beyond(across.gap_lane, across.along_lane,
+                                      Bounds::dot(ex, ey, ez, across.bx, across.by, across.bz));
+      length = better(length, better(past(across_probe, bounds.probe_sine * cutoff),
+                                     past(across_lane, bounds.sine * cutoff)));
+      touching = better(touching, better(past(across_probe, touch_limit), past(across_lane, touch_limit)));
+    }
 
     const Number g2_cosines =
         ((bounds.cosine * bounds.probe_cosine - bounds.sine * bounds.probe_sine) - set(DIRECTION_ROUNDING)) +
@@ -163,15 +179,26 @@ HWY_INLINE WideLifetimes test_lifetime(const WideNode& node, const WideProbe& pr
   return result;
 }
 
+template <class Lanes>
+WideLifetimes lifetime_of(const WideNode& node, const WideProbe& probe, const WideLimits& limits,
+                          const WideForecast& forecast, const WideLifetimeTest& test,
+                          const WideWidthTest* widths) {
+  return widths == nullptr ? test_lifetime<Lanes>(node, probe, limits, forecast, test, NoWidths())
+                           : test_lifetime<Lanes>(node, probe, limits, forecast, test, *widths);
+}
+
 void lifetime_on_target(const WideNode& node, const WideProbe& probe, const WideLimits& limits,
-                        const WideForecast& forecast, const WideLifetimeTest& test, WideLifetimes& result) {
-  result = test_lifetime<VectorLanes>(node, probe, limits, forecast, test);
+                        const WideForecast& forecast, const WideLifetimeTest& test,
+                        const WideWidthTest* widths, WideLifetimes& result) {
+  result = lifetime_of<VectorLanes>(node, probe, limits, forecast, test, widths);
 }
 
 /// Nothing here depends on an earlier test, so that a processor works on several at once.
-void batch_on_target(const WideHierarchy& a, const WideHierarchy& b, const WideQuery& query,
-                     const WideForecast& forecast, const WideKeptPair* pairs,
-                     std::span<const std::uint32_t> due, WideKeptTest* tests) {
+/// @tparam Widths  WideWidthTest where one of the meshes has long features, else NoWidths
+template <class Widths>
+void make_batch(const WideHierarchy& a, const WideHierarchy& b, const WideQuery& query,
+                const WideForecast& forecast, const WideKeptPair* pairs, std::span<const std::uint32_t> due,
+                WideKeptTest* tests) {
   for (std::size_t i = 0; i < due.size(); ++i) {
     if (i + 2 * FETCH_DISTANCE < due.size()) __builtin_prefetch(&pairs[due[i + 2 * FETCH_DISTANCE]]);
     if (i + FETCH_DISTANCE < due.size()) {
@@ -181,7 +208,8 @@ void batch_on_target(const WideHierarchy& a, const WideHierarchy& b, const WideQ
     const WideKeptPair& pair = pairs[due[i]];
     const bool open_a = pair.open_a;
     const WideNode& node = (open_a ? a : b).nodes[pair.node];
-    const WideProbe probe = make_probe(pair.child, open_a ? query.b_in_a : query.a_in_b);
+    const WideTransform& X_lanes = open_a ? query.b_in_a : query.a_in_b;
+    const WideProbe probe = make_probe(pair.child, X_lanes);
     const KindBits kinds = kind_bits(node);
     // What can only touch matters for faces alone.
     const bool may_touch = !pair.child.ref.is_feature() || pair.child.ref.is_face();
@@ -195,7 +223,16 @@ void batch_on_target(const WideHierarchy& a, const WideHierarchy& b, const WideQ
                                                 X.columns[1][k] * pair.child.centre[1] +
                                                 X.columns[2][k] * pair.child.centre[2] + X.translation[k];
     }
-    const WideLifetimes result = test_lifetime<VectorLanes>(node, probe, query.limits, forecast, lifetime);
+    WideLifetimes result;
+    if constexpr (std::is_same_v<Widths, WideWidthTest>) {
+      const std::uint32_t slot = open_a ? pair.slot_b : pair.slot_a;
+      result = test_lifetime<VectorLanes>(
+          node, probe, query.limits, forecast, lifetime,
+          make_width_test(widths_of(open_a ? a : b, pair.node), widths_of(open_a ? b : a, slot / WIDE_WIDTH),
+                          slot % WIDE_WIDTH, X_lanes));
+    } else {
+      result = test_lifetime<VectorLanes>(node, probe, query.limits, forecast, lifetime, NoWidths());
+    }
     const std::uint32_t final_lanes = pair.child.ref.is_feature() ? kinds.features : 0u;
     tests[i] = {due[i],
                 result.used,
@@ -205,6 +242,15 @@ void batch_on_target(const WideHierarchy& a, const WideHierarchy& b, const WideQ
                 result.frames,
                 result.deviation_budget};
   }
+}
+
+void batch_on_target(const WideHierarchy& a, const WideHierarchy& b, const WideQuery& query,
+                     const WideForecast& forecast, const WideKeptPair* pairs,
+                     std::span<const std::uint32_t> due, WideKeptTest* tests) {
+  if (a.widths.empty() && b.widths.empty())
+    make_batch<NoWidths>(a, b, query, forecast, pairs, due, tests);
+  else
+    make_batch<WideWidthTest>(a, b, query, forecast, pairs, due, tests);
 }
 
 }  // namespace lmdbench::HWY_NAMESPACE
@@ -247,16 +293,17 @@ void test_batch(const WideHierarchy& a, const WideHierarchy& b, const WideQuery&
 }
 
 WideLifetimes test_lanes_lifetime(const WideNode& node, const WideProbe& probe, const WideLimits& limits,
-                                  const WideForecast& forecast, const WideLifetimeTest& test) {
+                                  const WideForecast& forecast, const WideLifetimeTest& test,
+                                  const WideWidthTest* widths) {
   WideLifetimes result;
-  HWY_DYNAMIC_DISPATCH(lifetime_on_target)(node, probe, limits, forecast, test, result);
+  HWY_DYNAMIC_DISPATCH(lifetime_on_target)(node, probe, limits, forecast, test, widths, result);
   return result;
 }
 
 WideLifetimes test_lanes_lifetime_scalar(const WideNode& node, const WideProbe& probe,
                                          const WideLimits& limits, const WideForecast& forecast,
-                                         const WideLifetimeTest& test) {
-  return HWY_NAMESPACE::test_lifetime<HWY_NAMESPACE::ScalarLanes>(node, probe, limits, forecast, test);
+                                         const WideLifetimeTest& test, const WideWidthTest* widths) {
+  return HWY_NAMESPACE::lifetime_of<HWY_NAMESPACE::ScalarLanes>(node, probe, limits, forecast, test, widths);
 }
 
 }  // namespace lmdbench

@@ -15,7 +15,8 @@
 /// A test rejects a lane by some inequality (proof: PROOF.md, lemmas 13, 14, 15 and 16).
 /// The bounds behind it (wide_node_test.h) speak of every p below
 /// the one child and every q below the other, with d = q - p:
-///   |d| > cutoff,   u . d > cutoff,   u . d < 0,   d outside the cone round u;   angle(u, -u') > phi + phi'.
+///   |d| > cutoff,   u . d > cutoff,   u . d < 0,   |d . b| > sin(phi) cutoff,   d outside the cone round u;
+///   angle(u, -u') > phi + phi'.
 /// Let c be the centre of the child that moves, and Delta its displacement. Suppose that after the motion p
 /// and q are within the cutoff. With theta the angle that the mesh has turned by, p has moved by Delta and at
 /// most theta |p - c| more; q, seen from the moving mesh, by -Delta and at most theta (|p - c| + cutoff)
@@ -84,13 +85,15 @@ struct WideLifetimeTest {
   std::uint32_t touch_lanes;  ///< Lanes for which touching matters.
 };
 
+/// @param widths  null: NoWidths
 WideLifetimes test_lanes_lifetime(const WideNode& node, const WideProbe& probe, const WideLimits& limits,
-                                  const WideForecast& forecast, const WideLifetimeTest& test);
+                                  const WideForecast& forecast, const WideLifetimeTest& test,
+                                  const WideWidthTest* widths = nullptr);
 
 /// The same, lane by lane: the reference.
 WideLifetimes test_lanes_lifetime_scalar(const WideNode& node, const WideProbe& probe,
                                          const WideLimits& limits, const WideForecast& forecast,
-                                         const WideLifetimeTest& test);
+                                         const WideLifetimeTest& test, const WideWidthTest* widths = nullptr);
 
 /// Two children and the test of the one against what is below the other. Kept, because the one child is
 /// spread over its node.

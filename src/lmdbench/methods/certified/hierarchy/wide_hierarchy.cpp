@@ -11,6 +11,8 @@
 #include <lmdbench/methods/certified/hierarchy/wide_partition.h>
 #include <lmdbench/methods/certified/hierarchy/wide_refit.h>
 
+#include <Eigen/Eigenvalues>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -22,6 +24,12 @@ namespace lmdbench {
 namespace {
 
 constexpr std::size_t WIDTH = WIDE_WIDTH;
+
+/// Regions are long from this ratio of length to width on.
+constexpr double LONG = 4.0;
+/// Widths are kept where at least this part of all faces are long regions
+/// (`scripts/tuned_constants.py --only LEAST_LONG_SHARE experiments/extreme/peg-square.json`).
+constexpr double LEAST_LONG_SHARE = 0.25;
 
 struct Range {
   std::size_t begin, end;
@@ -86,13 +94,14 @@ class Builder {
     const Range all{0, items_.size()};
     const std::size_t node_count = 1 + std::max<std::size_t>(1, count_wide_nodes(items_.size()));
     result_.nodes.assign(node_count, WideNode{});
+    if (has_long_features()) result_.widths.assign(node_count, WideWidths{});
     result_.nodes[0].child[0] = WideRef::node(1).bits();
     std::vector<std::int32_t> vertices;
     std::array<Lane, 1> root;
     root[0].items = all;
     root[0].may_have_cone = build_node(1, all, vertices, scratch_.local());
     root[0].vertices = vertices;
-    bound(result_.nodes[0], root, scratch_.local());
+    bound(0, root, scratch_.local());
   }
 
  private:
@@ -133,7 +142,7 @@ class Builder {
       for (std::size_t i = 0; i < lanes.size(); ++i)
         lanes[i].vertices = std::span(vertices).subspan(starts[i], starts[i + 1] - starts[i]);
     }
-    const bool all_have_cones = bound(node, lanes, scratch);
+    const bool all_have_cones = bound(node_index, lanes, scratch);
     scratch.deduplicator.drop_repeated(vertices, before);
     return all_have_cones;
   }
@@ -160,7 +169,8 @@ class Builder {
 
   /// Bounds of a node's children, rounded outwards.
   /// @return false when the cone of some child is all directions
-  bool bound(WideNode& node, std::span<Lane> lanes, BuildScratch& scratch) const {
+  bool bound(std::size_t node_index, std::span<Lane> lanes, BuildScratch& scratch) const {
+    WideNode& node = result_.nodes[node_index];
     const int steps = refinement_steps(lanes.front().items.size());
     const std::array<PolarCap, WIDTH> caps = enclosing_caps(lanes, steps, scratch);
     LaneVectors axes{};
@@ -174,6 +184,9 @@ class Builder {
       all_have_cones = all_have_cones && !(lanes[i].carries_lmd && caps[i].is_all_directions());
     }
     bound_bodies(node, lanes, axes, steps, scratch);
+    if (!result_.widths.empty())
+      for (std::size_t i = 0; i < lanes.size(); ++i)
+        bound_width(node, result_.widths[node_index], static_cast<std::uint32_t>(i), lanes[i].vertices);
     return all_have_cones;
   }
 
@@ -277,6 +290,56 @@ class Builder {
     }
   }
 
+  /// Whether long regions are a large part of all faces, as on pegs, gears and gratings: the others, scans above all, shall not
+  /// pay for a test that rejects nothing.
+  bool has_long_features() const {
+    std::size_t faces = 0, long_ones = 0;
+    for (const WideItem& item : items_) {
+      if (shape_ == nullptr || !item.ref.is_face()) continue;
+      ++faces;
+      const std::int32_t region = shape_->region_of(item.ref.feature_id().index);
+      const RegionShape* const shape = region < 0 ? nullptr : shape_->shapes.of_region(region);
+      if (shape == nullptr) continue;
+      Box2 box;
+      for (const Vec2& corner : shape->hull) box.add(corner);
+      if (LONG * width_of(shape->hull) <= (box.high - box.low).norm()) ++long_ones;
+    }
+    return long_ones > 0 && LEAST_LONG_SHARE * static_cast<double>(faces) <= static_cast<double>(long_ones);
+  }
+
+  /// Along the shorter principal axis of the vertices, seen along the cone's axis: any direction square to that is right, and of a
+  /// wall or a row of walls it is the narrowest.
+  void bound_width(const WideNode& node, WideWidths& widths, std::uint32_t lane,
+                   std::span<const std::int32_t> vertices) const {
+    const Vec3 axis = axis_of_lane(node, lane);
+    if (axis.isZero(0.0)) return;
+    const Vec3 u = axis.unitOrthogonal(), v = axis.cross(u).normalized(), origin = vertex(vertices.front());
+    Vec2 sum = Vec2::Zero();
+    Eigen::Matrix2d products = Eigen::Matrix2d::Zero();
+    for (const std::int32_t index : vertices) {
+      const Vec3 x = vertex(index) - origin;
+      const Vec2 flat(x.dot(u), x.dot(v));
+      sum += flat;
+      products += flat * flat.transpose();
+    }
+    products -= sum * sum.transpose() / static_cast<double>(vertices.size());
+    Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> principal;
+    principal.computeDirect(products);
+    const Vec2 shorter = principal.eigenvectors().col(0);
+    if (!shorter.allFinite()) return;
+    const Vec3 direction = shorter[0] * u + shorter[1] * v;
+    Vec3 across;
+    for (int k = 0; k < 3; ++k) across[k] = to_single(direction[k]);
+    const Vec3 centre = centre_of_lane(node, lane);
+    double width = 0.0;
+    for (const std::int32_t index : vertices)
+      width = std::max(width, std::abs((vertex(index) - result_.origin - centre).dot(across)));
+    const float half_width = round_up_to_single(width + result_.rounding());
+    if (2.0F * half_width > node.radius[lane]) return;
+    for (int k = 0; k < 3; ++k) widths.across[k][lane] = static_cast<float>(across[k]);
+    widths.half_width[lane] = half_width;
+  }
+
   std::span<const WideItem> items_of(const Lane& lane) const {
     return std::span(items_).subspan(lane.items.begin, lane.items.size());
   }
@@ -326,6 +389,7 @@ void WideHierarchy::follow(const Body& body, const SurfaceChange& change) {
     times_built_anew_ = times;
     changes.now = changes.frame = now;
   }
+  widths.clear();  // No refit keeps them.
   changes.bounds.assign(nodes.size(), changes.now);
   changes.lanes = changes.bounds;
   shape_times_ = shape.times_made_anew();

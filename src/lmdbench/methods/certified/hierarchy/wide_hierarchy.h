@@ -68,6 +68,14 @@ struct alignas(32) WideNode {
   std::uint32_t child[WIDE_WIDTH];  ///< WideRef::bits()
 };
 
+/// A third extent of a node's children, where features are long: the wall of a peg is narrow, which a disc round it does not know.
+/// Every point x of a child's features: |(x - centre) . across| <= half_width, rounded outwards. `across` is square to the axis;
+/// zero, with half width 0, where it would say little.
+struct alignas(32) WideWidths {
+  float across[3][WIDE_WIDTH];
+  float half_width[WIDE_WIDTH];
+};
+
 /// Thickness of children without an axis; larger than any mesh, and its square is finite in single precision.
 inline constexpr float UNBOUNDED_THICKNESS = 1e18F;
 /// Cosine of children that carry no LMD.
@@ -101,6 +109,8 @@ struct WideChanges {
 /// child, the root; empty for an empty mesh.
 struct WideHierarchy {
   std::vector<WideNode> nodes;
+  std::vector<WideWidths>
+      widths;                  ///< #nodes; empty where few features are long, and once the mesh has deformed.
   Vec3 origin = Vec3::Zero();  ///< Mesh-frame point that is the origin of the
                                ///< nodes' coordinates.
   double radius = 0.0;         ///< Every point of every feature is within this distance
@@ -108,7 +118,7 @@ struct WideHierarchy {
   std::size_t feature_count = 0;
   WideChanges changes;
 
-  std::size_t bytes() const { return nodes.size() * sizeof(WideNode); }
+  std::size_t bytes() const { return nodes.size() * sizeof(WideNode) + widths.size() * sizeof(WideWidths); }
 
   /// What subtracting the origin from a coordinate may lose, and is added to each size [m].
   double rounding() const;

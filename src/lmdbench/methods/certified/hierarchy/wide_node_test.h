@@ -32,6 +32,14 @@
 /// tighter there. It needs no division, and the only square root is the slab's. The touch test is |D| <=
 /// touch + r + r' and |z| <= touch + slab, both ways.
 ///
+/// Where features are long (WideWidths): let b be the unit vector across a child, w its half width, and b' and w' the other's. b is
+/// square to u, so that the offsets of the other child along b are at most h' |b . u'| + w' |b . b'| + r' sqrt(1 - (b . u')^2 - (b . b')^2),
+/// and an LMD's d, which is within phi of u, has |d . b| <= sin(phi) cutoff. So, for the probe's b and again for the lane's,
+///
+///   |D . b| <= limit + w + h' |b . u'| + w' |b . b'| + r' sqrt(1 - (b . u')^2 - (b . b')^2)
+///
+/// where limit is sin(phi) cutoff for LMDs, and touch for what touches.
+///
 /// Everything is computed in single precision in the lane's frame; why no LMD is lost: probe and lane are
 /// rounded outwards when built; what moving the probe into the lane's frame and the sums below lose is less
 /// than POSITION_ROUNDING of the largest length in play (radii of both meshes plus the distance of their
@@ -55,6 +63,16 @@ struct alignas(16) WideProbe {
   float cosine;
   float sine;
 };
+
+/// Widths in a test of a child against the eight of a node: the lanes' and, moved like its axis, the probe's.
+struct WideWidthTest {
+  const WideWidths& lanes;
+  float across[3];
+  float half_width;
+};
+
+/// Where neither mesh has long features.
+struct NoWidths {};
 
 /// Lengths that a query fixes, rounded outwards.
 struct WideLimits {
@@ -121,7 +139,26 @@ inline WideProbe make_probe(const WideChild& child, const WideTransform& X) {
   return probe;
 }
 
+/// @param of_probe  widths of the probe's node
+/// @param X  as of the probe
+inline WideWidthTest make_width_test(const WideWidths& lanes, const WideWidths& of_probe, std::uint32_t lane,
+                                     const WideTransform& X) {
+  WideWidthTest test{lanes, {}, of_probe.half_width[lane]};
+  for (int k = 0; k < 3; ++k)
+    test.across[k] = X.columns[0][k] * of_probe.across[0][lane] + X.columns[1][k] * of_probe.across[1][lane] +
+                     X.columns[2][k] * of_probe.across[2][lane];
+  return test;
+}
+
+/// Of a node; without long features widths that say nothing.
+inline const WideWidths& widths_of(const WideHierarchy& hierarchy, std::size_t node) {
+  static constexpr WideWidths NONE{};
+  return hierarchy.widths.empty() ? NONE : hierarchy.widths[node];
+}
+
 /// The test, lane by lane: the reference that the vector form is checked against, bit for bit.
-WideMasks test_lanes_scalar(const WideNode& node, const WideProbe& probe, const WideLimits& limits);
+/// @param widths  null: NoWidths
+WideMasks test_lanes_scalar(const WideNode& node, const WideProbe& probe, const WideLimits& limits,
+                            const WideWidthTest* widths = nullptr);
 
 }  // namespace lmdbench

@@ -9,6 +9,7 @@
 #include <bit>
 #include <cmath>
 #include <limits>
+#include <type_traits>
 
 // The rest of this file is compiled once for every instruction set.
 #undef HWY_TARGET_INCLUDE
@@ -30,8 +31,10 @@ constexpr std::size_t LOOK_AHEAD = 8;
 constexpr std::size_t QUEUE_START = 4096;
 
 /// The test of wide_node_test.h.
-template <class Lanes>
-HWY_INLINE WideMasks test_lanes(const WideNode& node, const WideProbe& probe, const WideLimits& limits) {
+/// @param widths  WideWidthTest or NoWidths
+template <class Lanes, class Widths>
+HWY_INLINE WideMasks test_lanes(const WideNode& node, const WideProbe& probe, const WideLimits& limits,
+                                const Widths& widths) {
   using Number = typename Lanes::Number;
   const auto squared = [](Number x) HWY_ATTR { return x * x; };
   const Number zero = Lanes::set(0.0F);
@@ -40,9 +43,9 @@ HWY_INLINE WideMasks test_lanes(const WideNode& node, const WideProbe& probe, co
   WideMasks masks;
   for (std::uint32_t first = 0; first < WIDE_WIDTH; first += Lanes::count()) {
     const LaneBounds<Lanes> bounds(node, first, probe, limits.rounding);
-    const auto touch = both_of(both_of(bounds.squared_distance <= squared(touch_limit + bounds.radii),
-                                       magnitude(bounds.z_probe) <= touch_limit + bounds.slab_probe),
-                               magnitude(bounds.z_lane) <= touch_limit + bounds.slab_lane);
+    auto touch = both_of(both_of(bounds.squared_distance <= squared(touch_limit + bounds.radii),
+                                 magnitude(bounds.z_probe) <= touch_limit + bounds.slab_probe),
+                         magnitude(bounds.z_lane) <= touch_limit + bounds.slab_lane);
     const auto near = both_of(both_of(bounds.squared_distance <= squared(cutoff + bounds.radii),
                                       bounds.z_probe <= cutoff + bounds.slab_probe),
                               bounds.z_lane <= cutoff + bounds.slab_lane);
@@ -56,9 +59,16 @@ HWY_INLINE WideMasks test_lanes(const WideNode& node, const WideProbe& probe, co
       const Number side = bounds.radii * cosine + sine * least_of(reach, cutoff * cosine);
       return both_of(reach >= zero, (least_squared_distance - squared(z)) * squared(cosine) <= squared(side));
     };
-    const auto directed = both_of(
+    auto directed = both_of(
         inside(bounds.z_probe, bounds.z_probe + bounds.slab_probe, bounds.probe_cosine, bounds.probe_sine),
         inside(bounds.z_lane, bounds.z_lane + bounds.slab_lane, bounds.cosine, bounds.sine));
+
+    if constexpr (std::is_same_v<Widths, WideWidthTest>) {
+      const LaneWidths<Lanes> across(bounds, node, first, probe, widths, limits.rounding);
+      touch = both_of(touch, both_of(across.gap_probe <= touch_limit, across.gap_lane <= touch_limit));
+      directed = both_of(directed, both_of(across.gap_probe <= bounds.probe_sine * cutoff,
+                                           across.gap_lane <= bounds.sine * cutoff));
+    }
 
     const std::uint32_t used_bits = Lanes::bits(Lanes::not_zero(node.child, first), first);
     const std::uint32_t touch_bits = Lanes::bits(touch, first) & used_bits;
@@ -75,21 +85,28 @@ HWY_INLINE WideMasks test_lanes(const WideNode& node, const WideProbe& probe, co
 }
 
 struct VectorTest {
-  HWY_INLINE WideMasks operator()(const WideNode& node, const WideProbe& probe,
-                                  const WideLimits& limits) const {
-    return test_lanes<VectorLanes>(node, probe, limits);
+  template <class Widths>
+  HWY_INLINE WideMasks operator()(const WideNode& node, const WideProbe& probe, const WideLimits& limits,
+                                  const Widths& widths) const {
+    return test_lanes<VectorLanes>(node, probe, limits, widths);
   }
 };
 
 struct ScalarTest {
-  WideMasks operator()(const WideNode& node, const WideProbe& probe, const WideLimits& limits) const {
+  WideMasks operator()(const WideNode& node, const WideProbe& probe, const WideLimits& limits,
+                       const NoWidths&) const {
     return test_lanes_scalar(node, probe, limits);
+  }
+  WideMasks operator()(const WideNode& node, const WideProbe& probe, const WideLimits& limits,
+                       const WideWidthTest& widths) const {
+    return test_lanes_scalar(node, probe, limits, &widths);
   }
 };
 
 /// First in, first out, without a data-dependent branch but for found pairs: a processor then works on
 /// several tests at once, because none waits for what the one before it appends.
-template <class Test>
+/// @tparam Widths  WideWidthTest where one of the meshes has long features, else NoWidths
+template <class Test, class Widths>
 void descend(const WideHierarchy& a, const WideHierarchy& b, const WideQuery& query, WideScratch& scratch,
              WideCounters& counters) {
   const Test test{};
@@ -118,12 +135,21 @@ void descend(const WideHierarchy& a, const WideHierarchy& b, const WideQuery& qu
     }
     const WideOpening opening = openings[next % LOOK_AHEAD];
     const bool open_a = opening.open_a;
-    const WideProbe probe = make_probe(open_a ? WideChild(home_b, lane_b) : WideChild(home_a, lane_a),
-                                       open_a ? query.b_in_a : query.a_in_b);
+    const WideTransform& X = open_a ? query.b_in_a : query.a_in_b;
+    const WideProbe probe = make_probe(open_a ? WideChild(home_b, lane_b) : WideChild(home_a, lane_a), X);
     const WideRef probe_ref = open_a ? ref_b : ref_a;
     const WideNode& node = (open_a ? nodes_a : nodes_b)[opening.node];
 
-    const WideMasks masks = test(node, probe, query.limits);
+    WideMasks masks;
+    if constexpr (std::is_same_v<Widths, WideWidthTest>) {
+      const std::uint32_t probe_slot = open_a ? slot_b : slot_a;
+      masks = test(
+          node, probe, query.limits,
+          make_width_test(widths_of(open_a ? a : b, opening.node),
+                          widths_of(open_a ? b : a, probe_slot / WIDE_WIDTH), probe_slot % WIDE_WIDTH, X));
+    } else {
+      masks = test(node, probe, query.limits, NoWidths());
+    }
     ++count.node_tests;
     count.node_pairs += static_cast<std::uint64_t>(std::popcount(masks.used));
     count.rejected_g1 += static_cast<std::uint64_t>(std::popcount(masks.beyond));
@@ -161,18 +187,29 @@ void descend(const WideHierarchy& a, const WideHierarchy& b, const WideQuery& qu
   counters = count;
 }
 
+template <class Test>
+void descend_by(const WideHierarchy& a, const WideHierarchy& b, const WideQuery& query, WideScratch& scratch,
+                WideCounters& counters) {
+  if (a.widths.empty() && b.widths.empty())
+    descend<Test, NoWidths>(a, b, query, scratch, counters);
+  else
+    descend<Test, WideWidthTest>(a, b, query, scratch, counters);
+}
+
 void descend_vector(const WideHierarchy& a, const WideHierarchy& b, const WideQuery& query,
                     WideScratch& scratch, WideCounters& counters) {
-  descend<VectorTest>(a, b, query, scratch, counters);
+  descend_by<VectorTest>(a, b, query, scratch, counters);
 }
 
 void descend_scalar(const WideHierarchy& a, const WideHierarchy& b, const WideQuery& query,
                     WideScratch& scratch, WideCounters& counters) {
-  descend<ScalarTest>(a, b, query, scratch, counters);
+  descend_by<ScalarTest>(a, b, query, scratch, counters);
 }
 
-void test_vector(const WideNode& node, const WideProbe& probe, const WideLimits& limits, WideMasks& masks) {
-  masks = VectorTest{}(node, probe, limits);
+void test_vector(const WideNode& node, const WideProbe& probe, const WideLimits& limits,
+                 const WideWidthTest* widths, WideMasks& masks) {
+  masks = widths == nullptr ? VectorTest{}(node, probe, limits, NoWidths())
+                            : VectorTest{}(node, probe, limits, *widths);
 }
 
 const char* traversal_target_name() {
@@ -221,13 +258,17 @@ void find_wide_pairs(const WideHierarchy& a, const WideHierarchy& b, const WideQ
   }
 }
 
-WideMasks test_lanes_scalar(const WideNode& node, const WideProbe& probe, const WideLimits& limits) {
-  return HWY_NAMESPACE::test_lanes<HWY_NAMESPACE::ScalarLanes>(node, probe, limits);
+WideMasks test_lanes_scalar(const WideNode& node, const WideProbe& probe, const WideLimits& limits,
+                            const WideWidthTest* widths) {
+  using HWY_NAMESPACE::ScalarLanes;
+  return widths == nullptr ? HWY_NAMESPACE::test_lanes<ScalarLanes>(node, probe, limits, NoWidths())
+                           : HWY_NAMESPACE::test_lanes<ScalarLanes>(node, probe, limits, *widths);
 }
 
-WideMasks test_lanes_vector(const WideNode& node, const WideProbe& probe, const WideLimits& limits) {
+WideMasks test_lanes_vector(const WideNode& node, const WideProbe& probe, const WideLimits& limits,
+                            const WideWidthTest* widths) {
   WideMasks masks;
-  HWY_DYNAMIC_DISPATCH(test_vector)(node, probe, limits, masks);
+  HWY_DYNAMIC_DISPATCH(test_vector)(node, probe, limits, widths, masks);
   return masks;
 }
 

@@ -98,7 +98,8 @@ void find_wide_pairs(const WideHierarchy& a, const WideHierarchy& b, const WideQ
                      WideKernel kernel, WideScratch& scratch, WideCounters& counters);
 
 /// The node test as the vector form computes it on this processor.
-WideMasks test_lanes_vector(const WideNode& node, const WideProbe& probe, const WideLimits& limits);
+WideMasks test_lanes_vector(const WideNode& node, const WideProbe& probe, const WideLimits& limits,
+                            const WideWidthTest* widths = nullptr);
 
 /// Instruction set that WideKernel::VECTOR uses here, for provenance: "AVX2", "SSE4", ...
 std::string_view wide_kernel_target();

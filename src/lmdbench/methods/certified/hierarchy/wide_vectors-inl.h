@@ -99,6 +99,48 @@ struct LaneBounds {
   }
 };
 
+/// How far two children are apart across the probe and across the lane: no |d . b| is less.
+template <class Lanes>
+struct LaneWidths {
+  using Number = typename Lanes::Number;
+
+  Number bx, by, bz;                    ///< Across the lanes.
+  Number across_x, across_y, across_z;  ///< Across the probe.
+  Number along_probe, along_lane;       ///< D . b
+  Number gap_probe, gap_lane;           ///< Least |d . b|, with the rounding that is granted; often negative.
+
+  HWY_INLINE LaneWidths(const LaneBounds<Lanes>& bounds, const WideNode& node, std::uint32_t first,
+                        const WideProbe& probe, const WideWidthTest& widths, float granted) {
+    const auto set = [](float x) HWY_ATTR { return Lanes::set(x); };
+    using Bounds = LaneBounds<Lanes>;
+    bx = Lanes::load(widths.lanes.across[0] + first);
+    by = Lanes::load(widths.lanes.across[1] + first);
+    bz = Lanes::load(widths.lanes.across[2] + first);
+    across_x = set(widths.across[0]);
+    across_y = set(widths.across[1]);
+    across_z = set(widths.across[2]);
+    along_probe = Bounds::dot(bounds.dx, bounds.dy, bounds.dz, across_x, across_y, across_z);
+    along_lane = Bounds::dot(bounds.dx, bounds.dy, bounds.dz, bx, by, bz);
+    const Number lane_width = Lanes::load(widths.lanes.half_width + first),
+                 probe_width = set(widths.half_width);
+    const Number between = magnitude(Bounds::dot(bx, by, bz, across_x, across_y, across_z));
+    // Along b, of the other child; `tilt` is the size of b . u'.
+    const auto extent = [&](Number tilt, Number thickness, Number width, Number radius) HWY_ATTR {
+      const Number rest = (set(1.0F) - tilt * tilt) - between * between;
+      return (thickness * tilt + width * between) +
+             radius * root(largest_of(rest, set(0.0F)) + set(DIRECTION_ROUNDING));
+    };
+    const Number of_probe =
+        extent(magnitude(Bounds::dot(bx, by, bz, bounds.axis_x, bounds.axis_y, bounds.axis_z)),
+               set(probe.thickness), probe_width, set(probe.radius));
+    const Number of_lane =
+        extent(magnitude(Bounds::dot(across_x, across_y, across_z, bounds.ux, bounds.uy, bounds.uz)),
+               Lanes::load(node.thickness + first), lane_width, bounds.radius);
+    gap_lane = magnitude(along_lane) - ((lane_width + of_probe) + set(granted));
+    gap_probe = magnitude(along_probe) - ((probe_width + of_lane) + set(granted));
+  }
+};
+
 }  // namespace lmdbench::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
