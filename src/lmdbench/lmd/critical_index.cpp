@@ -305,4 +305,18 @@ void SignedPair::append(const FeatureId& on_moving, const FeatureId& on_fixed, C
     return corner_region(fixed_, on_fixed.index, moving_, region_of(moving_, on_moving), found);
 }
 
+void decide_critical(const ShapePair& pair, const SignedPair& signs, const FeatureId& on_moving,
+                     const FeatureId& on_fixed, ContactSet& found) {
+  const std::size_t before = found.contacts.size();
+  decide(pair, on_moving, on_fixed, found);
+  const std::size_t between = found.contacts.size();
+  signs.append(on_moving, on_fixed, found);
+  if (found.contacts.size() == between || between != before + 1 || found.contacts[before].dimension != 0 ||
+      !found.contacts.back().is_basin)
+    return;
+  found.contacts[before].index = found.contacts.back().index;
+  found.contacts[before].is_basin = found.contacts.back().is_basin;
+  found.contacts.pop_back();
+}
+
 }  // namespace lmdbench

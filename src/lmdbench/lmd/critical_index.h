@@ -43,6 +43,10 @@ class SignedPair {
   double reach_;
 };
 
+/// Asks two features for their contacts and for their critical pair; a contact of points that is the lowest pair too takes its index.
+void decide_critical(const ShapePair& pair, const SignedPair& signs, const FeatureId& on_moving,
+                     const FeatureId& on_fixed, ContactSet& found);
+
 /// Angle [rad] about an axis of no symmetry by which the moving mesh is turned when indices are taken: far above rounding
 /// (1e-16), below what meshes are known to (LEAST_TOLERANCE).
 inline constexpr double GENERIC_TURN = 0x1p-32;

@@ -9,7 +9,7 @@ namespace lmdbench {
 
 LmdSet minima_of(const CriticalSet& set) {
   LMDBENCH_EXPECTS(std::ranges::is_sorted(set, lmd_less, &CriticalPair::pair),
-                   "a set that was not sorted (sort_critical)");
+                   "a set that was not sorted (finish_critical)");
   LmdSet minima;
   for (const CriticalPair& critical : set)
     if (critical.is_minimum) minima.push_back(critical.pair);
@@ -25,6 +25,13 @@ int sum_of_indices(const CriticalSet& set) {
 void sort_critical(CriticalSet& set) {
   std::ranges::stable_sort(
       set, [](const CriticalPair& a, const CriticalPair& b) { return lmd_less(a.pair, b.pair); });
+}
+
+void finish_critical(const Scene& scene, std::vector<Intersection>& intersections, CriticalSet& set) {
+  LmdSet touching;
+  append_contacts(scene, intersections, touching);
+  for (const Lmd& lmd : touching) set.push_back({lmd, 1, true, true, true});
+  sort_critical(set);
 }
 
 }  // namespace lmdbench

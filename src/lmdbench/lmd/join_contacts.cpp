@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include <lmdbench/geometry/extent.h>
 #include <lmdbench/geometry/segment_distance.h>
+#include <lmdbench/lmd/drop_intersecting.h>
 #include <lmdbench/lmd/join_contacts.h>
 #include <lmdbench/lmd/overlap.h>
+#include <lmdbench/lmd/represent_contacts.h>
 
-#include <Eigen/Geometry>
 #include <boost/pending/disjoint_sets.hpp>
 
 #include <algorithm>
@@ -15,7 +15,6 @@
 #include <limits>
 #include <memory_resource>
 #include <numeric>
-#include <optional>
 #include <tuple>
 #include <utility>
 #include <vector>
@@ -26,18 +25,6 @@ namespace {
 
 /// Pairs of features that a contact lies on, beyond which it is not looked for in buckets: hubs of fans.
 constexpr std::size_t MOST_CARRIER_PAIRS = 256;
-/// Angle [rad] up to which two contacts have one direction: far above what rounding does to it, far below an angle between faces.
-constexpr double SAME_DIRECTION = 0.1;
-/// Polygons of more pieces get a grid of them.
-constexpr std::size_t PIECES_WITHOUT_GRID = 8;
-/// Relative difference within which two pieces are equally near to a centroid: rounding must not choose the name of a
-/// symmetric contact.
-constexpr double EQUALLY_NEAR = 1e-9;
-
-auto name_of(const Contact& contact) {
-  return std::tie(contact.moving, contact.fixed);
-}
-
 bool contact_less(const Contact& a, const Contact& b) {
   if (a.distance != b.distance) return a.distance < b.distance;
   if (name_of(a) != name_of(b)) return name_of(a) < name_of(b);
@@ -76,28 +63,25 @@ struct Carriers {
 };
 constexpr std::size_t NOT_KNOWN = std::numeric_limits<std::size_t>::max();
 
+/// Contacts of two meshes on their way to LMDs, or with `signs` to critical pairs.
 class Joining {
  public:
-  /// Of every LMD that is reported, where it is wanted.
-  struct Sign {
-    int index;
-    bool is_minimum, has_index, is_basin;
-  };
   struct Signs {
     const SignedFeatures &moving, &fixed;
-    std::vector<Sign> of_lmds;
+    CriticalSet& critical;
   };
 
-  Joining(const ShapePair& pair, std::int32_t body, ContactSet& set, Signs* signs = nullptr)
+  Joining(const ShapePair& pair, std::int32_t body, ContactSet& set, LmdSet* lmds, const Signs* signs)
       : pair_(pair),
         tolerance_(pair.tolerance),
         body_(body),
-        set_(set),
         contacts_(set.contacts),
+        places_(pair, set, memory_),
+        lmds_(lmds),
         signs_(signs) {}
 
-  void run(std::span<const Intersection> intersections, LmdSet& lmds) {
-    drop_intersecting(intersections);
+  void run(std::span<const Intersection> intersections) {
+    drop_intersecting(pair_, body_, places_, intersections, contacts_);
     sort_contacts();
     // The same pair of features may have been asked for twice.
     contacts_.erase(std::unique(contacts_.begin(), contacts_.end(),
@@ -107,11 +91,11 @@ class Joining {
                                          a.point_moving == b.point_moving;
                                 }),
                     contacts_.end());
-    find_company();
-    if (company_.empty()) {
+    find_ties();
+    if (ties_.empty()) {
       for (std::size_t i = 0; i < contacts_.size(); ++i)
         if (contacts_[i].dimension == 0 && (contacts_[i].is_minimum || contacts_[i].index != 0))
-          report_signed(contacts_[i], contacts_[i], {&i, 1}, contacts_[i].is_minimum, lmds);
+          report(contacts_[i], contacts_[i], {&i, 1}, contacts_[i].is_minimum);
       return;
     }
     ranks_.assign(contacts_.size(), 0);
@@ -120,21 +104,18 @@ class Joining {
     sets_ = {ranks_.data(), parents_.data()};
     for (Carriers* carriers : {&carriers_moving_, &carriers_fixed_})
       carriers->rows.assign(contacts_.size(), {NOT_KNOWN, 0});
-    grids_.resize(set_.frames.size());
     if (signs_ == nullptr) {
-      join_company();
+      join_ties();
     } else {
-      join_signed_company();
+      join_signed_ties();
     }
-    report_all(lmds);
+    report_all();
   }
 
  private:
-  using Pieces = std::pmr::vector<const Contact*>;
-
   /// Contacts are large: they move once.
   void sort_contacts() {
-    Pieces order(&memory_);
+    ContactPointers order(&memory_);
     order.reserve(contacts_.size());
     for (const Contact& contact : contacts_) order.push_back(&contact);
     std::ranges::sort(order, [](const Contact* a, const Contact* b) { return contact_less(*a, *b); });
@@ -144,67 +125,20 @@ class Joining {
     std::ranges::copy(sorted, contacts_.begin());
   }
 
-  // --- contacts whose triangles intersect
-
-  void drop_intersecting(std::span<const Intersection> intersections) {
-    if (intersections.empty()) return;
-    std::erase_if(contacts_, [&](const Contact& contact) {
-      if (contact.least_gap > tolerance_.rounding) return false;
-      return std::ranges::any_of(intersections, [&](const Intersection& crossing) {
-        return crossing.fixed_body == body_ && is_over(contact, crossing) &&
-               is_in_star(pair_.moving, contact.moving, crossing.triangle_moving) &&
-               is_in_star(pair_.fixed, contact.fixed, crossing.triangle_fixed);
-      });
-    });
-  }
-
-  /// Whether a triangle has a corner on a feature.
-  static bool is_in_star(const ShapeSide& side, const FeatureId& feature, std::int32_t triangle) {
-    const auto& corners = side.surface.mesh.triangles[static_cast<std::size_t>(triangle)];
-    return std::ranges::any_of(corners, [&](std::int32_t v) {
-      if (feature.kind == FeatureKind::VERTEX) return v == feature.index;
-      return std::ranges::any_of(side.surface.adjacency.vertex_triangles[v], [&](std::int32_t t) {
-        if (feature.kind == FeatureKind::FACE) return side.shape.region_of(t) == feature.index;
-        return std::ranges::any_of(
-            side.surface.adjacency.triangle_edges[static_cast<std::size_t>(t)], [&](std::int32_t e) {
-              const auto& ends = side.surface.adjacency.edges[static_cast<std::size_t>(e)];
-              return (ends[0] == v || ends[1] == v) && side.shape.chain_of(e) == feature.index;
-            });
-      });
-    });
-  }
-
-  /// Whether what two triangles share comes to the place of a contact.
-  bool is_over(const Contact& contact, const Intersection& crossing) const {
-    const double reach = tolerance_.known + (crossing.dimension == 1   ? 0.5 * crossing.measure
-                                             : crossing.dimension == 2 ? crossing_reach(crossing)
-                                                                       : 0.0);
-    return box_of(contact, reach).contains(crossing.point);
-  }
-  /// How far what two triangles share reaches from its centroid: a polygon's measure is an area and says little.
-  double crossing_reach(const Intersection& crossing) const {
-    const Triangle t = pair_.fixed.surface.mesh.triangle(crossing.triangle_fixed);
-    return std::max((t[1] - t[0]).norm(), (t[2] - t[0]).norm());
-  }
-
   // --- which contacts may be one
 
   /// Contacts of which another one has the same distance: next to none but in flat contact.
-  void find_company() {
+  void find_ties() {
     const double spread = 2.0 * tolerance_.known;  // of the distance over two extended contacts
+    double granted_below = 0.0;
     for (std::size_t i = 0; i < contacts_.size(); ++i) {
       const double granted = tolerance_.same_distance(contacts_[i].distance) + spread;
-      const bool below = i > 0 && contacts_[i].distance - contacts_[i - 1].distance <= last_granted_;
+      const bool below = i > 0 && contacts_[i].distance - contacts_[i - 1].distance <= granted_below;
       const bool above =
           i + 1 < contacts_.size() && contacts_[i + 1].distance - contacts_[i].distance <= granted;
-      if (below || above) company_.push_back(i);
-      last_granted_ = granted;
+      if (below || above) ties_.push_back(i);
+      granted_below = granted;
     }
-  }
-
-  double granted(const Contact& a, const Contact& b) const {
-    const int extended = (a.dimension > 0) + (b.dimension > 0);
-    return tolerance_.same_distance(std::min(a.distance, b.distance)) + extended * tolerance_.known;
   }
 
   /// What a contact lies on, looked up when it is first asked for. Valid until the next contact is.
@@ -245,7 +179,7 @@ class Joining {
 
   // --- joining
 
-  void join_company() {
+  void join_ties() {
     join_what_meets();
     join_over_level_ways();
   }
@@ -253,10 +187,10 @@ class Joining {
   /// First the minima alone, so that they become the same LMDs as without the other critical pairs. Of these those that lie on an
   /// extended LMD are of it, and a lowest pair in the place of an LMD is it, under another name at the pose at which indices are taken.
   /// A saddle beside an LMD of points stays what it is, however near: it tells which minima meet there.
-  void join_signed_company() {
-    const std::pmr::vector<std::size_t> all = company_;
-    std::erase_if(company_, [&](std::size_t i) { return !contacts_[i].is_minimum; });
-    join_company();
+  void join_signed_ties() {
+    const std::pmr::vector<std::size_t> all = ties_;
+    std::erase_if(ties_, [&](std::size_t i) { return !contacts_[i].is_minimum; });
+    join_ties();
     has_minimum_.resize(contacts_.size());
     is_extended_.resize(contacts_.size());
     for (std::size_t i = 0; i < contacts_.size(); ++i) {
@@ -264,8 +198,8 @@ class Joining {
       has_minimum_[sets_.find_set(i)] = true;
       if (contacts_[i].dimension > 0) is_extended_[sets_.find_set(i)] = true;
     }
-    company_ = all;
-    join_company();
+    ties_ = all;
+    join_ties();
   }
 
   void join(std::size_t i, std::size_t j) {
@@ -281,22 +215,6 @@ class Joining {
     is_extended_[both] = is_extended;
   }
 
-  Eigen::AlignedBox3d box_of(const Contact& contact, double reach) const {
-    Eigen::AlignedBox3d box;
-    if (contact.dimension == 0) {
-      box.extend(contact.point_fixed);
-    } else if (contact.dimension == 1) {
-      for (const Vec3& end : contact.ends_fixed) box.extend(end);
-    } else {
-      const PlanarFrame& frame = set_.frames[contact.frame];
-      const Vec3 n = frame.u.cross(frame.v), lift = n.dot(contact.point_fixed - frame.origin) * n;
-      for (const ConvexPolygon& piece : set_.pieces_of(contact))
-        for (const Vec2& corner : piece.corners) box.extend(Vec3(frame.lifted(corner) + lift));
-    }
-    const Vec3 margin = Vec3::Constant(reach);
-    return {box.min() - margin, box.max() + margin};
-  }
-
   /// Joins contacts whose places meet: sweeps over their boxes along x.
   void join_what_meets() {
     struct Entry {
@@ -304,8 +222,8 @@ class Joining {
       std::size_t contact;
     };
     std::pmr::vector<Entry> entries(&memory_);
-    entries.reserve(company_.size());
-    for (const std::size_t i : company_) entries.push_back({box_of(contacts_[i], tolerance_.known), i});
+    entries.reserve(ties_.size());
+    for (const std::size_t i : ties_) entries.push_back({places_.box_of(contacts_[i], tolerance_.known), i});
     std::ranges::sort(entries, [](const Entry& a, const Entry& b) {
       return std::pair(a.box.min().x(), a.contact) < std::pair(b.box.min().x(), b.contact);
     });
@@ -316,7 +234,8 @@ class Joining {
         if (!entries[o].box.intersects(entries[k].box)) continue;
         const std::size_t i = entries[o].contact, j = entries[k].contact;
         const Contact &a = contacts_[i], &b = contacts_[j];
-        if (sets_.find_set(i) == sets_.find_set(j) || std::abs(a.distance - b.distance) > granted(a, b))
+        if (sets_.find_set(i) == sets_.find_set(j) ||
+            std::abs(a.distance - b.distance) > places_.granted(a, b))
           continue;
         if (are_one_place(i, j)) join(i, j);
       }
@@ -329,77 +248,16 @@ class Joining {
     const bool both_extended = a.dimension > 0 && b.dimension > 0;
     // The parts of what one pair of features shares are known to be apart.
     if (both_extended && name_of(a) == name_of(b)) return false;
-    return have_one_direction(a, b) && meet(a, b) &&
+    return places_.have_one_direction(a, b) && places_.meet(a, b) &&
            (lie_on_one_pair(i, j) || (both_extended && are_neighbours(pair_.moving, a.moving, b.moving) &&
                                       are_neighbours(pair_.fixed, a.fixed, b.fixed)));
-  }
-
-  /// Whether two contacts have one direction. A nut at its seat is as far from the floor of its slot as from the wall, and on the
-  /// nut the two places meet.
-  bool have_one_direction(const Contact& a, const Contact& b) const {
-    const Vec3 difference = a.distance * a.direction - b.distance * b.direction;
-    return difference.norm() <= granted(a, b) + SAME_DIRECTION * a.distance;
-  }
-
-  /// Whether the places of two contacts come within the tolerance of each other.
-  bool meet(const Contact& a, const Contact& b) {
-    if (a.dimension < b.dimension) return meet(b, a);
-    const double reach = tolerance_.known;
-    if (a.dimension == 0)
-      return (a.point_moving - b.point_moving).norm() <= reach &&
-             (a.point_fixed - b.point_fixed).norm() <= reach;
-    if (a.dimension == 1) {
-      const auto are_near = [&](const std::array<Vec3, 2>& own, const std::array<Vec3, 2>& ends,
-                                const Vec3& point) {
-        const Segment segment{own[0], own[1]};
-        return b.dimension == 0
-                   ? (point_segment_distance(point, segment).point - point).norm() <= reach
-                   : segment_distance(segment, {ends[0], ends[1]}).squared_distance <= reach * reach;
-      };
-      return are_near(a.ends_moving, b.ends_moving, b.point_moving) &&
-             are_near(a.ends_fixed, b.ends_fixed, b.point_fixed);
-    }
-    const PlanarFrame& frame = set_.frames[a.frame];
-    const auto touches = [&](const ConvexPolygon& other) {
-      return any_piece_near(a, other.box(), reach,
-                            [&](const ConvexPolygon& piece) { return piece.touches(other, reach); });
-    };
-    if (b.dimension == 0) {
-      Box2 box;
-      const Vec2 x = frame.flat(b.point_fixed);
-      box.add(x);
-      return any_piece_near(a, box, reach, [&](const ConvexPolygon& piece) { return piece.holds(x, reach); });
-    }
-    if (b.dimension == 1)
-      return touches(ConvexPolygon({frame.flat(b.ends_fixed[0]), frame.flat(b.ends_fixed[1])}));
-    const PlanarFrame& other = set_.frames[b.frame];
-    return std::ranges::any_of(set_.pieces_of(b), [&](ConvexPolygon piece) {
-      for (Vec2& corner : piece.corners) corner = frame.flat(other.lifted(corner));
-      return touches(piece);
-    });
-  }
-
-  /// Whether a piece of a polygon that may come within reach of a box fits.
-  template <class Fits>
-  bool any_piece_near(const Contact& contact, const Box2& box, double reach, Fits&& fits) {
-    const auto pieces = set_.pieces_of(contact);
-    if (pieces.size() <= PIECES_WITHOUT_GRID) return std::ranges::any_of(pieces, fits);
-    // Asked for by each corner and chain of a large contact.
-    std::optional<BoxGrid>& grid = grids_[contact.frame];
-    if (!grid) {
-      std::vector<Box2> boxes;
-      for (const ConvexPolygon& piece : pieces) boxes.push_back(piece.box());
-      grid.emplace(boxes);
-    }
-    return !grid->for_each_near(box, reach,
-                                [&](std::int32_t i) { return !fits(pieces[static_cast<std::size_t>(i)]); });
   }
 
   /// Joins points and segments apart from each other between which the distance stays the same: next to touch, where the ends of
   /// one chain over another one may both seem to be minima.
   void join_over_level_ways() {
     std::pmr::vector<OnCarriers> entries(&memory_), parts(&memory_);
-    for (const std::size_t i : company_) {
+    for (const std::size_t i : ties_) {
       if (contacts_[i].dimension == 2) {
         parts.push_back({contacts_[i].moving.index, contacts_[i].fixed.index, i});
         continue;
@@ -458,7 +316,7 @@ class Joining {
         const OnCarriers& other = bucket[m];
         const Contact &a = contacts_[i], &b = contacts_[other.contact];
         if (sets_.find_set(i) == sets_.find_set(other.contact) ||
-            std::abs(a.distance - b.distance) > granted(a, b))
+            std::abs(a.distance - b.distance) > places_.granted(a, b))
           continue;
         if (is_level_way(bucket.front(), a, b)) join(i, other.contact);
       }
@@ -467,7 +325,7 @@ class Joining {
 
   bool is_level_way(const OnCarriers& on, const Contact& a, const Contact& b) const {
     if (a.dimension > 0 && b.dimension > 0 && name_of(a) == name_of(b)) return false;
-    if (!have_one_direction(a, b)) return false;
+    if (!places_.have_one_direction(a, b)) return false;
     const auto nearest = [](const Contact& contact, const std::array<Vec3, 2>& ends, const Vec3& point,
                             const Vec3& to) {
       return contact.dimension == 0 ? point : point_segment_distance(to, {ends[0], ends[1]}).point;
@@ -493,7 +351,7 @@ class Joining {
 
   // --- what is reported
 
-  void report_all(LmdSet& lmds) {
+  void report_all() {
     std::pmr::vector<std::size_t> order(contacts_.size(), &memory_);
     std::iota(order.begin(), order.end(), std::size_t{0});
     sets_.compress_sets(order.begin(), order.end());
@@ -501,53 +359,26 @@ class Joining {
     for (std::size_t begin = 0; begin < order.size();) {
       std::size_t end = begin;
       while (end < order.size() && parents_[order[end]] == parents_[order[begin]]) ++end;
-      report_set(std::span(order).subspan(begin, end - begin), lmds);
+      report_set(std::span(order).subspan(begin, end - begin));
       begin = end;
     }
   }
 
   /// @param set  indices of contacts of one LMD, nearest first
-  void report_set(std::span<const std::size_t> set, LmdSet& lmds) {
-    const auto is_point = [&](std::size_t i) {
-      return contacts_[i].dimension == 0 && contacts_[i].is_minimum;
-    };
-    if (std::ranges::none_of(set, is_point)) {
-      if (sum_of(set) != 0) report_signed(contacts_[set.front()], contacts_[set.front()], set, false, lmds);
-      return;
-    }
-    const auto first = std::ranges::find_if(set, [&](std::size_t i) { return contacts_[i].is_minimum; });
-    const double least = contacts_[*first].distance;
-    const double highest = least + tolerance_.same_distance(least);
-    int dimension = 0;
-    for (const std::size_t i : set)
-      if (contacts_[i].distance <= highest && contacts_[i].is_minimum)
-        dimension = std::max(dimension, contacts_[i].dimension);
-    Pieces pieces(&memory_), points(&memory_);
+  void report_set(std::span<const std::size_t> set) {
+    ContactPointers minima(&memory_);
+    bool has_points = false;
     for (const std::size_t i : set) {
-      if (contacts_[i].distance > highest || !contacts_[i].is_minimum) continue;
-      if (contacts_[i].dimension == dimension) pieces.push_back(&contacts_[i]);
-      if (contacts_[i].dimension == 0) points.push_back(&contacts_[i]);
+      if (!contacts_[i].is_minimum) continue;
+      minima.push_back(&contacts_[i]);
+      has_points = has_points || contacts_[i].dimension == 0;
     }
-    std::optional<Contact> whole;
-    if (dimension == 2) whole = middle_of_polygons(pieces);
-    if (dimension == 1) whole = middle_of_segments(pieces);
-    if (!whole) {
-      const Contact& nearest = nearest_contact(points.empty() ? pieces : points);
-      report_signed(nearest, nearest, set, true, lmds);
-      return;
+    if (has_points) {
+      const Representative whole = represent_contacts(pair_, places_, minima);
+      report(whole.contact(), *whole.namesake, set, true);
+    } else if (sum_of(set) != 0) {  // Rule S: no minimum.
+      report(contacts_[set.front()], contacts_[set.front()], set, false);
     }
-    const Contact* namesake = nullptr;
-    double nearest = std::numeric_limits<double>::infinity();
-    for (const Contact* piece : pieces) {
-      const double apart = (nearest_place(*piece, whole->point_fixed) - whole->point_fixed).norm();
-      const double spare = EQUALLY_NEAR * nearest + tolerance_.rounding;
-      if (namesake != nullptr && !(apart < nearest - spare) &&
-          !(apart <= nearest + spare && name_of(*piece) < name_of(*namesake)))
-        continue;
-      nearest = namesake == nullptr ? apart : std::min(apart, nearest);
-      namesake = piece;
-    }
-    report_signed(*whole, *namesake, set, true, lmds);
   }
 
   int sum_of(std::span<const std::size_t> set) const {
@@ -556,179 +387,36 @@ class Joining {
     return sum;
   }
 
-  /// Reports an LMD, or a critical pair that is none, and the sign of its set.
-  void report_signed(const Contact& contact, const Contact& namesake, std::span<const std::size_t> set,
-                     bool is_minimum, LmdSet& lmds) const {
-    const std::size_t before = lmds.size();
-    report(contact, namesake, lmds);
-    if (signs_ == nullptr || lmds.size() == before) return;
+  void report(const Contact& contact, const Contact& namesake, std::span<const std::size_t> set,
+              bool is_minimum) {
+    if (contact.distance > tolerance_.cutoff) return;
+    const Lmd lmd = make_lmd(pair_, places_, contact, namesake, body_);
+    if (signs_ == nullptr) return lmds_->push_back(lmd);
     const bool has_index = std::ranges::all_of(set, [&](std::size_t i) {
       return signs_->moving.has_index(contacts_[i].moving) && signs_->fixed.has_index(contacts_[i].fixed);
     });
+    const int index = has_index ? sum_of(set) : 1;
     const bool is_basin =
-        sum_of(set) > 0 && std::ranges::any_of(set, [&](std::size_t i) { return contacts_[i].is_basin; });
-    signs_->of_lmds.push_back(
-        {has_index ? sum_of(set) : 1, is_minimum, has_index, has_index ? is_basin : is_minimum});
-  }
-
-  static Contact middle_of_polygons(const Pieces& pieces) {
-    Contact whole = *pieces.front();
-    if (pieces.size() == 1) return whole;
-    double total = 0.0;
-    whole.point_moving = whole.point_fixed = whole.direction = Vec3::Zero();
-    whole.distance = 0.0;
-    for (const Contact* piece : pieces) {
-      total += piece->measure;
-      whole.point_moving += piece->measure * piece->point_moving;
-      whole.point_fixed += piece->measure * piece->point_fixed;
-      whole.direction += piece->measure * piece->direction;
-      whole.distance += piece->measure * piece->distance;
-    }
-    whole.point_moving /= total;
-    whole.point_fixed /= total;
-    whole.distance /= total;
-    whole.direction.normalize();
-    return whole;
-  }
-
-  /// The centroid of what segments on one line cover, each part once; nothing where they are on several lines or it is on none
-  /// of them.
-  std::optional<Contact> middle_of_segments(const Pieces& pieces) const {
-    const Contact& longest =
-        **std::ranges::max_element(pieces, {}, [](const Contact* c) { return c->measure; });
-    if (pieces.size() == 1) return longest;
-    const Vec3 origin = longest.ends_fixed[0], along = (longest.ends_fixed[1] - origin).normalized();
-    std::vector<std::pair<double, double>> parts;
-    for (const Contact* piece : pieces) {
-      Extent part;
-      for (const Vec3& end : piece->ends_fixed) {
-        const double place = along.dot(end - origin);
-        if ((origin + place * along - end).norm() > tolerance_.known) return std::nullopt;
-        part.add(place);
-      }
-      parts.emplace_back(part.least, part.greatest);
-    }
-    std::ranges::sort(parts);
-    double covered = 0.0, moment = 0.0, reached = parts.front().first;
-    for (const auto& [begin, end] : parts) {
-      const double from = std::max(begin, reached);
-      if (end <= from) continue;
-      covered += end - from;
-      moment += 0.5 * (end + from) * (end - from);
-      reached = end;
-    }
-    const double middle = moment / covered;
-    if (std::ranges::none_of(parts, [&](const auto& part) {
-          return part.first - tolerance_.known <= middle && middle <= part.second + tolerance_.known;
-        }))
-      return std::nullopt;
-    Contact whole = longest;
-    const double share = middle / longest.measure;
-    whole.point_fixed = origin + middle * along;
-    whole.point_moving = longest.ends_moving[0] + share * (longest.ends_moving[1] - longest.ends_moving[0]);
-    whole.distance = (whole.point_fixed - whole.point_moving).norm();
-    return whole;
-  }
-
-  /// An order of places that depends neither on the pose nor on how the meshes are cut: by coordinates in the moving mesh's frame,
-  /// where they differ by more than the tolerance.
-  bool lies_before(const Contact& a, const Contact& b) const {
-    const Vec3 p = pair_.moving.point_to_surface(a.point_moving),
-               q = pair_.moving.point_to_surface(b.point_moving);
-    for (int k = 0; k < 3; ++k)
-      if (std::abs(p[k] - q[k]) > tolerance_.known) return p[k] < q[k];
-    return false;
-  }
-
-  /// The nearest. Of several at one distance that are apart, one between features of the highest kind, which is where the
-  /// minimum stays when the meshes are tilted further, and of those the first by place; of those in one place the first by name.
-  const Contact& nearest_contact(Pieces& contacts) {
-    const double least =
-        (*std::ranges::min_element(contacts, {}, [](const Contact* c) { return c->distance; }))->distance;
-    std::erase_if(contacts,
-                  [&](const Contact* contact) { return contact->distance > least + tolerance_.rounding; });
-    const auto kinds = [](const Contact* contact) {
-      return static_cast<int>(contact->moving.kind) + static_cast<int>(contact->fixed.kind);
-    };
-    const Contact* place = contacts.front();
-    for (const Contact* contact : contacts)
-      if (kinds(contact) > kinds(place) || (kinds(contact) == kinds(place) && lies_before(*contact, *place)))
-        place = contact;
-    std::erase_if(contacts,
-                  [&](const Contact* contact) { return contact->dimension == 0 && !meet(*contact, *place); });
-    return **std::ranges::min_element(
-        contacts, {}, [](const Contact* contact) { return std::pair(contact->moving, contact->fixed); });
-  }
-
-  /// The point of a piece's place that is nearest to a point of the fixed mesh. It lies on the piece's features, as a centroid need
-  /// not; and the parts of one overlap are convex where they lie on one pair of triangles, so that no two have one name.
-  Vec3 nearest_place(const Contact& piece, const Vec3& q) const {
-    if (piece.dimension == 0) return piece.point_fixed;
-    if (piece.dimension == 1)
-      return point_segment_distance(q, {piece.ends_fixed[0], piece.ends_fixed[1]}).point;
-    const PlanarFrame& frame = set_.frames[piece.frame];
-    const Vec2 x = frame.flat(q);
-    Vec2 nearest = x;
-    double least = std::numeric_limits<double>::infinity();
-    for (const ConvexPolygon& polygon : set_.pieces_of(piece)) {
-      if (polygon.holds(x, 0.0)) return q;
-      for (std::size_t k = 0; k < polygon.corners.size(); ++k) {
-        const Vec2 &from = polygon.corners[k],
-                   side = polygon.corners[(k + 1) % polygon.corners.size()] - from;
-        const Vec2 on_side = from + std::clamp((x - from).dot(side) / side.squaredNorm(), 0.0, 1.0) * side;
-        if ((on_side - x).norm() >= least) continue;
-        least = (on_side - x).norm();
-        nearest = on_side;
-      }
-    }
-    return q + frame.lifted(nearest) - frame.lifted(x);
-  }
-
-  /// @param namesake  the contact whose features name the LMD
-  void report(const Contact& contact, const Contact& namesake, LmdSet& lmds) const {
-    if (contact.distance > tolerance_.cutoff) return;
-    Lmd& lmd = lmds.emplace_back();
-    lmd.distance = contact.distance;
-    lmd.point_moving = contact.point_moving;
-    lmd.point_fixed = contact.point_fixed;
-    lmd.direction = contact.direction;
-    lmd.fixed_body = body_;
-    const Vec3 q = nearest_place(namesake, contact.point_fixed);
-    const Vec3 p = contact.point_moving + (q - contact.point_fixed);
-    std::tie(lmd.feature_moving, lmd.triangle_moving) = name_at(pair_.moving, namesake.moving, p);
-    std::tie(lmd.feature_fixed, lmd.triangle_fixed) = name_at(pair_.fixed, namesake.fixed, q);
-  }
-
-  /// The face, edge or vertex that names a point of a feature, and a triangle with it.
-  static std::pair<FeatureId, std::int32_t> name_at(const ShapeSide& side, const FeatureId& feature,
-                                                    const Vec3& p_W) {
-    if (feature.kind == FeatureKind::VERTEX)
-      return {feature, side.surface.adjacency.vertex_triangles[feature.index].front()};
-    const Vec3 p_S = side.point_to_surface(p_W);
-    if (feature.kind == FeatureKind::FACE) {
-      const std::int32_t face = side.shape.face_at(side.surface, feature.index, p_S);
-      return {{FeatureKind::FACE, face}, face};
-    }
-    const std::int32_t edge = side.shape.regions.edge_at(side.surface, feature.index, p_S);
-    return {{FeatureKind::EDGE, edge}, side.surface.adjacency.edge_triangles[edge].front()};
+        has_index
+            ? index > 0 && std::ranges::any_of(set, [&](std::size_t i) { return contacts_[i].is_basin; })
+            : is_minimum;
+    signs_->critical.push_back({lmd, index, is_minimum, has_index, is_basin});
   }
 
   const ShapePair& pair_;
   const ContactTolerance& tolerance_;
   std::int32_t body_;
-  ContactSet& set_;
   std::vector<Contact>& contacts_;
-  Signs* signs_;
-  /// Of the roots, while critical pairs that are no minima are joined.
-  std::vector<bool> has_minimum_, is_extended_;
-  double last_granted_ = 0.0;
   /// Where a few hundred contacts find room without an allocation.
   std::array<std::byte, 1 << 15> room_;
   std::pmr::monotonic_buffer_resource memory_{room_.data(), room_.size()};
-  std::pmr::vector<std::size_t> company_{&memory_}, ranks_{&memory_}, parents_{&memory_};
+  ContactPlaces places_;
+  LmdSet* lmds_;
+  const Signs* signs_;
+  /// Of the roots, while critical pairs that are no minima are joined.
+  std::vector<bool> has_minimum_, is_extended_;
+  std::pmr::vector<std::size_t> ties_{&memory_}, ranks_{&memory_}, parents_{&memory_};
   boost::disjoint_sets<std::size_t*, std::size_t*> sets_{nullptr, nullptr};
-  std::pmr::vector<std::optional<BoxGrid>> grids_{
-      &memory_};  ///< Of the polygons of many pieces, one a frame.
   Carriers carriers_moving_{{}, Rows(&memory_)}, carriers_fixed_{{}, Rows(&memory_)};
 };
 
@@ -736,36 +424,14 @@ class Joining {
 
 void join_contacts(const ShapePair& pair, std::int32_t fixed_body, ContactSet& contacts,
                    std::span<const Intersection> intersections, LmdSet& lmds) {
-  Joining(pair, fixed_body, contacts).run(intersections, lmds);
+  Joining(pair, fixed_body, contacts, &lmds, nullptr).run(intersections);
 }
 
 void join_critical(const ShapePair& pair, const SignedFeatures& moving, const SignedFeatures& fixed,
                    std::int32_t fixed_body, ContactSet& contacts, std::span<const Intersection> intersections,
                    CriticalSet& critical) {
-  Joining::Signs signs{moving, fixed, {}};
-  LmdSet lmds;
-  Joining(pair, fixed_body, contacts, &signs).run(intersections, lmds);
-  for (std::size_t i = 0; i < lmds.size(); ++i)
-    critical.push_back({lmds[i], signs.of_lmds[i].index, signs.of_lmds[i].is_minimum,
-                        signs.of_lmds[i].has_index, signs.of_lmds[i].is_basin});
-}
-
-void decide_critical(const ShapePair& pair, const SignedPair& signs, const FeatureId& on_moving,
-                     const FeatureId& on_fixed, ContactSet& found) {
-  const std::size_t before = found.contacts.size();
-  decide(pair, on_moving, on_fixed, found);
-  const std::size_t between = found.contacts.size();
-  signs.append(on_moving, on_fixed, found);
-  if (found.contacts.size() == between || between != before + 1 || found.contacts[before].dimension != 0 ||
-      !found.contacts.back().is_basin)
-    return;
-  found.contacts[before].index = found.contacts.back().index;
-  found.contacts[before].is_basin = found.contacts.back().is_basin;
-  found.contacts.pop_back();
-}
-
-void append_touching(const LmdSet& lmds, CriticalSet& critical) {
-  for (const Lmd& lmd : lmds) critical.push_back({lmd, 1, true, true, true});
+  const Joining::Signs signs{moving, fixed, critical};
+  Joining(pair, fixed_body, contacts, nullptr, &signs).run(intersections);
 }
 
 }  // namespace lmdbench

@@ -37,11 +37,4 @@ void join_critical(const ShapePair& pair, const SignedFeatures& moving, const Si
                    std::int32_t fixed_body, ContactSet& contacts, std::span<const Intersection> intersections,
                    CriticalSet& critical);
 
-/// Asks two features for their contacts and for their critical pair; a contact of points that is the lowest pair too takes its index.
-void decide_critical(const ShapePair& pair, const SignedPair& signs, const FeatureId& on_moving,
-                     const FeatureId& on_fixed, ContactSet& found);
-
-/// What was appended for triangles that intersect (intersections.h), as minima of index 1.
-void append_touching(const LmdSet& lmds, CriticalSet& critical);
-
 }  // namespace lmdbench

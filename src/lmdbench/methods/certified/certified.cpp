@@ -306,10 +306,7 @@ void Certified::find_critical(const Pose& X_WM, CriticalSet& critical, WorkCount
     join_critical(pair, *signs_moving_, *fixed_[body].signs, static_cast<std::int32_t>(body), contacts_,
                   intersections_, critical);
   });
-  LmdSet touching;
-  append_contacts(scene_, intersections_, touching);
-  append_touching(touching, critical);
-  sort_critical(critical);
+  finish_critical(scene_, intersections_, critical);
 }
 
 }  // namespace lmdbench

@@ -155,10 +155,7 @@ void Exhaustive::find_critical(const Pose& X_WM, CriticalSet& critical, WorkCoun
         join_critical(pair, signs_moving, signs_fixed(static_cast<std::size_t>(body)), body, contacts_,
                       intersections_, critical);
       });
-  LmdSet touching;
-  append_contacts(scene_, intersections_, touching);
-  append_touching(touching, critical);
-  sort_critical(critical);
+  finish_critical(scene_, intersections_, critical);
 }
 
 }  // namespace lmdbench

@@ -1,0 +1,122 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/geometry/segment_distance.h>
+#include <lmdbench/lmd/contact_places.h>
+
+#include <algorithm>
+#include <array>
+#include <limits>
+
+namespace lmdbench {
+
+namespace {
+
+/// Angle [rad] up to which two contacts have one direction: far above what rounding does to it, far below an angle between faces.
+constexpr double SAME_DIRECTION = 0.1;
+/// Polygons of more pieces get a grid of them.
+constexpr std::size_t PIECES_WITHOUT_GRID = 8;
+
+}  // namespace
+
+Eigen::AlignedBox3d ContactPlaces::box_of(const Contact& contact, double reach) const {
+  Eigen::AlignedBox3d box;
+  if (contact.dimension == 0) {
+    box.extend(contact.point_fixed);
+  } else if (contact.dimension == 1) {
+    for (const Vec3& end : contact.ends_fixed) box.extend(end);
+  } else {
+    const PlanarFrame& frame = set_.frames[contact.frame];
+    const Vec3 n = frame.u.cross(frame.v), lift = n.dot(contact.point_fixed - frame.origin) * n;
+    for (const ConvexPolygon& piece : set_.pieces_of(contact))
+      for (const Vec2& corner : piece.corners) box.extend(Vec3(frame.lifted(corner) + lift));
+  }
+  const Vec3 margin = Vec3::Constant(reach);
+  return {box.min() - margin, box.max() + margin};
+}
+
+Vec3 ContactPlaces::nearest_place(const Contact& contact, const Vec3& q) const {
+  if (contact.dimension == 0) return contact.point_fixed;
+  if (contact.dimension == 1)
+    return point_segment_distance(q, {contact.ends_fixed[0], contact.ends_fixed[1]}).point;
+  const PlanarFrame& frame = set_.frames[contact.frame];
+  const Vec2 x = frame.flat(q);
+  Vec2 nearest = x;
+  double least = std::numeric_limits<double>::infinity();
+  for (const ConvexPolygon& polygon : set_.pieces_of(contact)) {
+    if (polygon.holds(x, 0.0)) return q;
+    for (std::size_t k = 0; k < polygon.corners.size(); ++k) {
+      const Vec2 &from = polygon.corners[k], side = polygon.corners[(k + 1) % polygon.corners.size()] - from;
+      const Vec2 on_side = from + std::clamp((x - from).dot(side) / side.squaredNorm(), 0.0, 1.0) * side;
+      if ((on_side - x).norm() >= least) continue;
+      least = (on_side - x).norm();
+      nearest = on_side;
+    }
+  }
+  return q + frame.lifted(nearest) - frame.lifted(x);
+}
+
+double ContactPlaces::granted(const Contact& a, const Contact& b) const {
+  const int extended = (a.dimension > 0) + (b.dimension > 0);
+  return tolerance_.same_distance(std::min(a.distance, b.distance)) + extended * tolerance_.known;
+}
+
+bool ContactPlaces::have_one_direction(const Contact& a, const Contact& b) const {
+  const Vec3 difference = a.distance * a.direction - b.distance * b.direction;
+  return difference.norm() <= granted(a, b) + SAME_DIRECTION * a.distance;
+}
+
+/// Whether a piece of a polygon that may come within reach of a box fits.
+template <class Fits>
+bool ContactPlaces::any_piece_near(const Contact& contact, const Box2& box, double reach, Fits&& fits) {
+  const auto pieces = set_.pieces_of(contact);
+  if (pieces.size() <= PIECES_WITHOUT_GRID) return std::ranges::any_of(pieces, fits);
+  // Asked for by each corner and chain of a large contact.
+  if (grids_.size() < set_.frames.size()) grids_.resize(set_.frames.size());
+  std::optional<BoxGrid>& grid = grids_[contact.frame];
+  if (!grid) {
+    std::vector<Box2> boxes;
+    for (const ConvexPolygon& piece : pieces) boxes.push_back(piece.box());
+    grid.emplace(boxes);
+  }
+  return !grid->for_each_near(box, reach,
+                              [&](std::int32_t i) { return !fits(pieces[static_cast<std::size_t>(i)]); });
+}
+
+bool ContactPlaces::meet(const Contact& a, const Contact& b) {
+  if (a.dimension < b.dimension) return meet(b, a);
+  const double reach = tolerance_.known;
+  if (a.dimension == 0)
+    return (a.point_moving - b.point_moving).norm() <= reach &&
+           (a.point_fixed - b.point_fixed).norm() <= reach;
+  if (a.dimension == 1) {
+    const auto are_near = [&](const std::array<Vec3, 2>& own, const std::array<Vec3, 2>& ends,
+                              const Vec3& point) {
+      const Segment segment{own[0], own[1]};
+      return b.dimension == 0
+                 ? (point_segment_distance(point, segment).point - point).norm() <= reach
+                 : segment_distance(segment, {ends[0], ends[1]}).squared_distance <= reach * reach;
+    };
+    return are_near(a.ends_moving, b.ends_moving, b.point_moving) &&
+           are_near(a.ends_fixed, b.ends_fixed, b.point_fixed);
+  }
+  const PlanarFrame& frame = set_.frames[a.frame];
+  const auto touches = [&](const ConvexPolygon& other) {
+    return any_piece_near(a, other.box(), reach,
+                          [&](const ConvexPolygon& piece) { return piece.touches(other, reach); });
+  };
+  if (b.dimension == 0) {
+    Box2 box;
+    const Vec2 x = frame.flat(b.point_fixed);
+    box.add(x);
+    return any_piece_near(a, box, reach, [&](const ConvexPolygon& piece) { return piece.holds(x, reach); });
+  }
+  if (b.dimension == 1)
+    return touches(ConvexPolygon({frame.flat(b.ends_fixed[0]), frame.flat(b.ends_fixed[1])}));
+  const PlanarFrame& other = set_.frames[b.frame];
+  return std::ranges::any_of(set_.pieces_of(b), [&](ConvexPolygon piece) {
+    for (Vec2& corner : piece.corners) corner = frame.flat(other.lifted(corner));
+    return touches(piece);
+  });
+}
+
+}  // namespace lmdbench
