@@ -591,11 +591,24 @@ class Joining {
     return whole;
   }
 
+  /// The longest. Borders that lie over each other have one length, but for rounding, with each other and with the faces behind
+  /// them: of these the first by kind and then by place, so that neither rounding nor the cut into triangles chooses.
+  const Contact& longest_segment(const Pieces& pieces) const {
+    const double length =
+        (*std::ranges::max_element(pieces, {}, &Contact::measure))->measure - tolerance_.known;
+    const auto kinds = [](const Contact& c) { return std::pair(c.moving.kind, c.fixed.kind); };
+    const Contact* longest = nullptr;
+    for (const Contact* piece : pieces)
+      if (piece->measure >= length && (longest == nullptr || kinds(*piece) < kinds(*longest) ||
+                                       (kinds(*piece) == kinds(*longest) && lies_before(*piece, *longest))))
+        longest = piece;
+    return *longest;
+  }
+
   /// The centroid of what segments on one line cover, each part once; nothing where they are on several lines or it is on none
   /// of them.
   std::optional<Contact> middle_of_segments(const Pieces& pieces) const {
-    const Contact& longest =
-        **std::ranges::max_element(pieces, {}, [](const Contact* c) { return c->measure; });
+    const Contact& longest = longest_segment(pieces);
     if (pieces.size() == 1) return longest;
     const Vec3 origin = longest.ends_fixed[0], along = (longest.ends_fixed[1] - origin).normalized();
     std::vector<std::pair<double, double>> parts;
