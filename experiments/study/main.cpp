@@ -27,6 +27,7 @@ int main(int argc, char** argv) {
   study::add_deform(app, chosen);
   study::add_depth(app, chosen);
   study::add_flat(app, chosen);
+  study::add_hostile(app, chosen);
   study::add_stability(app, chosen);
   study::add_passivity(app, chosen);
   study::add_leave_out(app, chosen);

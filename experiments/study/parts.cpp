@@ -104,9 +104,11 @@ void lmdbench::study::add_parts(CLI::App& app, Run& chosen) {
   command->add_option("--kind", choice->study.kinds,
                       "Such as 'ring on ring', may be repeated; all without it");
   command
-      ->add_option("--generator", *generator,
-                   "Without --kind: parts (drawn machine parts) or solids (random ones)")
-      ->check(CLI::IsMember({"parts", "solids"}))
+      ->add_option(
+          "--generator", *generator,
+          "Without --kind: parts (drawn machine parts), solids (random ones) or shapes (turned, swept, slit, "
+          "scanned)")
+      ->check(CLI::IsMember({"parts", "solids", "shapes"}))
       ->capture_default_str();
   command->add_option("--coordinates", *coordinates,
                       "exact, turned, rounded or recut, may be repeated; all without it");
@@ -117,8 +119,10 @@ void lmdbench::study::add_parts(CLI::App& app, Run& chosen) {
     if (*flush) choice->study.family = parts::PoseFamily::FLUSH;
     for (const std::string& kind : choice->study.kinds) parts::parts_kind(kind);
     if (choice->study.kinds.empty())
-      for (const parts::PartsKind& kind : parts::parts_kinds(
-               *generator == "solids" ? parts::Generator::RANDOM_SOLIDS : parts::Generator::MACHINE_PARTS))
+      for (const parts::PartsKind& kind :
+           parts::parts_kinds(*generator == "solids"   ? parts::Generator::RANDOM_SOLIDS
+                              : *generator == "shapes" ? parts::Generator::FORMED_SHAPES
+                                                       : parts::Generator::MACHINE_PARTS))
         choice->study.kinds.emplace_back(kind.name);
     for (const parts::Coordinates each : parts::ALL_COORDINATES)
       if (coordinates->empty() ||

@@ -29,6 +29,7 @@ void add_compare(CLI::App& app, Run& chosen);
 void add_deform(CLI::App& app, Run& chosen);
 void add_depth(CLI::App& app, Run& chosen);
 void add_flat(CLI::App& app, Run& chosen);
+void add_hostile(CLI::App& app, Run& chosen);
 void add_stability(CLI::App& app, Run& chosen);
 void add_passivity(CLI::App& app, Run& chosen);
 void add_leave_out(CLI::App& app, Run& chosen);

@@ -129,6 +129,23 @@ TEST(JoinContacts, EdgeOverEdgeIsOneLmdAndOnlyItsNameSwitches) {
   EXPECT_NEAR((lmd.point_fixed - Vec3(2.0, 0.5, 0.0)).norm(), 0.0, 1e-9);
 }
 
+TEST(JoinContacts, OfSegmentsOfOneLengthRoundingDoesNotChoose) {
+  // The box ends where the table does, or 1e-12 beside that: its edge over the table, the table's edge below it, and both edges
+  // share as much, but for rounding.
+  for (std::uint64_t seed = 0; seed < 40; ++seed) {
+    const Pose whole = testing::pose_of_seed(seed), own = testing::pose_of_seed(seed + 100);
+    ShapeScene scene(testing::placed(make_box({1.0, 0.7, 1.0}, 1 + static_cast<int>(seed % 3)), own),
+                     testing::placed(square_table(0.3 + 0.1 * static_cast<double>(seed)), whole));
+    const double end = 0.5 * (0.3 + 0.1 * static_cast<double>(seed));
+    for (const double offset : {-1e-11, -1e-12, 0.0, 1e-12}) {
+      SCOPED_TRACE(::testing::Message() << "seed " << seed << ", offset " << offset);
+      const Lmd lmd = only(scene, whole * moved(end + 0.5 + offset, 0.05, 0.51) * own.inverse());
+      EXPECT_EQ(lmd.feature_moving.kind, EDGE);
+      EXPECT_EQ(lmd.feature_fixed.kind, EDGE);
+    }
+  }
+}
+
 TEST(JoinContacts, TheFacesOfAStepAreTwoLmdsAndALevelRecessIsNone) {
   // Underside at .2 and at .1, as a prism along y.
   const auto step = [] {

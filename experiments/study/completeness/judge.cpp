@@ -16,9 +16,18 @@ std::string describe(const Lmd& lmd) {
 }
 
 const Lmd* find_pair(const LmdSet& set, const Lmd& wanted) {
-  const auto found =
-      std::find_if(set.begin(), set.end(), [&](const Lmd& lmd) { return same_feature_pair(lmd, wanted); });
+  const auto found = std::find_if(set.begin(), set.end(), [&](const Lmd& lmd) {
+    return same_feature_pair(lmd, wanted) && lmd.intersecting == wanted.intersecting;
+  });
   return found == set.end() ? nullptr : &*found;
+}
+
+/// LMDs beyond one a feature pair. What two features share where they intersect is one apart: it may be named after a pair that
+/// is an LMD elsewhere.
+std::size_t duplicates(const LmdSet& set) {
+  LmdSet apart, touching;
+  for (const Lmd& lmd : set) (lmd.intersecting ? touching : apart).push_back(lmd);
+  return set.size() - distinct_pairs(apart).size() - distinct_pairs(touching).size();
 }
 
 }  // namespace
@@ -40,7 +49,7 @@ Judgement judge(const LmdSet& truth, const LmdSet& reported, const Scene& scene,
   result.poses = 1;
   result.same = agreement(truth, reported, Match::SAME_FEATURES, scene);
   result.neighbours = agreement(truth, reported, Match::NEIGHBOURING_FEATURES, scene);
-  result.duplicates = reported.size() - distinct_pairs(reported).size();
+  result.duplicates = duplicates(reported);
   objection.clear();
   const auto object = [&](const std::string& what) { objection += (objection.empty() ? "" : "; ") + what; };
   if (result.duplicates > 0) object(fmt::format("{} duplicates", result.duplicates));
@@ -57,7 +66,8 @@ Judgement judge(const LmdSet& truth, const LmdSet& reported, const Scene& scene,
     result.worst_distance_difference = std::max(result.worst_distance_difference, distance);
     result.worst_point_difference = std::max(result.worst_point_difference, point);
     // Written so that NaN objects.
-    if (!(distance <= POSITION_TOLERANCE && point <= POSITION_TOLERANCE))
+    if (!(distance <= POSITION_TOLERANCE &&
+          point <= (lmd.intersecting ? CROSSING_TOLERANCE : POSITION_TOLERANCE)))
       object(fmt::format("{}: distance off by {:.2g}, points by {:.2g} of the diagonal", describe(lmd),
                          distance, point));
   }

@@ -13,11 +13,14 @@ namespace lmdbench::completeness {
 /// thousand roundings of a coordinate.
 inline constexpr double POSITION_TOLERANCE = 1e-12;
 
+/// The same for what intersecting triangles share: a crossing is found to 1e-11 of the triangles (certified/PROOF.md, lemma 11).
+inline constexpr double CROSSING_TOLERANCE = 1e-11;
+
 /// How far reported LMD sets are from the true ones, summed over poses.
 struct Judgement {
   Agreement same;              ///< Same features.
   Agreement neighbours;        ///< Neighbouring features count.
-  std::size_t duplicates = 0;  ///< LMDs beyond one a feature pair; `same` counts them as wrong.
+  std::size_t duplicates = 0;  ///< LMDs beyond one a feature pair.
   std::size_t poses = 0;
   std::size_t wrong_poses = 0;             ///< Poses with anything wrong.
   double worst_distance_difference = 0.0;  ///< Over matched pairs, relative to the diagonal.

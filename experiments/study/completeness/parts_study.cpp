@@ -28,7 +28,7 @@ std::string upper_case(std::string text) {
 std::string contacts_text(const LmdSet& lmds) {
   std::string text;
   for (const Lmd& lmd : lmds)
-    text += fmt::format("  {}-{} {:.9g} at {:.6f} {:.6f} {:.6f}\n", to_string(lmd.feature_moving.kind),
+    text += fmt::format("  {}-{} {:.12g} at {:.12f} {:.12f} {:.12f}\n", to_string(lmd.feature_moving.kind),
                         to_string(lmd.feature_fixed.kind), lmd.distance, lmd.point_fixed.x(),
                         lmd.point_fixed.y(), lmd.point_fixed.z());
   return text;

@@ -5,6 +5,9 @@
 #include <lmdbench/mesh/flatten.h>
 #include <lmdbench/snch/minimum_distance.h>
 
+#include <support/parts/chances.h>
+#include <support/parts/formed_poses.h>
+#include <support/parts/formed_shapes.h>
 #include <support/parts/machine_parts.h>
 #include <support/parts/parts_scenes.h>
 #include <support/parts/random_solids.h>
@@ -16,17 +19,12 @@
 #include <cmath>
 #include <limits>
 #include <memory>
-#include <numbers>
 #include <utility>
 
 namespace lmdbench::parts {
 namespace {
 
 using experiments::Random;
-
-/// The parts are about 1 m large.
-constexpr double CUTOFF = 0.04;
-constexpr double TAU = 2.0 * std::numbers::pi;
 
 const std::array KINDS = {
     PartsKind{"plate on plate", "plate", "plate"},
@@ -98,15 +96,30 @@ const std::array RANDOM_KINDS = {
     PartsKind{"star prism on polycube", STAR_PRISM, POLYCUBE},
 };
 
-bool chance(double probability, Random& random) {
-  return random.uniform() < probability;
-}
+/// In the place of a name: the same mesh again, or both drawn together.
+constexpr const char *ITS_COPY = "its copy", *ITS_MATE = "its mate", *ANY_FORMED = "any formed shape";
+constexpr const char *TURNED_MATES = "turned mates", *RELIEF_MATES = "relief mates";
 
-/// 10^U(low, high), of either sign.
-double decades(double low, double high, Random& random) {
-  const double size = std::pow(10.0, random.uniform(low, high));
-  return chance(0.5, random) ? size : -size;
-}
+const std::array FORMED_KINDS = {
+    PartsKind{"turned part on turned part", "turned part", "turned part"},
+    PartsKind{"turned part on its copy", "turned part", ITS_COPY},
+    PartsKind{"turned part in its bore", TURNED_MATES, ITS_MATE},
+    PartsKind{"coil on coil", "coil", "coil"},
+    PartsKind{"coil on its copy", "coil", ITS_COPY},
+    PartsKind{"coil on turned part", "coil", "turned part"},
+    PartsKind{"slit block on slit block", "slit block", "slit block"},
+    PartsKind{"slit block on its copy", "slit block", ITS_COPY},
+    PartsKind{"slit block on thin plate", "slit block", "thin plate"},
+    PartsKind{"thin plate on thin plate", "thin plate", "thin plate"},
+    PartsKind{"stellated solid on stellated solid", "stellated solid", "stellated solid"},
+    PartsKind{"stellated solid on its copy", "stellated solid", ITS_COPY},
+    PartsKind{"cast on relief", RELIEF_MATES, ITS_MATE},
+    PartsKind{"scan on scan", "scan", "scan"},
+    PartsKind{"scan on its copy", "scan", ITS_COPY},
+    PartsKind{"truss on bricks", "truss", "bricks"},
+    PartsKind{"bricks on bricks", "bricks", "bricks"},
+    PartsKind{"any formed shape on any formed shape", ANY_FORMED, ANY_FORMED},
+};
 
 /// One of the 24 turns of a cube: exact.
 Mat3 quarter_turns(Random& random) {
@@ -172,20 +185,6 @@ Vec3 level_direction(Random& random) {
   return {std::cos(angle), std::sin(angle), 0.0};
 }
 
-/// None, or tiny.
-double tiny(double share, double low, double high, Random& random) {
-  return chance(share, random) ? decades(low, high, random) : 0.0;
-}
-
-/// From overlap over touch to the cutoff.
-double draw_gap(Random& random) {
-  const double kind = random.uniform();
-  if (kind < 0.08) return 0.0;
-  if (kind < 0.16) return -std::pow(10.0, random.uniform(-9.0, -2.0));
-  if (kind < 0.6) return CUTOFF * std::pow(10.0, random.uniform(-9.0, 0.0));
-  return CUTOFF * random.uniform();
-}
-
 /// Multiples of 2^-24.
 double dyadic(double x) {
   return std::ldexp(std::round(std::ldexp(x, 24)), -24);
@@ -193,16 +192,18 @@ double dyadic(double x) {
 
 class PoseMaker {
  public:
-  PoseMaker(const PartsDesign& design, bool nested, bool any_faces, PoseFamily family)
+  PoseMaker(const PartsDesign& design, bool nested, Generator generator, PoseFamily family)
       : design_(design),
         nested_(nested),
-        any_faces_(any_faces),
+        generator_(generator),
         flush_(family == PoseFamily::FLUSH),
         moving_("moving", build_surface(design.moving)),
         fixed_("fixed", build_surface(design.fixed)) {}
 
   Pose unrelated(Random& random) const {
-    if (any_faces_ && !flush_) return face_on_face(random);
+    if (generator_ != Generator::MACHINE_PARTS && !flush_)
+      return (generator_ == Generator::FORMED_SHAPES ? formed_pose : face_on_face)(design_.moving,
+                                                                                   design_.fixed, random);
     Pose pose = nested_ ? in_it(random) : on_it(random);
     if (flush_)
       for (double& x : pose.translation) x = dyadic(x);
@@ -286,45 +287,10 @@ class PoseMaker {
     return pose;
   }
 
-  /// A corner, or a point on a side or in the inside of a triangle.
-  static Vec3 point_of(const Triangle& t, Random& random) {
-    const std::size_t i = random.index(3);
-    const double kind = random.uniform(), u = kind < 0.3 ? 0.0 : random.uniform();
-    const double v = kind < 0.6 ? 0.0 : (1.0 - u) * random.uniform();
-    return t[i] + u * (t[(i + 1) % 3] - t[i]) + v * (t[(i + 2) % 3] - t[i]);
-  }
-
-  /// Some triangle of the one lies over some triangle of the other, however the rest is.
-  Pose face_on_face(Random& random) const {
-    const auto some = [&](const TriangleMesh& mesh) {
-      return mesh.triangle(static_cast<std::int32_t>(random.index(mesh.triangles.size())));
-    };
-    const Triangle on = some(design_.fixed), at = some(design_.moving);
-    const auto normal = [](const Triangle& t) { return (t[1] - t[0]).cross(t[2] - t[0]).normalized(); };
-    const Vec3 up = normal(on);
-    Pose pose;
-    pose.rotation = Eigen::Quaterniond::FromTwoVectors(normal(at), -up);
-    if (chance(0.5, random)) {
-      // A side along a side.
-      const Vec3 way = pose.rotation * (at[1] - at[0]), along = on[1] - on[0];
-      pose.rotation =
-          Eigen::AngleAxisd(
-              std::atan2(way.cross(along).dot(up), way.dot(along)) + tiny(0.5, -14.0, -4.0, random), up) *
-          pose.rotation;
-    } else {
-      pose.rotation = Eigen::AngleAxisd(TAU * random.uniform(), up) * pose.rotation;
-    }
-    const double tilt = tiny(0.6, -13.0, -3.0, random);
-    if (tilt != 0.0) pose.rotation = Eigen::AngleAxisd(tilt, random.direction()) * pose.rotation;
-    pose.rotation.normalize();
-    const double offset = tiny(0.5, -16.0, -5.0, random);
-    pose.translation = point_of(on, random) + draw_gap(random) * up + offset * random.direction() -
-                       pose.rotation * point_of(at, random);
-    return pose;
-  }
-
   const PartsDesign& design_;
-  bool nested_, any_faces_, flush_;
+  bool nested_;
+  Generator generator_;
+  bool flush_;
   Body moving_, fixed_;
 };
 
@@ -351,16 +317,22 @@ File file_of(const char* name, TriangleMesh mesh, Coordinates coordinates, Rando
   return file;
 }
 
-bool is_random(const PartsKind& kind) {
-  return std::any_of(RANDOM_KINDS.begin(), RANDOM_KINDS.end(),
-                     [&](const PartsKind& other) { return &other == &kind; });
+/// Which generator a kind is of.
+Generator generator_of(const PartsKind& kind) {
+  for (const Generator generator : {Generator::RANDOM_SOLIDS, Generator::FORMED_SHAPES})
+    for (const PartsKind& other : parts_kinds(generator))
+      if (&other == &kind) return generator;
+  return Generator::MACHINE_PARTS;
 }
 
 /// Far from each other, so that no two scenes draw the same numbers.
 Random random_of(const PartsChoice& choice, std::uint64_t stream) {
   const PartsKind& kind = parts_kind(choice.kind);
-  const auto number = static_cast<std::uint64_t>(is_random(kind) ? 1000 + (&kind - RANDOM_KINDS.data())
-                                                                 : &kind - KINDS.data());
+  const Generator generator = generator_of(kind);
+  const auto number = 500 * (generator == Generator::FORMED_SHAPES   ? 3U
+                             : generator == Generator::RANDOM_SOLIDS ? 2U
+                                                                     : 0U) +
+                      static_cast<std::uint64_t>(&kind - parts_kinds(generator).data());
   return Random((choice.seed * 2000 + number) * 0x9E3779B97F4A7C15ULL + 8 * choice.index + stream);
 }
 
@@ -382,12 +354,14 @@ const char* name_of(Coordinates coordinates) {
 
 std::span<const PartsKind> parts_kinds(Generator generator) {
   if (generator == Generator::RANDOM_SOLIDS) return RANDOM_KINDS;
+  if (generator == Generator::FORMED_SHAPES) return FORMED_KINDS;
   return KINDS;
 }
 
 const PartsKind& parts_kind(std::string_view name) {
   std::string names;
-  for (const Generator generator : {Generator::MACHINE_PARTS, Generator::RANDOM_SOLIDS}) {
+  for (const Generator generator :
+       {Generator::MACHINE_PARTS, Generator::RANDOM_SOLIDS, Generator::FORMED_SHAPES}) {
     for (const PartsKind& kind : parts_kinds(generator)) {
       if (name == kind.name) return kind;
       names += (names.empty() ? "" : ", ") + std::string(kind.name);
@@ -399,18 +373,30 @@ const PartsKind& parts_kind(std::string_view name) {
 PartsDesign make_parts_design(const PartsChoice& choice) {
   const PartsKind& kind = parts_kind(choice.kind);
   Random random = random_of(choice, choice.poses == PoseFamily::FLUSH ? 1 : 0);
-  const auto part = [&](const char* name) {
+  const auto part = [&](std::string_view name) {
     if (name == POLYCUBE) return random_polycube(random);
     if (name == STAR_PRISM) return random_star_prism(random);
-    return *name != '\0' ? make_machine_part(name)
-                         : machine_parts()[random.index(machine_parts().size())].make();
+    if (name == ANY_FORMED) return formed_shapes()[random.index(formed_shapes().size())].make(random);
+    for (const FormedShape& shape : formed_shapes())
+      if (name == shape.name) return shape.make(random);
+    return name.empty() ? machine_parts()[random.index(machine_parts().size())].make()
+                        : make_machine_part(name);
   };
-  PartsDesign design{part(kind.moving), part(kind.fixed), {}};
-  if (!kind.nested) {
+  PartsDesign design;
+  if (std::string_view(kind.fixed) == ITS_MATE) {
+    Mates mates = std::string_view(kind.moving) == TURNED_MATES ? random_turned_mates(random)
+                                                                : random_relief_mates(random);
+    design = {std::move(mates.inner), std::move(mates.outer), {}};
+  } else {
+    design.moving = part(kind.moving);
+    design.fixed = std::string_view(kind.fixed) == ITS_COPY ? design.moving : part(kind.fixed);
+  }
+  const Generator generator = generator_of(kind);
+  if (!kind.nested && generator != Generator::FORMED_SHAPES) {
     design.moving = on_some_side(std::move(design.moving), random);
     design.fixed = on_some_side(std::move(design.fixed), random);
   }
-  const PoseMaker maker(design, kind.nested, is_random(kind), choice.poses);
+  const PoseMaker maker(design, kind.nested, generator, choice.poses);
   const bool slides = choice.poses == PoseFamily::ANY && chance(0.5, random);
   const double step = std::pow(10.0, random.uniform(-6.0, -2.0));
   const Vec3 way = step * level_direction(random);

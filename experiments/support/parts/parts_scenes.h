@@ -43,10 +43,11 @@ struct PartsKind {
 /// Where kinds come from.
 enum class Generator : std::uint8_t {
   MACHINE_PARTS,  ///< Parts that are drawn (machine_parts.h), on and in each other; the last kind draws both by lot.
-  RANDOM_SOLIDS  ///< Solids that nobody drew (random_solids.h); any face of one lies on any face of the other.
+  RANDOM_SOLIDS,  ///< Solids that nobody drew (random_solids.h); any face of one lies on any face of the other.
+  FORMED_SHAPES  ///< Turned, swept, slit, scanned shapes (formed_shapes.h) on each other, their copies and their mates.
 };
 std::span<const PartsKind> parts_kinds(Generator generator = Generator::MACHINE_PARTS);
-/// Of either generator.
+/// Of any generator.
 /// @throws UsageError for an unknown name
 const PartsKind& parts_kind(std::string_view name);
 

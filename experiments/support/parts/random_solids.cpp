@@ -3,6 +3,7 @@
 #include <lmdbench/catalogue/rounded_circle.h>
 #include <lmdbench/mesh/validity.h>
 
+#include <support/parts/chances.h>
 #include <support/parts/prism_complex.h>
 #include <support/parts/random_solids.h>
 
@@ -17,10 +18,6 @@ namespace {
 using experiments::Random;
 
 constexpr std::size_t CELLS = 5;
-
-double dyadic(double x, int bits) {
-  return std::ldexp(std::round(std::ldexp(x, bits)), -bits);
-}
 
 /// Uneven: from a 128th to a quarter apart, about the middle.
 std::vector<double> uneven_lines(std::size_t steps, Random& random) {
@@ -42,13 +39,13 @@ Range random_range(Random& random) {
   return {std::min(a, b), std::max(a, b) + 1};
 }
 
+}  // namespace
+
 bool is_sound(const TriangleMesh& mesh) {
   if (mesh.triangles.empty()) return false;
   const ValidityReport report = check_mesh(build_surface(mesh));
   return report.closed && report.manifold && report.components == 1;
 }
-
-}  // namespace
 
 TriangleMesh random_polycube(Random& random) {
   for (;;) {

@@ -10,6 +10,9 @@
 /// numbers have it.
 namespace lmdbench::parts {
 
+/// Whether a mesh is a closed, connected manifold.
+bool is_sound(const TriangleMesh& mesh);
+
 /// Boxes added to and taken from each other on an uneven grid.
 TriangleMesh random_polycube(experiments::Random& random);
 

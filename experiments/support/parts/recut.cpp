@@ -31,7 +31,7 @@ void shuffle(std::vector<Element>& elements, experiments::Random& random) {
   for (std::size_t i = elements.size(); i > 1; --i) std::swap(elements[i - 1], elements[random.index(i)]);
 }
 
-/// Of every edge, in a random order.
+/// Of every edge of two triangles, in a random order.
 std::vector<Diamond> diamonds(const TriangleMesh& mesh, experiments::Random& random) {
   std::map<std::pair<std::int32_t, std::int32_t>, std::pair<std::size_t, std::int32_t>> side;
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
@@ -40,8 +40,10 @@ std::vector<Diamond> diamonds(const TriangleMesh& mesh, experiments::Random& ran
   std::vector<Diamond> result;
   for (const auto& [ends, left] : side) {
     if (ends.first > ends.second) continue;
-    const auto& right = side.at({ends.second, ends.first});
-    result.push_back({left.first, right.first, ends.first, ends.second, left.second, right.second});
+    const auto right = side.find({ends.second, ends.first});
+    if (right == side.end()) continue;
+    result.push_back(
+        {left.first, right->second.first, ends.first, ends.second, left.second, right->second.second});
   }
   shuffle(result, random);
   return result;

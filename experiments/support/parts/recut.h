@@ -10,7 +10,8 @@ namespace lmdbench::parts {
 
 /// The same shape cut into other triangles: some edges are halved, diagonals of flat quadrilaterals turned, and vertices
 /// and triangles stand in another order. Closed where the mesh is, and exact where its coordinates have bits to spare.
-/// @pre every edge has two triangles that agree on orientation
+/// Edges of one triangle stay.
+/// @pre triangles that share an edge agree on its orientation, and are two at most
 TriangleMesh recut(TriangleMesh mesh, experiments::Random& random);
 
 }  // namespace lmdbench::parts

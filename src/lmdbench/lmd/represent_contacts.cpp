@@ -38,12 +38,35 @@ Contact middle_of_polygons(const ContactPointers& pieces) {
   return whole;
 }
 
+/// An order of places that depends neither on the pose nor on how the meshes are cut: by coordinates in the moving mesh's frame,
+/// where they differ by more than the tolerance.
+bool lies_before(const ShapePair& pair, const Contact& a, const Contact& b) {
+  const Vec3 p = pair.moving.point_to_surface(a.point_moving),
+             q = pair.moving.point_to_surface(b.point_moving);
+  for (int k = 0; k < 3; ++k)
+    if (std::abs(p[k] - q[k]) > pair.tolerance.known) return p[k] < q[k];
+  return false;
+}
+
+/// The longest. Borders that lie over each other have one length, but for rounding, with each other and with the faces behind
+/// them: of these the first by kind and then by place, so that neither rounding nor the cut into triangles chooses.
+const Contact& longest_segment(const ShapePair& pair, const ContactPointers& pieces) {
+  const double length =
+      (*std::ranges::max_element(pieces, {}, &Contact::measure))->measure - pair.tolerance.known;
+  const auto kinds = [](const Contact& c) { return std::pair(c.moving.kind, c.fixed.kind); };
+  const Contact* longest = nullptr;
+  for (const Contact* piece : pieces)
+    if (piece->measure >= length &&
+        (longest == nullptr || kinds(*piece) < kinds(*longest) ||
+         (kinds(*piece) == kinds(*longest) && lies_before(pair, *piece, *longest))))
+      longest = piece;
+  return *longest;
+}
+
 /// The centroid of what segments on one line cover, each part once; nothing where they are on several lines or it is on none
 /// of them.
-/// @param known  what both meshes are known to [m]
-std::optional<Contact> middle_of_segments(const ContactPointers& pieces, double known) {
-  const Contact& longest =
-      **std::ranges::max_element(pieces, {}, [](const Contact* c) { return c->measure; });
+std::optional<Contact> middle_of_segments(const ShapePair& pair, const ContactPointers& pieces) {
+  const Contact& longest = longest_segment(pair, pieces);
   if (pieces.size() == 1) return longest;
   const Vec3 origin = longest.ends_fixed[0], along = (longest.ends_fixed[1] - origin).normalized();
   std::vector<std::pair<double, double>> parts;
@@ -51,7 +74,7 @@ std::optional<Contact> middle_of_segments(const ContactPointers& pieces, double 
     Extent part;
     for (const Vec3& end : piece->ends_fixed) {
       const double place = along.dot(end - origin);
-      if ((origin + place * along - end).norm() > known) return std::nullopt;
+      if ((origin + place * along - end).norm() > pair.tolerance.known) return std::nullopt;
       part.add(place);
     }
     parts.emplace_back(part.least, part.greatest);
@@ -67,7 +90,7 @@ std::optional<Contact> middle_of_segments(const ContactPointers& pieces, double 
   }
   const double middle = moment / covered;
   if (std::ranges::none_of(parts, [&](const auto& part) {
-        return part.first - known <= middle && middle <= part.second + known;
+        return part.first - pair.tolerance.known <= middle && middle <= part.second + pair.tolerance.known;
       }))
     return std::nullopt;
   Contact whole = longest;
@@ -76,16 +99,6 @@ std::optional<Contact> middle_of_segments(const ContactPointers& pieces, double 
   whole.point_moving = longest.ends_moving[0] + share * (longest.ends_moving[1] - longest.ends_moving[0]);
   whole.distance = (whole.point_fixed - whole.point_moving).norm();
   return whole;
-}
-
-/// An order of places that depends neither on the pose nor on how the meshes are cut: by coordinates in the moving mesh's frame,
-/// where they differ by more than the tolerance.
-bool lies_before(const ShapePair& pair, const Contact& a, const Contact& b) {
-  const Vec3 p = pair.moving.point_to_surface(a.point_moving),
-             q = pair.moving.point_to_surface(b.point_moving);
-  for (int k = 0; k < 3; ++k)
-    if (std::abs(p[k] - q[k]) > pair.tolerance.known) return p[k] < q[k];
-  return false;
 }
 
 /// The nearest. Of several at one distance that are apart, one between features of the highest kind, which is where the
@@ -158,7 +171,7 @@ Representative represent_contacts(const ShapePair& pair, ContactPlaces& places,
   }
   Representative result;
   if (dimension == 2) result.middle = middle_of_polygons(pieces);
-  if (dimension == 1) result.middle = middle_of_segments(pieces, pair.tolerance.known);
+  if (dimension == 1) result.middle = middle_of_segments(pair, pieces);
   result.namesake = result.middle ? nearest_to(pair, places, *result.middle, pieces)
                                   : nearest_contact(pair, places, points.empty() ? pieces : points);
   return result;

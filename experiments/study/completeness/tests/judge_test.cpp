@@ -66,6 +66,18 @@ TEST_F(JudgeTest, CountsDuplicates) {
   EXPECT_EQ(judgement.wrong_poses, 1u);
 }
 
+TEST_F(JudgeTest, TellsWhatIntersectsFromAnLmdOfTheSameFeatures) {
+  Lmd touching = truth_[1];
+  touching.intersecting = true;
+  touching.distance = 0.0;
+  truth_.insert(truth_.begin(), touching);
+  EXPECT_EQ(judge_now(truth_).wrong_poses, 0u) << objection_;
+  LmdSet reported = truth_;
+  reported[0].intersecting = false;
+  EXPECT_EQ(judge_now(reported).wrong_poses, 1u);
+  EXPECT_EQ(judge_now(reported).duplicates, 1u);
+}
+
 TEST_F(JudgeTest, MeasuresDistancesAndPoints) {
   LmdSet reported = truth_;
   reported[0].point_fixed.y() += 0.5 * POSITION_TOLERANCE;

@@ -139,6 +139,16 @@ TEST(PartsStudy, PosesThatWereFoundAreRight) {
                {Vec3(-0.13922516500732249, -0.029131019384604662, 0.58187167550989116),
                 Eigen::Quaterniond(-0.47087357376304401, 0.80848839156785568, 0.066390526035828706,
                                    0.34672308299899318)});
+  // Borders 1e-13 to 1e-11 over each other: segments of one length between edges, and between an edge and either face.
+  expect_right({"egg crate on egg crate", Coordinates::RECUT, 501, 30},
+               {Vec3(0.57812499998498812, 0.3105834925951006, 0.57821771595748772),
+                Eigen::Quaterniond(-8.7646386605429999e-14, 0, 0, 1)});
+  expect_right({"stairs on stairs", Coordinates::RECUT, 501, 21},
+               {Vec3(-0.23790308567918012, 0.74999999998139422, 0.50009559374947987),
+                Eigen::Quaterniond(-0.70710678118655501, 0, 0, 0.70710678118654002)});
+  expect_right({"half pipe on rack", Coordinates::RECUT, 501, 30},
+               {Vec3(-0.15437808873808648, -1.0000000000009441, 0.65403422037168435),
+                Eigen::Quaterniond(3.5759655836946568e-11, -0, -0, -1)});
   // Rounded, nearer than the planar tolerance.
   expect_right({"star prism on polycube", Coordinates::ROUNDED, 1, 9},
                {Vec3(-0.074400323817917446, 0.92235974455194869, 1.4108620553268474),

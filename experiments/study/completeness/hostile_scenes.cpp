@@ -1,0 +1,233 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/catalogue/shapes.h>
+#include <lmdbench/mesh/surface.h>
+#include <lmdbench/snch/first_approach.h>
+
+#include <fmt/format.h>
+#include <study/completeness/hostile_meshes.h>
+#include <study/completeness/hostile_scenes.h>
+#include <support/parts/chances.h>
+#include <support/poses.h>
+#include <support/random.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <numbers>
+
+namespace lmdbench::completeness {
+namespace {
+
+using experiments::Random;
+using parts::chance;
+using parts::power_of_ten;
+
+/// Nothing, a tiny turn, quarter turns or any: flat faces and edges meet flat ones.
+Eigen::Quaterniond some_rotation(Random& random) {
+  const double kind = random.uniform();
+  if (kind < 0.25) return Eigen::Quaterniond::Identity();
+  if (kind < 0.45)
+    return Eigen::Quaterniond(Eigen::AngleAxisd(power_of_ten(-16.0, -1.0, random), random.direction()));
+  if (kind < 0.65) {
+    const auto quarters = [&](const Vec3& axis) {
+      return Eigen::AngleAxisd(0.5 * std::numbers::pi * static_cast<double>(random.index(4)), axis);
+    };
+    return Eigen::Quaterniond(quarters(Vec3::UnitX()) * quarters(Vec3::UnitZ())).normalized();
+  }
+  return random.rotation();
+}
+
+Vec3 some_direction(Random& random) {
+  const Vec3 axis = Vec3::Unit(static_cast<Eigen::Index>(random.index(3)));
+  if (chance(0.4, random)) return chance(0.5, random) ? axis : Vec3(-axis);
+  return random.direction();
+}
+
+/// Two meshes of about the size 1 amid their frames, and where one comes to be relative to the other.
+class Start {
+ public:
+  Start(const TriangleMesh& moving, const TriangleMesh& fixed, double cutoff)
+      : moving_("moving", build_surface(moving)), fixed_("fixed", build_surface(fixed)), cutoff_(cutoff) {}
+
+  Pose operator()(Random& random) const {
+    Pose pose;
+    pose.rotation = some_rotation(random);
+    const double kind = random.uniform();
+    if (kind < 0.15) {  // On the same place.
+      pose.translation = chance(0.4, random)
+                             ? Vec3::Zero()
+                             : Vec3(power_of_ten(-16.0, -1.0, random) * some_direction(random));
+      return pose;
+    }
+    if (kind < 0.25) {  // Anywhere.
+      for (double& x : pose.translation) x = random.uniform(-1.0, 1.0);
+      return pose;
+    }
+    const double gap =
+        cutoff_ * (chance(0.5, random) ? 1.0 - random.uniform() : power_of_ten(-13.0, 0.0, random));
+    for (int trial = 0; trial < 20; ++trial) {
+      const Vec3 way = some_direction(random);
+      const double reach =
+          first_approach(moving_.surface(), moving_.prepared<Hierarchy>(), fixed_.surface(),
+                         fixed_.prepared<Hierarchy>(), pose, way, gap, experiments::GAP_TOLERANCE)
+              .reach;
+      if (!std::isfinite(reach)) continue;  // A line that passes.
+      pose.translation = reach * way;
+      if (chance(0.2, random)) pose.translation -= cutoff_ * power_of_ten(-9.0, 1.0, random) * way;
+      break;
+    }
+    return pose;
+  }
+
+ private:
+  Body moving_, fixed_;
+  double cutoff_;
+};
+
+Pose turned(Pose pose, double angle, const Vec3& axis) {
+  if (angle != 0.0)
+    pose.rotation = (Eigen::Quaterniond(Eigen::AngleAxisd(angle, axis)) * pose.rotation).normalized();
+  return pose;
+}
+
+/// Appends `count` frames of one motion; the first where the last one was, if there is one.
+void append_frames(Motion motion, std::size_t count, const Start& start, Random& random,
+                   std::vector<Pose>& poses) {
+  const double step = power_of_ten(-9.0, -1.5, random), spin = chance(0.5, random) ? 0.0 : step;
+  const double tremor = power_of_ten(-17.0, -2.0, random);
+  const Vec3 way = some_direction(random), axis = random.direction();
+  const std::size_t between_jumps = 2 + random.index(20);
+  const bool comes_back = chance(0.5, random);
+  const Pose first = poses.empty() ? start(random) : poses.back();
+  for (std::size_t i = 0; i < count; ++i) {
+    Pose next = poses.empty() ? first : poses.back();
+    switch (motion) {
+      case Motion::NONE:
+        next = start(random);
+        break;
+      case Motion::WALK:
+        next.translation += step * random.uniform() * random.direction();
+        next = turned(next, spin * random.uniform(), random.direction());
+        break;
+      case Motion::TREMBLE:
+        next = turned(first, spin == 0.0 ? 0.0 : tremor * random.uniform(), random.direction());
+        next.translation += tremor * random.uniform() * random.direction();
+        break;
+      case Motion::JUMPS:
+        if (i % between_jumps == between_jumps - 1) {
+          next = start(random);
+          break;
+        }
+        if (i > 0 && i % between_jumps == 0 && comes_back && poses.size() > 1) next = poses[poses.size() - 2];
+        [[fallthrough]];
+      case Motion::SLIDE:
+      case Motion::MIXED:
+        next = turned(next, spin, axis);
+        next.translation += step * way;
+        break;
+      case Motion::THROUGH:
+        next = turned(next, 0.1 * spin, axis);
+        next.translation =
+            first.translation + 3.0 * std::sqrt(step) * std::sin(0.2 * static_cast<double>(i)) * way;
+        break;
+    }
+    poses.push_back(next);
+  }
+}
+
+std::vector<Pose> motion_of(Motion motion, const Start& start, Random& random) {
+  std::vector<Pose> poses;
+  if (motion == Motion::NONE) {
+    append_frames(motion, HOSTILE_POSES_A_SCENE, start, random, poses);
+    return poses;
+  }
+  if (motion != Motion::MIXED) {
+    append_frames(motion, HOSTILE_FRAMES_A_SCENE, start, random, poses);
+    return poses;
+  }
+  while (poses.size() < HOSTILE_FRAMES_A_SCENE) {
+    const std::size_t count = std::min(5 + random.index(20), HOSTILE_FRAMES_A_SCENE - poses.size());
+    const std::size_t which = random.index(6);
+    if (which == 0 && !poses.empty())
+      poses.insert(poses.end(), count, Pose(poses.back()));  // Standing still.
+    else
+      append_frames(ALL_MOTIONS[std::max<std::size_t>(which, 1)], count, start, random, poses);
+  }
+  return poses;
+}
+
+std::shared_ptr<const Body> placed_body(const char* name, TriangleMesh mesh, double size,
+                                        const Vec3& offset) {
+  for (Vec3& p : mesh.vertices) p = size * p + offset;
+  mesh.planar_tolerance *= size;
+  return std::make_shared<const Body>(name, build_surface(std::move(mesh)));
+}
+
+}  // namespace
+
+const char* name_of(Motion motion) {
+  switch (motion) {
+    case Motion::NONE:
+      return "none";
+    case Motion::WALK:
+      return "walk";
+    case Motion::SLIDE:
+      return "slide";
+    case Motion::TREMBLE:
+      return "tremble";
+    case Motion::JUMPS:
+      return "jumps";
+    case Motion::THROUGH:
+      return "through";
+    case Motion::MIXED:
+      break;
+  }
+  return "mixed";
+}
+
+HostileScene make_hostile_scene(Motion motion, std::uint64_t seed, std::size_t index) {
+  // Far from each other, so that no two scenes draw the same numbers.
+  Random random((seed * std::size(ALL_MOTIONS) + static_cast<std::uint64_t>(motion)) * 0x9E3779B97F4A7C15ULL +
+                index);
+  const HostileMesh fixed = make_hostile_mesh(random);
+  const bool is_copy = chance(0.2, random);
+  const HostileMesh moving = is_copy ? fixed : make_hostile_mesh(random);
+  const double cutoff = power_of_ten(-3.0, -0.3, random);
+  const Start start(moving.mesh, fixed.mesh, cutoff);
+  const std::vector<Pose> poses = motion_of(motion, start, random);
+
+  const double size = chance(0.7, random) ? 1.0 : power_of_ten(-9.0, 9.0, random);
+  const auto offset = [&] {
+    return chance(0.7, random) ? Vec3::Zero()
+                               : Vec3(size * power_of_ten(-1.0, 7.0, random) * random.direction());
+  };
+  const Vec3 offset_M = offset(), offset_W = offset();
+  HostileScene result;
+  result.label = fmt::format("scene {} of seed {}, motion {}: {} on {}, size {:.3g}, {:.3g} and {:.3g} away",
+                             index, seed, name_of(motion), is_copy ? "copy" : moving.history, fixed.history,
+                             size, offset_M.norm(), offset_W.norm());
+  result.scene = {placed_body("moving", moving.mesh, size, offset_M),
+                  {placed_body("fixed", fixed.mesh, size, offset_W)},
+                  cutoff * size};
+  result.scale = size + offset_M.norm() + offset_W.norm();
+  for (const Pose& pose : poses)
+    result.poses.push_back({size * pose.translation + (offset_W - pose.rotation * offset_M), pose.rotation});
+  return result;
+}
+
+std::vector<Judgement> judge_hostile_scenes(Motion motion, std::uint64_t seed, std::size_t poses,
+                                            const Complain& complain) {
+  const std::size_t a_scene = motion == Motion::NONE ? HOSTILE_POSES_A_SCENE : HOSTILE_FRAMES_A_SCENE;
+  std::vector<Judgement> judgements(variants().size());
+  for (std::size_t index = 0; index * a_scene < poses; ++index) {
+    const HostileScene hostile = make_hostile_scene(motion, seed, index);
+    const std::vector<CutoffResult> judged =
+        judge_poses(hostile.scene, hostile.scale, {hostile.scene.cutoff / hostile.scale}, hostile.poses,
+                    [&](const std::string& what) { complain(hostile.label + ", " + what); });
+    for (std::size_t v = 0; v < variants().size(); ++v) judgements[v] += judged.front().judgements[v];
+  }
+  return judgements;
+}
+
+}  // namespace lmdbench::completeness

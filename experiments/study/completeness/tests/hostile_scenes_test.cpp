@@ -1,0 +1,65 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/mesh/validity.h>
+
+#include <gtest/gtest.h>
+#include <study/completeness/hostile_meshes.h>
+#include <study/completeness/hostile_scenes.h>
+
+#include <algorithm>
+#include <set>
+#include <string>
+
+namespace lmdbench::completeness {
+namespace {
+
+TEST(HostileMeshes, AreBrokenInEveryWay) {
+  experiments::Random random(1);
+  std::set<std::string> histories;
+  std::size_t open = 0, not_manifold = 0, degenerate = 0, inconsistent = 0, largest = 0;
+  constexpr std::size_t MESHES = 400;
+  for (std::size_t i = 0; i < MESHES; ++i) {
+    const HostileMesh hostile = make_hostile_mesh(random);
+    histories.insert(hostile.history);
+    ASSERT_FALSE(hostile.mesh.triangles.empty()) << hostile.history;
+    for (const Vec3& p : hostile.mesh.vertices) ASSERT_TRUE(p.allFinite()) << hostile.history;
+    const ValidityReport report = check_mesh(build_surface(hostile.mesh));
+    open += !report.closed;
+    not_manifold += !report.manifold;
+    degenerate += report.degenerate_triangles > 0;
+    inconsistent += !report.consistently_oriented;
+    largest = std::max(largest, hostile.mesh.triangles.size());
+  }
+  EXPECT_GT(histories.size(), MESHES / 2);
+  for (const std::size_t count : {open, not_manifold, degenerate, inconsistent}) {
+    EXPECT_GT(count, MESHES / 10);
+    EXPECT_LT(count, MESHES - MESHES / 10);
+  }
+  EXPECT_LT(largest, 500u) << "exhaustive has to keep up";
+}
+
+TEST(HostileScenes, DependOnTheirArgumentsAlone) {
+  for (const Motion motion : ALL_MOTIONS) {
+    const HostileScene one = make_hostile_scene(motion, 2, 5), same = make_hostile_scene(motion, 2, 5),
+                       other = make_hostile_scene(motion, 2, 6);
+    EXPECT_EQ(one.label, same.label);
+    EXPECT_EQ(one.poses.back().translation, same.poses.back().translation);
+    EXPECT_NE(one.label, other.label);
+    EXPECT_EQ(one.poses.size(), motion == Motion::NONE ? HOSTILE_POSES_A_SCENE : HOSTILE_FRAMES_A_SCENE);
+  }
+}
+
+TEST(HostileScenes, AreSearchedWithoutLoss) {
+  for (const Motion motion : ALL_MOTIONS) {
+    std::string wrong;
+    std::size_t lmds = 0;
+    for (const Judgement& judgement :
+         judge_hostile_scenes(motion, 7, 300, [&](const std::string& what) { wrong += what + "\n"; }))
+      lmds += judgement.same.true_lmds;
+    EXPECT_EQ(wrong, "") << name_of(motion);
+    EXPECT_GT(lmds, 500u) << name_of(motion);
+  }
+}
+
+}  // namespace
+}  // namespace lmdbench::completeness
