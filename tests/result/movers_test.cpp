@@ -172,7 +172,7 @@ TEST(Movers, AllPairsAgreeWithTruthAndWithFcl) {
   EXPECT_GT(among_movers, 50u);
   EXPECT_LT(among_movers, moving.size());
 
-  const auto& fcl = result.tracks.front().fcl;
+  const FclCheck* fcl = result.tracks.front().fcl();
   ASSERT_TRUE(fcl);
   EXPECT_GE(fcl->frames.size(), 6u);
   for (const FclFrame& frame : fcl->frames) EXPECT_TRUE(frame.agrees) << frame.frame;

@@ -62,8 +62,7 @@ void add_plan_command(CLI::App& app) {
             ? frames_in_contact(*prepared.input.movers, prepared.scene().cutoff)
             : frames_in_contact(prepared.scene(), prepared.input.deformation, prepared.input.poses);
     plan.scene = look_at(experiment, prepared, in_contact);
-    plan.rules =
-        decide_rules({experiment, prepared.input.poses, in_contact, truth_frames(experiment, prepared)});
+    plan.rules = decide_rules({experiment, prepared.input.poses, in_contact});
     plan.scene->times = expected_times(experiment, prepared);
     bar.wipe();
     if (options->json)

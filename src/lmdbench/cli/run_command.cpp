@@ -63,8 +63,8 @@ void run_to_file(const RunOptions& options, const std::vector<std::string>& argv
     if (options.json)
       for (const std::string& warning : summary.warnings) spdlog::warn("{}", warning);
     for (const Track& track : result.tracks) {
-      if (!track.fcl) continue;
-      for (const FclException& e : track.fcl->exceptions)
+      if (track.fcl() == nullptr) continue;
+      for (const FclException& e : track.fcl()->exceptions)
         spdlog::debug(
             "frame {}: {} {:.17g} m, FCL {:.17g} m, exact {:.17g} m; position {:.17g} {:.17g} {:.17g}, "
             "orientation xyzw {:.17g} {:.17g} {:.17g} {:.17g}; FCL's triangles {} and {} of fixed mesh {}",

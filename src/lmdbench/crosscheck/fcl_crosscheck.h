@@ -45,6 +45,9 @@ enum class FclScaling : std::uint8_t {
 /// arbitrated, not a verdict.
 class FclCrosscheck {
  public:
+  /// Whether this build has FCL (LMDBENCH_WITH_FCL); without it there is nothing but this question.
+  static bool is_built_in();
+
   /// Builds the hierarchies; keeps no reference to the surfaces.
   /// @param fixed meshes whose vertices are already in the world frame
   /// @throws InputError for a mesh without triangles

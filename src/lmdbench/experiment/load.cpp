@@ -5,7 +5,6 @@
 #include <lmdbench/base/json_document.h>
 #include <lmdbench/base/json_schema.h>
 #include <lmdbench/experiment/experiment.h>
-#include <lmdbench/experiment/fcl_part.h>
 #include <lmdbench/experiment/schema.h>
 #include <lmdbench/force/aggregation.h>
 #include <lmdbench/methods/registry.h>
@@ -247,11 +246,7 @@ Experiment from_json(Json document, const std::filesystem::path& path) {
     experiment.driver.search_latency_frames = 0;
   }
   experiment.loop = loop_choice(document["loop"], device, file);
-  const Json& probes = document["probes"];
-  experiment.truth_stride_frames = probes["truth"]["stride_frames"].get<std::int64_t>();
-  experiment.fcl_stride_frames = probes["fcl"]["stride_frames"].get<std::int64_t>();
-  if (experiment.fcl_stride_frames > 0) require_fcl(file, "/probes/fcl/stride_frames");
-  experiment.fcl_tolerance_relative = probes["fcl"]["tolerance_relative"].get<double>();
+  read_probes(experiment, document);
   experiment.acceptance = read_acceptance(document["limits"], experiment, file);
   experiment.rules = read_rule_switches(document["plan"]);
   experiment.record_frames = document["record"]["frames"].get<bool>();
@@ -259,10 +254,6 @@ Experiment from_json(Json document, const std::filesystem::path& path) {
   experiment.record_timings = document["record"]["timings"].get<bool>();
   experiment.record_torque = document["record"]["torque"].get<bool>();
   experiment.record_lmds = document["record"]["lmds"].get<bool>();
-  experiment.polyline_stride_frames = document["record"]["polylines"]["stride_frames"].get<std::int64_t>();
-  if (experiment.is_world() && experiment.polyline_stride_frames > 0)
-    throw UsageError(file, "/record/polylines/stride_frames", "polylines are not traced among instances",
-                     "set it to 0, or list the fixed meshes without \"instances\"");
   if (experiment.is_world() && experiment.path_file.empty())
     throw UsageError(file, "/path/file", "no path is made among instances", "name a path (paths/README.md)");
   check_deformations(experiment, file);

@@ -29,9 +29,6 @@ void check_movers(const Experiment& experiment) {
     throw UsageError(file, experiment.movers.front().place,
                      "movers do not go together with meshes that deform",
                      "leave the deformations out, or movers");
-  if (experiment.polyline_stride_frames > 0)
-    throw UsageError(file, "/record/polylines/stride_frames", "polylines are traced of one mesh that moves",
-                     "set it to 0, or leave movers out");
   refuse_critical_pairs(experiment, file, "forces of several movers are sums",
                         "take sum, or leave movers out");
 }

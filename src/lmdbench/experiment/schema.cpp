@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/catalogue/deformation.h>
+#include <lmdbench/experiment/probe.h>
 #include <lmdbench/experiment/rules.h>
 #include <lmdbench/experiment/schema.h>
 #include <lmdbench/experiment/schema_text.h>
@@ -54,6 +55,7 @@ const Json& experiment_schema() {
     add_aggregations(text["properties"]["force"]["properties"]["aggregation"]);
     add_generators(text["definitions"]["deformation"]["properties"]["generator"]);
     text["properties"]["plan"] = rules_schema();
+    add_probe_schemas(text);
     return text;
   }();
   return schema;

@@ -4,7 +4,6 @@
 
 #include <lmdbench/metrics/events.h>
 #include <lmdbench/metrics/method_summary.h>
-#include <lmdbench/run/complete_truth.h>
 #include <lmdbench/run/truth_probe.h>
 
 #include <vector>

@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/result/write_movers.h>
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
@@ -64,20 +62,6 @@ void write_mover_frames(ResultWriter& writer, const std::string& group, const Me
                std::span<const std::int64_t>(counts), {frames, movers});
   writer.write({group + "/movers/minimum_distance", "m", "smallest LMD distance of the mover's pairs"},
                std::span<const double>(distances), {frames, movers});
-}
-
-void write_mover_truth(ResultWriter& writer, const std::string& group, const std::vector<TruthFrame>& truth,
-                       std::size_t movers) {
-  for (const ForceLaw law : force_laws()) {
-    std::vector<double> values;
-    for (const TruthFrame& frame : truth)
-      for (const Vec3& force : frame.movers[static_cast<std::size_t>(law)])
-        values.insert(values.end(), force.begin(), force.end());
-    write_vectors(writer,
-                  {fmt::format("{}/movers/force_{}", group, to_string(law)), "N",
-                   fmt::format("rendered force of the true set on each mover, {} law", to_string(law))},
-                  values, movers);
-  }
 }
 
 }  // namespace lmdbench

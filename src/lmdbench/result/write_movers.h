@@ -4,7 +4,6 @@
 
 #include <lmdbench/record/result_writer.h>
 #include <lmdbench/run/mover_play.h>
-#include <lmdbench/run/truth_probe.h>
 
 #include <string>
 #include <vector>
@@ -18,9 +17,5 @@ void write_mover_poses(ResultWriter& writer, const MoverPlay& play);
 /// movers/ of a method: what each felt in each frame.
 void write_mover_frames(ResultWriter& writer, const std::string& group, const MethodRecord& record,
                         std::size_t movers, bool torque);
-
-/// movers/ of a reference: true forces of each.
-void write_mover_truth(ResultWriter& writer, const std::string& group, const std::vector<TruthFrame>& truth,
-                       std::size_t movers);
 
 }  // namespace lmdbench

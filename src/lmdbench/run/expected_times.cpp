@@ -51,11 +51,11 @@ std::vector<ExpectedTime> expected_times(const Experiment& experiment, const Pre
         {choice.label, static_cast<double>(experiment.driver.repetitions) * searches *
                            search_seconds(*method, bodies, prepared.input.poses, play, *mover_poses)});
   }
-  if (experiment.truth_stride_frames > 0) {
+  if (const std::int64_t stride = experiment.probe_stride("truth"); stride > 0) {
     DeformingScene bodies(prepared.scene(), prepared.input.deformation);
     const auto truth = make("exhaustive", bodies.scene(), nlohmann::json::object());
     // Two searches a probed frame: the next frame's force tells the true jump.
-    times.push_back({"truth", 2.0 * frames / static_cast<double>(experiment.truth_stride_frames) *
+    times.push_back({"truth", 2.0 * frames / static_cast<double>(stride) *
                                   search_seconds(*truth, bodies, prepared.input.poses, play, *mover_poses)});
   }
   return times;

@@ -90,9 +90,6 @@ Scene load_scene(const Experiment& experiment, std::vector<MeshNote>& notes);
 PreparedRun prepare(const Experiment& experiment, const Progress& progress = {},
                     Deforming deforming = Deforming::REFUSED);
 
-/// Frames that the truth probe looks at; empty where it is off.
-std::vector<std::int64_t> truth_frames(const Experiment& experiment, const PreparedRun& prepared);
-
 /// Files that the experiment will read, as far as its text tells: itself, path, manifest, meshes; some may be
 /// missing. For outputs, which must replace none of them.
 std::vector<std::filesystem::path> input_files(const Experiment& experiment);
