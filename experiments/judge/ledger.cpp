@@ -4,7 +4,7 @@
 #include <lmdbench/crosscheck/fcl_crosscheck.h>
 #include <lmdbench/crosscheck/fcl_triangle_distance.h>
 #include <lmdbench/experiment/experiment.h>
-#include <lmdbench/record/result_reader.h>
+#include <lmdbench/result_file/result_reader.h>
 #include <lmdbench/run/prepare.h>
 #include <lmdbench/snch/minimum_distance.h>
 

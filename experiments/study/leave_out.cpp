@@ -5,7 +5,7 @@
 #include <lmdbench/base/temporary_folder.h>
 #include <lmdbench/comparison/exact_differences.h>
 #include <lmdbench/experiment/rules.h>
-#include <lmdbench/record/result_reader.h>
+#include <lmdbench/result_file/result_reader.h>
 
 #include <CLI/CLI.hpp>
 #include <fcntl.h>

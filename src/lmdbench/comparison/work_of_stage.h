@@ -3,7 +3,7 @@
 #pragma once
 
 #include <lmdbench/comparison/stage_times.h>
-#include <lmdbench/record/result_reader.h>
+#include <lmdbench/result_file/result_reader.h>
 
 #include <string>
 

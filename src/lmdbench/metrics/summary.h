@@ -3,7 +3,7 @@
 #pragma once
 
 #include <lmdbench/metrics/method_summary.h>
-#include <lmdbench/record/result_writer.h>
+#include <lmdbench/result_file/result_writer.h>
 #include <lmdbench/run/run.h>
 
 #include <cstdint>

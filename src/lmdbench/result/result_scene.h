@@ -5,7 +5,7 @@
 #include <lmdbench/lmd/method.h>
 #include <lmdbench/lmd/scene.h>
 #include <lmdbench/motion/path.h>
-#include <lmdbench/record/result_reader.h>
+#include <lmdbench/result_file/result_reader.h>
 #include <lmdbench/run/mover_play.h>
 #include <lmdbench/run/scene_deformation.h>
 

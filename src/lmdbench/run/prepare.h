@@ -7,7 +7,7 @@
 #include <lmdbench/mesh/flatten.h>
 #include <lmdbench/mesh/validity.h>
 #include <lmdbench/motion/grazing.h>
-#include <lmdbench/record/provenance.h>
+#include <lmdbench/result_file/provenance.h>
 #include <lmdbench/run/lockstep.h>
 #include <lmdbench/run/scene_deformation.h>
 

@@ -3,7 +3,7 @@
 #pragma once
 
 #include <lmdbench/geometry/pose.h>
-#include <lmdbench/record/result_writer.h>
+#include <lmdbench/result_file/result_writer.h>
 
 #include <cstdint>
 #include <span>

@@ -3,7 +3,7 @@
 #pragma once
 
 #include <lmdbench/base/error.h>
-#include <lmdbench/record/provenance.h>
+#include <lmdbench/result_file/provenance.h>
 #include <lmdbench/run/prepare.h>
 #include <lmdbench/sweep/sweep.h>
 

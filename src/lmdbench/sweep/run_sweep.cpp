@@ -6,10 +6,10 @@
 #include <lmdbench/metrics/errors.h>
 #include <lmdbench/metrics/step_numbers.h>
 #include <lmdbench/metrics/time_numbers.h>
-#include <lmdbench/record/node_watch.h>
-#include <lmdbench/record/own_result.h>
-#include <lmdbench/record/provenance.h>
-#include <lmdbench/record/result_writer.h>
+#include <lmdbench/result_file/node_watch.h>
+#include <lmdbench/result_file/own_result.h>
+#include <lmdbench/result_file/provenance.h>
+#include <lmdbench/result_file/result_writer.h>
 #include <lmdbench/run/contact.h>
 #include <lmdbench/run/true_sets.h>
 #include <lmdbench/sweep/point_key.h>

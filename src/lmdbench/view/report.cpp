@@ -5,7 +5,7 @@
 #include <lmdbench/base/error.h>
 #include <lmdbench/base/run_program.h>
 #include <lmdbench/base/temporary_folder.h>
-#include <lmdbench/record/result_reader.h>
+#include <lmdbench/result_file/result_reader.h>
 #include <lmdbench/view/report.h>
 #include <lmdbench/view/report_scene.h>
 

@@ -3,8 +3,8 @@
 #pragma once
 
 #include <lmdbench/base/part_file.h>
-#include <lmdbench/record/element_kind.h>
-#include <lmdbench/record/result_writer.h>
+#include <lmdbench/result_file/element_kind.h>
+#include <lmdbench/result_file/result_writer.h>
 
 #include <cstddef>
 #include <memory>

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include <lmdbench/record/node_watch.h>
+#include <lmdbench/result_file/node_watch.h>
 
 #include <nlohmann/json.hpp>
 #include <sched.h>

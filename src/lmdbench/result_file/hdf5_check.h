@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <lmdbench/record/hdf5_handle.h>
+#include <lmdbench/result_file/hdf5_handle.h>
 
 #include <filesystem>
 #include <string>

@@ -3,7 +3,7 @@
 #pragma once
 
 #include <lmdbench/base/part_file.h>
-#include <lmdbench/record/element_kind.h>
+#include <lmdbench/result_file/element_kind.h>
 
 #include <cstddef>
 #include <cstdint>

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include <lmdbench/record/machine_info.h>
+#include <lmdbench/result_file/machine_info.h>
 
 #include <fmt/format.h>
 #include <sched.h>

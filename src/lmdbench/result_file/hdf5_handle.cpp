@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include <lmdbench/record/hdf5_handle.h>
+#include <lmdbench/result_file/hdf5_handle.h>
 
 namespace lmdbench {
 

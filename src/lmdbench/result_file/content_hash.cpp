@@ -3,7 +3,7 @@
 #include <lmdbench/base/error.h>
 #include <lmdbench/base/file_hash.h>
 #include <lmdbench/base/input_file.h>
-#include <lmdbench/record/content_hash.h>
+#include <lmdbench/result_file/content_hash.h>
 
 #include <stdexcept>
 #include <string_view>

@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/base/error.h>
 #include <lmdbench/base/file_hash.h>
-#include <lmdbench/record/content_hash.h>
-#include <lmdbench/record/provenance.h>
-#include <lmdbench/record/result_reader.h>
-#include <lmdbench/record/result_writer.h>
+#include <lmdbench/result_file/content_hash.h>
+#include <lmdbench/result_file/provenance.h>
+#include <lmdbench/result_file/result_reader.h>
+#include <lmdbench/result_file/result_writer.h>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

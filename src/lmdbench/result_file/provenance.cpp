@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/base/build_info.h>
-#include <lmdbench/record/machine_info.h>
-#include <lmdbench/record/provenance.h>
+#include <lmdbench/result_file/machine_info.h>
+#include <lmdbench/result_file/provenance.h>
 
 #include <fmt/chrono.h>
 #include <fmt/format.h>

@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/base/error.h>
 #include <lmdbench/base/part_file.h>
-#include <lmdbench/record/content_hash.h>
-#include <lmdbench/record/hdf5_handle.h>
-#include <lmdbench/record/result_writer.h>
+#include <lmdbench/result_file/content_hash.h>
+#include <lmdbench/result_file/hdf5_handle.h>
+#include <lmdbench/result_file/result_writer.h>
 
 #include <fmt/format.h>
 

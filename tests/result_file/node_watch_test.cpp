@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include <lmdbench/record/node_watch.h>
+#include <lmdbench/result_file/node_watch.h>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -73,7 +73,7 @@ TEST(NodeWatch, SeesWhoWorksBeside) {
     ::usleep(20'000);
     seen = watch.finish();
     for (const auto& neighbour : seen["neighbours"])
-      if (neighbour["command"].get<std::string>().starts_with("lmdbench_record"))
+      if (neighbour["command"].get<std::string>().starts_with("lmdbench_result"))
         share = neighbour["processors"];
   }
   ::kill(child, SIGKILL);

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/base/build_info.h>
 #include <lmdbench/base/file_hash.h>
-#include <lmdbench/record/machine_info.h>
-#include <lmdbench/record/provenance.h>
+#include <lmdbench/result_file/machine_info.h>
+#include <lmdbench/result_file/provenance.h>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <lmdbench/record/element_kind.h>
+#include <lmdbench/result_file/element_kind.h>
 
 #include <cstddef>
 #include <cstdint>

@@ -1,12 +1,12 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/base/error.h>
-#include <lmdbench/record/content_hash.h>
-#include <lmdbench/record/hdf5_check.h>
-#include <lmdbench/record/hdf5_handle.h>
-#include <lmdbench/record/partial_result.h>
-#include <lmdbench/record/provenance.h>
-#include <lmdbench/record/result_reader.h>
+#include <lmdbench/result_file/content_hash.h>
+#include <lmdbench/result_file/hdf5_check.h>
+#include <lmdbench/result_file/hdf5_handle.h>
+#include <lmdbench/result_file/partial_result.h>
+#include <lmdbench/result_file/provenance.h>
+#include <lmdbench/result_file/result_reader.h>
 
 #include <fmt/format.h>
 

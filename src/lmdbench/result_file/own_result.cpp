@@ -3,9 +3,9 @@
 #include <lmdbench/base/child_process.h>
 #include <lmdbench/base/limits.h>
 #include <lmdbench/base/output_guard.h>
-#include <lmdbench/record/hdf5_handle.h>
-#include <lmdbench/record/own_result.h>
-#include <lmdbench/record/provenance.h>
+#include <lmdbench/result_file/hdf5_handle.h>
+#include <lmdbench/result_file/own_result.h>
+#include <lmdbench/result_file/provenance.h>
 
 #include <cstddef>
 #include <span>

@@ -4,7 +4,7 @@
 #include <lmdbench/base/error.h>
 #include <lmdbench/base/input_file.h>
 #include <lmdbench/base/limits.h>
-#include <lmdbench/record/hdf5_check.h>
+#include <lmdbench/result_file/hdf5_check.h>
 
 #include <fmt/format.h>
 

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/base/error.h>
 #include <lmdbench/base/file_descriptor.h>
-#include <lmdbench/record/result_writer.h>
+#include <lmdbench/result_file/result_writer.h>
 
 #include <fcntl.h>
 #include <gmock/gmock.h>

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include <lmdbench/record/result_writer.h>
+#include <lmdbench/result_file/result_writer.h>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

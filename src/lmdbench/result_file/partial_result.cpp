@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/base/error.h>
-#include <lmdbench/record/hdf5_check.h>
-#include <lmdbench/record/hdf5_handle.h>
-#include <lmdbench/record/partial_result.h>
+#include <lmdbench/result_file/hdf5_check.h>
+#include <lmdbench/result_file/hdf5_handle.h>
+#include <lmdbench/result_file/partial_result.h>
 
 #include <sys/mman.h>
 #include <sys/stat.h>

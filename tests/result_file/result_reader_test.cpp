@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/base/error.h>
-#include <lmdbench/record/provenance.h>
-#include <lmdbench/record/result_reader.h>
-#include <lmdbench/record/result_writer.h>
+#include <lmdbench/result_file/provenance.h>
+#include <lmdbench/result_file/result_reader.h>
+#include <lmdbench/result_file/result_writer.h>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
