@@ -3,7 +3,6 @@
 #include <lmdbench/base/error.h>
 #include <lmdbench/experiment/experiment.h>
 #include <lmdbench/experiment/rules.h>
-#include <lmdbench/experiment/schema.h>
 #include <lmdbench/run/run.h>
 
 #include <fmt/format.h>

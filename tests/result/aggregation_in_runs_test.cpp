@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/base/error.h>
-#include <lmdbench/experiment/schema.h>
+#include <lmdbench/experiment/experiment.h>
 #include <lmdbench/force/aggregation.h>
 #include <lmdbench/result/run_to_file.h>
 #include <lmdbench/run/plan.h>

@@ -7,7 +7,6 @@
 #include <lmdbench/result/result_scene.h>
 #include <lmdbench/result/run_to_file.h>
 #include <lmdbench/run/contact.h>
-#include <lmdbench/run/deforming_distance.h>
 #include <lmdbench/run/frame_vertices.h>
 #include <lmdbench/run/run.h>
 #include <lmdbench/view/export_frames.h>

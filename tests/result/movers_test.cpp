@@ -5,7 +5,7 @@
 #include <lmdbench/result/run_to_file.h>
 #include <lmdbench/run/prepare.h>
 #include <lmdbench/view/export_frames.h>
-#include <lmdbench/view/report_scene.h>
+#include <lmdbench/view/report.h>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/base/build_info.h>
 #include <lmdbench/base/file_hash.h>
-#include <lmdbench/result_file/machine_info.h>
 #include <lmdbench/result_file/provenance.h>
 
 #include <gmock/gmock.h>

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/experiment/experiment.h>
-#include <lmdbench/experiment/schema.h>
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>

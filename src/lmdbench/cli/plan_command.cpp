@@ -3,15 +3,13 @@
 #include <lmdbench/base/error.h>
 #include <lmdbench/cli/commands.h>
 #include <lmdbench/cli/progress_bar.h>
-#include <lmdbench/cli/talk.h>
 #include <lmdbench/experiment/experiment.h>
-#include <lmdbench/experiment/schema.h>
 #include <lmdbench/methods/registry.h>
-#include <lmdbench/run/deforming_distance.h>
-#include <lmdbench/run/expected_times.h>
+#include <lmdbench/run/contact.h>
 #include <lmdbench/run/mover_probe.h>
 #include <lmdbench/run/plan.h>
 #include <lmdbench/run/prepare.h>
+#include <lmdbench/run/scene_look.h>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>

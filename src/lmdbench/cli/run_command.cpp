@@ -3,13 +3,11 @@
 #include <lmdbench/base/error.h>
 #include <lmdbench/cli/commands.h>
 #include <lmdbench/cli/progress_bar.h>
-#include <lmdbench/cli/stop_signals.h>
-#include <lmdbench/cli/talk.h>
 #include <lmdbench/experiment/experiment.h>
 #include <lmdbench/methods/registry.h>
 #include <lmdbench/metrics/summary.h>
 #include <lmdbench/result/run_to_file.h>
-#include <lmdbench/result/write_realtime.h>
+#include <lmdbench/result/write_result.h>
 #include <lmdbench/run/run.h>
 
 #include <CLI/CLI.hpp>

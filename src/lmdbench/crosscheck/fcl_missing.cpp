@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
 // In place of fcl_crosscheck.cpp in a build without FCL (LMDBENCH_WITH_FCL).
-#include <lmdbench/base/missing_part.h>
+#include <lmdbench/base/build_info.h>
 #include <lmdbench/crosscheck/fcl_crosscheck.h>
 
 namespace lmdbench {

@@ -179,4 +179,8 @@ void check_movers(const Experiment& experiment);
 void refuse_critical_pairs(const Experiment& experiment, const std::string& file, const std::string& problem,
                            const std::string& remedy);
 
+/// The JSON Schema (draft 07) of experiment files: experiments/schema/experiment.schema.json, with the names
+/// and options of the methods of this build.
+const nlohmann::json& experiment_schema();
+
 }  // namespace lmdbench

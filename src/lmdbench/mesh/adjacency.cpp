@@ -8,7 +8,6 @@
 #include <utility>
 
 namespace lmdbench {
-
 namespace {
 
 /// Sides are numbered 3 * triangle + k; side k joins corners k and (k + 1) % 3.

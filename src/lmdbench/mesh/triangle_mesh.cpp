@@ -4,8 +4,9 @@
 
 #include <Eigen/Geometry>
 
-namespace lmdbench {
+#include <algorithm>
 
+namespace lmdbench {
 namespace {
 
 Eigen::AlignedBox3d bounding_box(const TriangleMesh& mesh) {
@@ -35,6 +36,12 @@ Vec3 bounding_box_centre(const TriangleMesh& mesh) {
   if (mesh.vertices.empty()) return Vec3::Zero();
   const Eigen::AlignedBox3d box = bounding_box(mesh);
   return box.min() + 0.5 * box.diagonal();
+}
+
+double radius_about(const TriangleMesh& mesh, const Vec3& centre) {
+  double radius = 0.0;
+  for (const Vec3& vertex : mesh.vertices) radius = std::max(radius, (vertex - centre).norm());
+  return radius;
 }
 
 }  // namespace lmdbench

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/base/statistics.h>
-#include <lmdbench/force/aggregate.h>
+#include <lmdbench/force/aggregation.h>
 #include <lmdbench/metrics/errors.h>
 #include <lmdbench/metrics/step_numbers.h>
 

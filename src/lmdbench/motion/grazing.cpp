@@ -1,9 +1,8 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/base/error.h>
-#include <lmdbench/base/significant_digits.h>
+#include <lmdbench/base/statistics.h>
 #include <lmdbench/motion/grazing.h>
-#include <lmdbench/motion/grazing_choice.h>
 #include <lmdbench/motion/interpolate.h>
 
 #include <fmt/format.h>

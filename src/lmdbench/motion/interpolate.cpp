@@ -164,4 +164,11 @@ Path resample(const PathInterpolator& interpolator, double rate, std::optional<s
   return frames;
 }
 
+Pose extrapolated(const Pose& before, const Pose& now, double frames) {
+  LMDBENCH_EXPECTS(std::isfinite(frames), "a time that was divided by no time");
+  const Vec3 turn_W = rotation_vector_of(now.rotation * before.rotation.conjugate());
+  return {now.translation + frames * (now.translation - before.translation),
+          (rotation_of(frames * turn_W) * now.rotation).normalized()};
+}
+
 }  // namespace lmdbench

@@ -6,7 +6,6 @@
 #include <lmdbench/base/output_guard.h>
 #include <lmdbench/result/run_to_file.h>
 #include <lmdbench/result/write_result.h>
-#include <lmdbench/result_file/machine_info.h>
 #include <lmdbench/result_file/own_result.h>
 #include <lmdbench/result_file/provenance.h>
 #include <lmdbench/result_file/result_writer.h>

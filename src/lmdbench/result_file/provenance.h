@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace lmdbench {
@@ -33,5 +34,9 @@ inline constexpr int OLDEST_RESULT_FORMAT_VERSION = 1;
 void write_provenance(ResultWriter& writer, const std::vector<std::string>& argv,
                       const std::string& experiment_json, const std::string& plan_json,
                       const std::vector<InputFile>& inputs);
+
+/// Facts about the machine that decide how far timings can be compared: name and value, in a fixed order;
+/// "unknown" where the system does not say. Nothing here names the machine or its user.
+std::vector<std::pair<std::string, std::string>> machine_info();
 
 }  // namespace lmdbench

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/base/error.h>
-#include <lmdbench/result_file/content_hash.h>
 #include <lmdbench/result_file/hdf5_check.h>
 #include <lmdbench/result_file/hdf5_handle.h>
 #include <lmdbench/result_file/partial_result.h>

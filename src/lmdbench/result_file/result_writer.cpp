@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/base/error.h>
 #include <lmdbench/base/part_file.h>
-#include <lmdbench/result_file/content_hash.h>
+#include <lmdbench/result_file/hdf5_check.h>
 #include <lmdbench/result_file/hdf5_handle.h>
 #include <lmdbench/result_file/result_writer.h>
 

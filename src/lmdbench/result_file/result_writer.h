@@ -65,7 +65,7 @@ class ResultWriter {
   /// The part that `commit` turns into the result.
   PartFile& part();
 
-  /// Adds the hash of the content (`content_hash.h`), flushes to disk and gives the file its name, replacing an earlier one at once. When it throws, nothing
+  /// Adds the hash of the content (`hdf5_check.h`), flushes to disk and gives the file its name, replacing an earlier one at once. When it throws, nothing
   /// is lost: it may be called again.
   void commit();
 

@@ -1,12 +1,12 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include <lmdbench/base/missing_part.h>
+#include <lmdbench/base/build_info.h>
 #include <lmdbench/crosscheck/fcl_crosscheck.h>
 #include <lmdbench/experiment/rules.h>
 #include <lmdbench/run/fcl_probe.h>
 #include <lmdbench/run/mover_probe.h>
-#include <lmdbench/snch/nearest_tracker.h>
-#include <lmdbench/world/nearest_instance.h>
+#include <lmdbench/snch/minimum_distance.h>
+#include <lmdbench/world/broad_phase.h>
 
 #include <fmt/format.h>
 

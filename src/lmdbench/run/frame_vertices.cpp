@@ -3,7 +3,6 @@
 #include <lmdbench/base/error.h>
 #include <lmdbench/base/file_hash.h>
 #include <lmdbench/base/input_file.h>
-#include <lmdbench/base/number_lines.h>
 #include <lmdbench/catalogue/import.h>
 #include <lmdbench/mesh/surface_change.h>
 #include <lmdbench/run/frame_vertices.h>

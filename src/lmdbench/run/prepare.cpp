@@ -10,7 +10,7 @@
 #include <lmdbench/mesh/placement.h>
 #include <lmdbench/mesh/surface.h>
 #include <lmdbench/methods/registry.h>
-#include <lmdbench/motion/grazing_choice.h>
+#include <lmdbench/motion/grazing.h>
 #include <lmdbench/motion/interpolate.h>
 #include <lmdbench/motion/mesh_scene.h>
 #include <lmdbench/motion/tum_file.h>
@@ -22,7 +22,7 @@
 #include <lmdbench/run/prepare_movers.h>
 #include <lmdbench/run/realtime_driver.h>
 #include <lmdbench/snch/hierarchy.h>
-#include <lmdbench/world/nearest_instance.h>
+#include <lmdbench/world/broad_phase.h>
 
 #include <fmt/format.h>
 

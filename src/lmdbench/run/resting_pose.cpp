@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/base/error.h>
-#include <lmdbench/base/uniform_number.h>
-#include <lmdbench/force/aggregate.h>
+#include <lmdbench/base/statistics.h>
+#include <lmdbench/force/aggregation.h>
 #include <lmdbench/lmd/method_description.h>
 #include <lmdbench/methods/registry.h>
 #include <lmdbench/run/resting_pose.h>

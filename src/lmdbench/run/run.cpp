@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include <lmdbench/run/deforming_distance.h>
+#include <lmdbench/run/contact.h>
 #include <lmdbench/run/mover_probe.h>
 #include <lmdbench/run/realtime_driver.h>
 #include <lmdbench/run/run.h>

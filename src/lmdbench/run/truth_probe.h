@@ -5,6 +5,7 @@
 #include <lmdbench/force/force_law.h>
 #include <lmdbench/lmd/agreement.h>
 #include <lmdbench/lmd/scene.h>
+#include <lmdbench/run/prepare.h>
 #include <lmdbench/run/probed_track.h>
 
 #include <array>
@@ -96,5 +97,23 @@ std::vector<TruthFrame> probe_truth(const Scene& scene, const LockstepInput& inp
 /// @pre the record keeps the LMD sets of the truth's frames
 std::vector<TruthComparison> compare_with_truth(const std::vector<TruthFrame>& truth,
                                                 const MethodRecord& record, ForceLaw law, const Scene& scene);
+
+/// Truth in every frame. A probe on a stride sees every tenth event: rare jumps of the true force are missed and the
+/// methods look worse, or better, than they are. `certified` gives the true set in microseconds; `exhaustive`, which
+/// shares no search code with it, is asked at some frames whether that stands in this scene, too.
+
+struct TrueSets {
+  std::vector<LmdSet> sets;         ///< One a frame.
+  std::int64_t checked_frames = 0;  ///< Compared with the exhaustive set.
+  std::int64_t wrong_frames = 0;    ///< Of these, with another set of feature pairs.
+};
+
+/// @param checks   frames to compare with the exhaustive set, evenly spread; all where there are fewer
+/// @param progress may stop by returning false, which throws Interrupted
+TrueSets true_sets(const PreparedRun& run, std::int64_t checks, const Progress& progress);
+
+/// The true forces of the sets at the frames from `first` on that have a next one.
+/// @param run whose profile and device render
+std::vector<TruthFrame> truth_frames(const TrueSets& truth, const PreparedRun& run, std::int64_t first);
 
 }  // namespace lmdbench

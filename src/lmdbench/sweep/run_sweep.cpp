@@ -5,13 +5,13 @@
 #include <lmdbench/methods/registry.h>
 #include <lmdbench/metrics/errors.h>
 #include <lmdbench/metrics/step_numbers.h>
-#include <lmdbench/metrics/time_numbers.h>
+#include <lmdbench/metrics/times.h>
 #include <lmdbench/result_file/node_watch.h>
 #include <lmdbench/result_file/own_result.h>
 #include <lmdbench/result_file/provenance.h>
 #include <lmdbench/result_file/result_writer.h>
 #include <lmdbench/run/contact.h>
-#include <lmdbench/run/true_sets.h>
+#include <lmdbench/run/truth_probe.h>
 #include <lmdbench/sweep/point_key.h>
 #include <lmdbench/sweep/run_sweep.h>
 #include <lmdbench/sweep/sweep_parts.h>

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include <lmdbench/base/file_lock.h>
+#include <lmdbench/base/file_descriptor.h>
 
 #include <fcntl.h>
 #include <unistd.h>
