@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/base/contract.h>
 #include <lmdbench/mesh/polar_cone.h>
 #include <lmdbench/mesh/triangle_normal.h>
 #include <lmdbench/mesh/vertex_fan.h>
@@ -54,6 +55,7 @@ std::vector<Vec3> directions_from_edge(const Surface& surface, std::int32_t edge
 }
 
 std::vector<Vec3> generators(const Surface& surface, const FeatureId& feature, bool first_only) {
+  LMDBENCH_EXPECTS(feature.index >= 0, "a feature that was never set");
   if (surface.incident_triangles(feature).empty()) return {};
   if (feature.kind == FeatureKind::FACE) {
     const Vec3 normal = surface.pseudo_normal(feature);

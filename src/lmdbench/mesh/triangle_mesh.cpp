@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/base/contract.h>
 #include <lmdbench/mesh/triangle_mesh.h>
 
 #include <Eigen/Geometry>
@@ -39,6 +40,7 @@ Vec3 bounding_box_centre(const TriangleMesh& mesh) {
 }
 
 double radius_about(const TriangleMesh& mesh, const Vec3& centre) {
+  LMDBENCH_EXPECTS(centre.allFinite(), "the middle of a mesh without vertices");
   double radius = 0.0;
   for (const Vec3& vertex : mesh.vertices) radius = std::max(radius, (vertex - centre).norm());
   return radius;

@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/base/contract.h>
 #include <lmdbench/base/statistics.h>
 #include <lmdbench/metrics/cleanliness.h>
 #include <lmdbench/metrics/errors.h>
@@ -25,6 +26,7 @@ double limit(double degrees_of_freedom, double probability) {
 }  // namespace
 
 Events count_events(std::int64_t count, double seconds) {
+  LMDBENCH_EXPECTS(count >= 0, "a difference in place of a count");
   Events events;
   if (!(seconds > 0.0)) return events;
   events.count = static_cast<double>(count);
@@ -86,6 +88,8 @@ std::vector<double> changes_in_contact(const std::vector<Vec3>& forces, const Ru
 
 void summarise_counts(MethodSummary& summary, const MethodRecord& record, const RunFrames& frames) {
   std::vector<double> counts, candidates, ratios;
+  LMDBENCH_EXPECTS(frames.in_contact.size() == record.frames.size(),
+                   "contact of other frames than the record's");
   std::int64_t touching = 0, most = 0;
   for (std::size_t i = 0; i < record.frames.size(); ++i) {
     const FrameRecord& frame = record.frames[i];
@@ -133,6 +137,8 @@ void summarise_jumps(MethodSummary& summary, const MethodRecord& record, const R
 
 void summarise_rendering(MethodSummary& summary, const MethodRecord& record, const RunFrames& frames) {
   std::vector<double> force, stiffness;
+  LMDBENCH_EXPECTS(frames.in_contact.size() == record.frames.size() && frames.frame_rate_hz > 0.0,
+                   "contact of other frames than the record's");
   std::vector<Vec3> all;
   std::size_t clipped = 0;
   std::int64_t dropouts = 0;
@@ -172,6 +178,7 @@ void summarise_rendering(MethodSummary& summary, const MethodRecord& record, con
 void summarise_errors(MethodSummary& summary, ForceLaw law, const std::vector<TruthFrame>& truth,
                       const std::vector<TruthComparison>& comparisons, const RunFrames& frames) {
   const auto index = static_cast<std::size_t>(law);
+  LMDBENCH_EXPECTS(comparisons.size() == truth.size(), "comparisons with another truth");
   Agreement same, neighbours;
   std::size_t wrong = 0;
   std::int64_t true_jumps = 0;

@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/base/contract.h>
 #include <lmdbench/base/statistics.h>
 #include <lmdbench/metrics/times.h>
 
@@ -52,6 +53,7 @@ std::vector<std::vector<double>> time_per_frame(const MethodRecord& record) {
                                   : row.size();
       const double search = times.global_search[s] + zero_where_unset(times.first_reduction[s]) +
                             zero_where_unset(times.second_tracking[s]);
+      LMDBENCH_EXPECTS(end >= begin && end <= row.size(), "searches in another order than their frames");
       for (std::size_t frame = begin; frame < end; ++frame)
         row[frame] += search / static_cast<double>(end - begin);
     }
@@ -63,6 +65,7 @@ std::vector<std::vector<double>> time_per_frame(const MethodRecord& record) {
 void summarise_times(MethodSummary& summary, const MethodRecord& record,
                      const std::vector<bool>& in_contact) {
   std::vector<bool> searches;
+  LMDBENCH_EXPECTS(in_contact.size() == record.frames.size(), "contact of other frames than the record's");
   for (const SearchRecord& search : record.searches)
     searches.push_back(in_contact[static_cast<std::size_t>(search.frame)]);
   const auto of_searches = [&](std::vector<double> RepetitionTimes::*times) {

@@ -108,9 +108,11 @@ void PathInterpolator::add_slopes(std::size_t first, std::size_t last) {
 }
 
 Pose PathInterpolator::at(double time) const {
+  LMDBENCH_EXPECTS(!std::isnan(time), "a time that was divided by no time");
   const auto next = std::upper_bound(path_.begin(), path_.end(), time,
                                      [](double t, const TimedPose& timed) { return t < timed.time; });
   if (next == path_.begin()) return path_.front().pose;
+  LMDBENCH_EXPECTS(held_.size() + 1 >= path_.size(), "an interpolator that was moved from");
   const auto index = static_cast<std::size_t>(next - path_.begin()) - 1;
   const TimedPose& a = path_[index];
   if (next == path_.end() || time == a.time || held_[index]) return a.pose;

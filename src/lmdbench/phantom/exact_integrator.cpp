@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/base/contract.h>
 #include <lmdbench/phantom/exact_integrator.h>
 
 #include <boost/math/tools/toms748_solve.hpp>
@@ -36,6 +37,7 @@ Square<Scalar> integral_series(const Square<Scalar>& matrix, const Square<Scalar
 template <typename Scalar>
 AxisFlow flow_in(const AxisMatrix& matrix_in_double, const std::array<AxisMatrix, ENERGY_FLOW_COUNT>& power,
                  double t) {
+  LMDBENCH_EXPECTS(std::isfinite(t) && t >= 0.0, "a rate in place of a period");
   const Square<Scalar> matrix = matrix_in_double.cast<Scalar>();
   const double norm = (matrix_in_double * t).cwiseAbs().rowwise().sum().maxCoeff();
   const int doublings = norm > LARGEST_SERIES_NORM ? std::ilogb(norm / LARGEST_SERIES_NORM) + 1 : 0;
@@ -96,7 +98,9 @@ ExactIntegrator::ExactIntegrator(const AxisModel& model, double period)
     : model_(model),
       period_(period),
       slipping_(make_regime(model.slipping)),
-      stuck_(make_regime(model.stuck)) {}
+      stuck_(make_regime(model.stuck)) {
+  LMDBENCH_EXPECTS(period > 0.0, "a rate in place of a period, or no rate");
+}
 
 ExactIntegrator::Regime ExactIntegrator::make_regime(const AxisMatrix& matrix) const {
   return {matrix, lasting_axis_flow(matrix, model_.power, period_), axis_transition(matrix, period_ / LOOKS)};
@@ -149,6 +153,7 @@ bool ExactIntegrator::settle_friction(AxisState& state) const {
 }
 
 void ExactIntegrator::advance(AxisState& state, EnergyFlows& flows) {
+  LMDBENCH_EXPECTS(state.allFinite(), "a force that is not a number");
   if (model_.friction_n == 0.0) {
     flows += slipping_.period.flows(state);
     state = slipping_.period.transition * state;
@@ -169,6 +174,7 @@ void ExactIntegrator::advance(AxisState& state, EnergyFlows& flows) {
     state = flow.transition * state;
     if (event && !stuck) at(state, AxisSlot::VELOCITY) = 0.0;
     remaining -= duration;
+    LMDBENCH_EXPECTS(duration >= 0.0, "an event before the instant that it was looked for from");
   }
 }
 

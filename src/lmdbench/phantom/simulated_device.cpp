@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/base/contract.h>
 #include <lmdbench/motion/rotation_vector.h>
 #include <lmdbench/phantom/simulated_device.h>
 
@@ -16,6 +17,7 @@ SimulatedDevice::SimulatedDevice(const DeviceDynamics& dynamics, double period, 
       resolution_(resolution) {}
 
 void SimulatedDevice::advance(const Vec3& rendered_W, const Vec3& next_path_position_W) {
+  LMDBENCH_EXPECTS(rendered_W.allFinite(), "a force that nobody clipped to the device");
   const Vec3 path_velocity_W =
       has_hand_ ? Vec3((next_path_position_W - path_position_W_) / period_) : Vec3(Vec3::Zero());
   axes_.advance(rendered_W, path_velocity_W);
@@ -45,6 +47,7 @@ double cubic_coefficient(double x) {
 }  // namespace
 
 Vec3 generalised_torque(const Vec3& rotation_vector, const Vec3& torque_W) {
+  LMDBENCH_EXPECTS(rotation_vector.allFinite(), "a turn that was never set");
   const double angle = rotation_vector.norm();
   if (angle == 0.0) return torque_W;
   const double half_sine = std::sin(0.5 * angle);
@@ -64,6 +67,8 @@ SimulatedGimbal::SimulatedGimbal(const DeviceDynamics& dynamics, double period,
       resolution_(resolution) {}
 
 void SimulatedGimbal::advance(const Vec3& torque_W, const Eigen::Quaterniond& next_path_orientation) {
+  LMDBENCH_EXPECTS(std::abs(next_path_orientation.squaredNorm() - 1.0) <= UNIT_TOLERANCE,
+                   "a quaternion that was not normalised");
   Vec3 path_velocity = Vec3::Zero();
   if (has_hand_)
     path_velocity = rotation_vector_of(next_path_orientation * path_orientation_.conjugate()) / period_;

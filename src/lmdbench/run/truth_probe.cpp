@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/base/contract.h>
 #include <lmdbench/experiment/rules.h>
 #include <lmdbench/force/aggregation.h>
 #include <lmdbench/force/contact_finder.h>
@@ -128,6 +129,8 @@ std::unique_ptr<ProbeFindings> find_truth(const ProbedTrack& track) {
   found->comparisons.reserve(track.methods.size());
   for (std::size_t i = 0; i < track.methods.size(); ++i) {
     const MethodRecord& record = *track.records[i];
+    LMDBENCH_EXPECTS(record.frames.size() == track.input.poses.size(),
+                     "a record of other frames than the track's");
     const ForceLaw law = track.methods[i].profile.law;
     const std::vector<TruthComparison>& rows = found->comparisons.emplace_back(
         movers != nullptr ? compare_with_truth(found->frames, record, law, *movers)

@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/base/contract.h>
 #include <lmdbench/snch/minimum_distance.h>
 
 #include <algorithm>
@@ -23,6 +24,7 @@ template <typename Visit>
 void descend(const Surface& moving, const Hierarchy& moving_hierarchy, const Surface& fixed,
              const Hierarchy& fixed_hierarchy, const Pose& X_WM, const double& best, const Visit& visit) {
   if (moving_hierarchy.nodes.empty() || fixed_hierarchy.nodes.empty()) return;
+  LMDBENCH_EXPECTS(!std::isnan(best), "a bound that is not a number would reject everything");
   const RigidTransform transform(X_WM);
 
   const auto candidate = [&](std::int32_t index_a, std::int32_t index_b) {
@@ -86,6 +88,9 @@ bool within_distance(const Surface& moving, const Hierarchy& moving_hierarchy, c
 
 NearestPair NearestTracker::last_pair(const Pose& X_WM) const {
   if (last_moving_ < 0) return {};
+  LMDBENCH_EXPECTS(static_cast<std::size_t>(last_moving_) < moving_.mesh.triangles.size() &&
+                       static_cast<std::size_t>(last_fixed_) < fixed_.mesh.triangles.size(),
+                   "a tracker that outlives its meshes");
   const Triangle triangle_W = RigidTransform(X_WM).triangle(moving_.mesh.triangle(last_moving_));
   const TrianglePairDistance pair = triangle_distance(triangle_W, fixed_.mesh.triangle(last_fixed_));
   return {std::sqrt(pair.squared_distance), last_moving_, last_fixed_, pair};
@@ -105,6 +110,7 @@ NearestPoint nearest_point(const Surface& surface, const Hierarchy& hierarchy, c
                            double upper_bound) {
   NearestPoint nearest;
   if (hierarchy.nodes.empty()) return nearest;
+  LMDBENCH_EXPECTS(p_M.allFinite() && !std::isnan(upper_bound), "a point or bound that was never set");
   double best = upper_bound;
   const auto bound_of = [&](std::int32_t index) {
     const HierarchyNode& node = hierarchy.nodes[static_cast<std::size_t>(index)];

@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/base/contract.h>
 #include <lmdbench/lmd/contact_tolerance.h>
 #include <lmdbench/mesh/triangle_mesh.h>
 #include <lmdbench/world/mesh_bounds.h>
@@ -25,6 +26,7 @@ MeshBounds MeshBounds::of(const Surface& surface) {
   bounds.radius = radius_about(surface.mesh, bounds.centre);
   // The largest coordinate is bounded by the sphere.
   bounds.known = std::max(bounds.known, LEAST_TOLERANCE * (bounds.centre.norm() + bounds.radius));
+  LMDBENCH_ENSURES(std::isfinite(bounds.radius), "vertices that import did not check");
   return bounds;
 }
 
