@@ -214,7 +214,6 @@ TEST(Deforming, AnExportHasEachFramesShape) {
   const ScratchDirectory scratch;
   const RunResult run = run_to(small_run({"/frames=40"}), scratch / "r.h5");
   const ResultReader result(scratch / "r.h5");
-  EXPECT_THAT(message_of<UsageError>([&] { scene_of_result(result); }), HasSubstr("/moving/deformation"));
   export_frames(result, scratch / "vtk", 4);
   const auto text = [&](const std::string& name) {
     std::ostringstream all;

@@ -3,10 +3,7 @@
 #include <lmdbench/geometry/expansion.h>
 #include <lmdbench/geometry/face_frame.h>
 #include <lmdbench/geometry/orientation.h>
-#include <lmdbench/geometry/planar_overlap.h>
-#include <lmdbench/geometry/sorted_triangle.h>
 #include <lmdbench/geometry/tolerance.h>
-#include <lmdbench/geometry/triangle_distance.h>
 #include <lmdbench/geometry/triangle_intersection.h>
 
 #include <Eigen/Geometry>
@@ -185,31 +182,6 @@ bool triangles_intersect(const Triangle& a, const Triangle& b) {
     return exactly_intersect(without_tiny_coordinates(a, limit), without_tiny_coordinates(b, limit));
   }
   return exactly_intersect(a, b);
-}
-
-std::optional<Segment> intersection_segment(const Triangle& a, const Triangle& b) {
-  // Sorted, so that neither the order of corners nor that of the arguments changes a bit.
-  Triangle first = kernel::SortedTriangle(a).corners;
-  Triangle second = kernel::SortedTriangle(b).corners;
-  if (std::lexicographical_compare(second.begin(), second.end(), first.begin(), first.end(),
-                                   lexicographic_less)) {
-    std::swap(first, second);
-  }
-  if (!triangles_intersect(first, second)) return std::nullopt;
-  const double tolerance =
-      coincidence_length(std::max(largest_coordinate(first), largest_coordinate(second)));
-  const kernel::FaceFrame face_first(first, tolerance);
-  const kernel::FaceFrame face_second(second, tolerance);
-  if (!face_first.has_face || !face_second.has_face) return std::nullopt;
-  const auto shared = kernel::shared_segment(first, face_first, second, face_second);
-  if (!shared.is_clear) {
-    // They touch in a point, or are coplanar.
-    const TrianglePairDistance touching = triangle_distance(first, second);
-    if (touching.minimiser_dimension == 2) return std::nullopt;
-    return Segment{touching.point_a, touching.point_a};
-  }
-  if (lexicographic_less(shared.end, shared.begin)) return Segment{shared.end, shared.begin};
-  return Segment{shared.begin, shared.end};
 }
 
 namespace {

@@ -18,18 +18,15 @@
 namespace lmdbench {
 
 /// The meshes of a result as they stood in the scene, under the largest cutoff of its methods.
-/// @throws InputError where a mesh is not to be had any more or is no longer what was run; UsageError where the result's
-/// experiment is none, a mesh of it deforms, or several move
-Scene scene_of_result(const ResultReader& result);
-
-/// The same with how its bodies deform; null where none does.
 struct ResultScene {
   Scene rest;
-  std::shared_ptr<const SceneDeformation> deformation;
+  std::shared_ptr<const SceneDeformation> deformation;  ///< How its bodies deform; null where none does.
   std::shared_ptr<const MoverPlay> movers =
       nullptr;  ///< Where several meshes move: with the poses that the result has.
 };
-ResultScene deforming_scene_of_result(const ResultReader& result);
+/// @throws InputError where a mesh is not to be had any more or is no longer what was run; UsageError where the result's
+/// experiment is none
+ResultScene scene_of_result(const ResultReader& result);
 
 /// Poses that methods of a result went through.
 struct ResultTrack {

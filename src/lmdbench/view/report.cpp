@@ -123,7 +123,7 @@ void write_movers(const ResultReader& result, const MoverPlay& play, const std::
 }  // namespace
 
 void write_report_scene(const ResultReader& result, const std::filesystem::path& folder) {
-  const ResultScene result_scene = deforming_scene_of_result(result);
+  const ResultScene result_scene = scene_of_result(result);
   if (result_scene.deformation)
     throw UsageError(result.file().string(), "", "the view does not draw meshes that deform",
                      "lmdbench export writes the shape of each frame, for ParaView");
