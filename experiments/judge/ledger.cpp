@@ -2,9 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/base/error.h>
 #include <lmdbench/crosscheck/fcl_crosscheck.h>
-#include <lmdbench/crosscheck/fcl_triangle_distance.h>
 #include <lmdbench/experiment/experiment.h>
-#include <lmdbench/record/result_reader.h>
+#include <lmdbench/result_file/result_reader.h>
 #include <lmdbench/run/prepare.h>
 #include <lmdbench/snch/minimum_distance.h>
 

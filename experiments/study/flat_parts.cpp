@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/base/statistics.h>
-#include <lmdbench/catalogue/rounded_circle.h>
 #include <lmdbench/catalogue/shapes.h>
 #include <lmdbench/catalogue/sleeve.h>
 #include <lmdbench/mesh/flatten.h>

@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/base/error.h>
+#include <lmdbench/base/run_program.h>
 #include <lmdbench/base/statistics.h>
-#include <lmdbench/base/temporary_folder.h>
 #include <lmdbench/comparison/exact_differences.h>
 #include <lmdbench/experiment/rules.h>
-#include <lmdbench/record/result_reader.h>
+#include <lmdbench/result_file/result_reader.h>
 
 #include <CLI/CLI.hpp>
 #include <fcntl.h>

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/base/error.h>
 #include <lmdbench/base/statistics.h>
-#include <lmdbench/force/aggregate.h>
+#include <lmdbench/force/aggregation.h>
 #include <lmdbench/run/prepare.h>
 
 #include <CLI/CLI.hpp>

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/base/build_info.h>
-#include <lmdbench/record/machine_info.h>
+#include <lmdbench/result_file/provenance.h>
 
 #include <nlohmann/json.hpp>
 #include <support/context.h>

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/base/atomic_file.h>
 #include <lmdbench/base/error.h>
-#include <lmdbench/record/node_watch.h>
+#include <lmdbench/result_file/node_watch.h>
 
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <lmdbench/base/uniform_number.h>
+#include <lmdbench/base/statistics.h>
 #include <lmdbench/geometry/types.h>
 
 #include <Eigen/Geometry>

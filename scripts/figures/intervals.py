@@ -9,7 +9,7 @@ from statistics import NormalDist
 import numpy as np
 
 LEVEL = 0.95
-LEAST_EVENTS = 10  # fewer have no rate (src/lmdbench/metrics/events.h)
+LEAST_EVENTS = 10  # fewer have no rate (src/lmdbench/metrics/errors.h)
 RESAMPLES = 1000
 
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include <lmdbench/base/data_folder.h>
+#include <lmdbench/base/build_info.h>
 
 #include <gtest/gtest.h>
 #include <support/scratch_directory.h>

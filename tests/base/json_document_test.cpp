@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/base/json_document.h>
-#include <lmdbench/base/json_place.h>
+#include <lmdbench/base/json_text.h>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/base/error.h>
-#include <lmdbench/base/number_lines.h>
+#include <lmdbench/base/input_file.h>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

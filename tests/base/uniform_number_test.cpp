@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include <lmdbench/base/uniform_number.h>
+#include <lmdbench/base/statistics.h>
 
 #include <gtest/gtest.h>
 

@@ -5,7 +5,6 @@
 #include <lmdbench/base/limits.h>
 #include <lmdbench/base/run_program.h>
 #include <lmdbench/catalogue/build_mesh.h>
-#include <lmdbench/catalogue/fetch_source.h>
 #include <lmdbench/catalogue/import.h>
 #include <lmdbench/catalogue/off_file.h>
 #include <lmdbench/catalogue/shapes.h>

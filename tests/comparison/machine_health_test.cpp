@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/comparison/machine_health.h>
-#include <lmdbench/comparison/noise_floor.h>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

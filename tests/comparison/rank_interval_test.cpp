@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include <lmdbench/comparison/rank_interval.h>
+#include <lmdbench/comparison/ratio_estimate.h>
 
 #include <gtest/gtest.h>
 

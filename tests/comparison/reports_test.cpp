@@ -1,6 +1,5 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include <lmdbench/comparison/comparison_json.h>
 #include <lmdbench/comparison/comparison_text.h>
 
 #include "synthetic_result.h"

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/base/error.h>
 #include <lmdbench/comparison/stage_times.h>
-#include <lmdbench/record/provenance.h>
-#include <lmdbench/record/result_writer.h>
+#include <lmdbench/result_file/provenance.h>
+#include <lmdbench/result_file/result_writer.h>
 
 #include "synthetic_result.h"
 #include <gtest/gtest.h>

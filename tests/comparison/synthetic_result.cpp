@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "synthetic_result.h"
 
-#include <lmdbench/record/provenance.h>
-#include <lmdbench/record/result_writer.h>
+#include <lmdbench/result_file/provenance.h>
+#include <lmdbench/result_file/result_writer.h>
 
 #include <nlohmann/json.hpp>
 

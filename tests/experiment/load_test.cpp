@@ -51,9 +51,9 @@ TEST(LoadExperiment, FillsDefaultsFromTheSchema) {
   EXPECT_EQ(experiment.profiles[0].sharpness, 4.0);
   EXPECT_EQ(experiment.driver.repetitions, 5);
   EXPECT_EQ(experiment.driver.block_frames, 200);
-  EXPECT_EQ(experiment.truth_stride_frames, 100);
-  EXPECT_EQ(experiment.fcl_stride_frames, 0);
-  EXPECT_EQ(experiment.fcl_tolerance_relative, 1e-6);
+  EXPECT_EQ(experiment.probe_stride("truth"), 100);
+  EXPECT_EQ(experiment.probe_stride("fcl"), 0);
+  EXPECT_EQ(experiment.probes.at("fcl").options["tolerance_relative"], 1e-6);
   EXPECT_FALSE(experiment.record_lmds);
   EXPECT_TRUE(experiment.fixed[0].pose.translation.isZero(0.0));
   ASSERT_EQ(experiment.methods.size(), 2u);

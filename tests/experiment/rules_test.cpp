@@ -3,7 +3,6 @@
 #include <lmdbench/base/error.h>
 #include <lmdbench/experiment/experiment.h>
 #include <lmdbench/experiment/rules.h>
-#include <lmdbench/experiment/schema.h>
 #include <lmdbench/run/run.h>
 
 #include <fmt/format.h>
@@ -103,22 +102,23 @@ void expect_equal(const RunResult& with, const RunResult& without, const std::st
   ASSERT_EQ(with.records.size(), without.records.size());
   for (std::size_t i = 0; i < with.records.size(); ++i) {
     EXPECT_EQ(with.records[i].result_hash, without.records[i].result_hash) << rule;
-    ASSERT_EQ(with.comparisons[i].size(), without.comparisons[i].size());
-    for (std::size_t k = 0; k < with.comparisons[i].size(); ++k)
-      EXPECT_EQ(with.comparisons[i][k].force_error, without.comparisons[i][k].force_error) << rule;
+    ASSERT_EQ(with.comparisons(i).size(), without.comparisons(i).size());
+    for (std::size_t k = 0; k < with.comparisons(i).size(); ++k)
+      EXPECT_EQ(with.comparisons(i)[k].force_error, without.comparisons(i)[k].force_error) << rule;
   }
   EXPECT_EQ(with.in_contact, without.in_contact) << rule;
   const Track& a = with.tracks.front();
   const Track& b = without.tracks.front();
-  ASSERT_EQ(a.truth.size(), b.truth.size());
-  for (std::size_t k = 0; k < a.truth.size(); ++k) {
-    EXPECT_EQ(a.truth[k].lmds.size(), b.truth[k].lmds.size()) << rule;
-    EXPECT_EQ(a.truth[k].force, b.truth[k].force) << rule;
-    EXPECT_EQ(a.truth[k].force_jump, b.truth[k].force_jump) << rule;
+  const std::vector<TruthFrame>&a_truth = a.truth()->frames, &b_truth = b.truth()->frames;
+  ASSERT_EQ(a_truth.size(), b_truth.size());
+  for (std::size_t k = 0; k < a_truth.size(); ++k) {
+    EXPECT_EQ(a_truth[k].lmds.size(), b_truth[k].lmds.size()) << rule;
+    EXPECT_EQ(a_truth[k].force, b_truth[k].force) << rule;
+    EXPECT_EQ(a_truth[k].force_jump, b_truth[k].force_jump) << rule;
   }
-  ASSERT_EQ(a.fcl->frames.size(), b.fcl->frames.size());
-  for (std::size_t k = 0; k < a.fcl->frames.size(); ++k)
-    EXPECT_EQ(a.fcl->frames[k].lmdbench_distance, b.fcl->frames[k].lmdbench_distance) << rule;
+  ASSERT_EQ(a.fcl()->frames.size(), b.fcl()->frames.size());
+  for (std::size_t k = 0; k < a.fcl()->frames.size(); ++k)
+    EXPECT_EQ(a.fcl()->frames[k].lmdbench_distance, b.fcl()->frames[k].lmdbench_distance) << rule;
 }
 
 TEST(Rules, NoneChangesAResult) {

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include <lmdbench/force/aggregate.h>
+#include <lmdbench/force/aggregation.h>
 
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>

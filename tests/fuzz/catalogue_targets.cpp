@@ -4,7 +4,6 @@
 #include <lmdbench/base/limits.h>
 #include <lmdbench/catalogue/import.h>
 #include <lmdbench/catalogue/manifest.h>
-#include <lmdbench/catalogue/obj_check.h>
 #include <lmdbench/catalogue/off_file.h>
 #include <lmdbench/catalogue/ply_check.h>
 #include <lmdbench/catalogue/shape_recipe.h>

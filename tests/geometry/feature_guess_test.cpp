@@ -1,9 +1,8 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include <lmdbench/geometry/feature_guess.h>
-#include <lmdbench/geometry/feature_proof.h>
 #include <lmdbench/geometry/tolerance.h>
 #include <lmdbench/geometry/triangle_distance.h>
+#include <lmdbench/geometry/triangle_distance_steps.h>
 
 #include <gtest/gtest.h>
 #include <hwy/targets.h>

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include <lmdbench/mesh/polar_rays.h>
+#include <lmdbench/mesh/polar_cone.h>
 
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>

@@ -3,7 +3,7 @@
 #include <lmdbench/catalogue/shapes.h>
 #include <lmdbench/mesh/surface.h>
 #include <lmdbench/mesh/triangle_normal.h>
-#include <lmdbench/mesh/vertex_neighbours.h>
+#include <lmdbench/mesh/vertex_fan.h>
 
 #include <Eigen/Geometry>
 #include <gmock/gmock.h>

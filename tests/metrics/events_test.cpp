@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include <lmdbench/metrics/events.h>
+#include <lmdbench/metrics/errors.h>
 
 #include <gtest/gtest.h>
 

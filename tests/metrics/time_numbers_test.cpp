@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include <lmdbench/metrics/time_numbers.h>
+#include <lmdbench/metrics/times.h>
 
 #include <gtest/gtest.h>
 

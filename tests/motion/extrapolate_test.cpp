@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include <lmdbench/motion/extrapolate.h>
+#include <lmdbench/motion/interpolate.h>
 #include <lmdbench/motion/rotation_vector.h>
 
 #include <gtest/gtest.h>

@@ -4,7 +4,6 @@
 #include <lmdbench/catalogue/shapes.h>
 #include <lmdbench/mesh/placement.h>
 #include <lmdbench/motion/grazing.h>
-#include <lmdbench/motion/grazing_choice.h>
 #include <lmdbench/motion/interpolate.h>
 #include <lmdbench/motion/mesh_scene.h>
 

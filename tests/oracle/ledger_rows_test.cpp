@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include <lmdbench/crosscheck/fcl_triangle_distance.h>
+#include <lmdbench/crosscheck/fcl_crosscheck.h>
 
 #include <gtest/gtest.h>
 #include <judge/exact_distance.h>

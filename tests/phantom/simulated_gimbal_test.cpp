@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/motion/rotation_vector.h>
-#include <lmdbench/phantom/simulated_gimbal.h>
+#include <lmdbench/phantom/simulated_device.h>
 #include <lmdbench/phantom/stability_boundary.h>
 
 #include <gtest/gtest.h>

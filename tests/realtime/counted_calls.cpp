@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include <lmdbench/realtime/servo_watch.h>
+#include <lmdbench/realtime/servo_clock.h>
 
 #include <dlfcn.h>
 #include <pthread.h>

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/base/error.h>
-#include <lmdbench/experiment/schema.h>
+#include <lmdbench/experiment/experiment.h>
 #include <lmdbench/force/aggregation.h>
 #include <lmdbench/result/run_to_file.h>
 #include <lmdbench/run/plan.h>
@@ -65,17 +65,17 @@ TEST(AggregationInRuns, IsOfMethodsThatFindSaddles) {
     EXPECT_THAT(run.warnings, Contains(HasSubstr("method improved finds no saddles"))) << name;
     EXPECT_THAT(run.warnings, Not(Contains(HasSubstr("without an index")))) << name;
     // The truth is what was asked for.
-    ASSERT_FALSE(run.comparisons[1].empty());
+    ASSERT_FALSE(run.comparisons(1).empty());
     double most = 0.0;
-    for (std::size_t k = 0; k < run.comparisons[1].size(); ++k) {
-      EXPECT_EQ(run.comparisons[1][k].force_error, 0.0) << name;
-      most = std::max(most, std::abs(run.comparisons[0][k].force_error - sum.comparisons[0][k].force_error));
+    for (std::size_t k = 0; k < run.comparisons(1).size(); ++k) {
+      EXPECT_EQ(run.comparisons(1)[k].force_error, 0.0) << name;
+      most = std::max(most, std::abs(run.comparisons(0)[k].force_error - sum.comparisons(0)[k].force_error));
     }
     EXPECT_GT(most, 1e-4 * one) << name;
-    ASSERT_TRUE(run.tracks[0].complete);
+    ASSERT_TRUE(run.tracks[0].truth()->complete);
     const auto exponential = static_cast<std::size_t>(ForceLaw::EXPONENTIAL);
     for (std::size_t i = 0; i < run.records[1].frames.size(); ++i)
-      EXPECT_EQ(run.tracks[0].complete->force[exponential][i], run.records[1].frames[i].force);
+      EXPECT_EQ(run.tracks[0].truth()->complete->force[exponential][i], run.records[1].frames[i].force);
   }
   EXPECT_THAT(sum.warnings, Not(Contains(HasSubstr("saddles"))));
 }
@@ -160,7 +160,7 @@ TEST(AggregationInRuns, AClosedLoopFeelsIt) {
   const RunResult sum = loop("sum"), shared = loop("shared");
   EXPECT_GT(largest_difference(sum.records[0], shared.records[0]), 0.0);
   EXPECT_NE(sum.records[0].poses.back().translation, shared.records[0].poses.back().translation);
-  for (const TruthComparison& row : shared.comparisons[0]) EXPECT_EQ(row.force_error, 0.0);
+  for (const TruthComparison& row : shared.comparisons(0)) EXPECT_EQ(row.force_error, 0.0);
 }
 
 TEST(AggregationInRuns, MapsTakeTheStiffnessUnderIt) {

@@ -168,8 +168,8 @@ TEST(ClosedLoop, IsTheSameEveryTimeAndForEveryMethodAlone) {
 
 TEST(ClosedLoop, TruthIsTakenAtTheDevicesPoses) {
   const RunResult result = run_experiment(wall({"/probes/truth/stride_frames=50"}));
-  ASSERT_FALSE(result.comparisons[0].empty());
-  for (const TruthComparison& comparison : result.comparisons[0]) EXPECT_LT(comparison.force_error, 1e-9);
+  ASSERT_FALSE(result.comparisons(0).empty());
+  for (const TruthComparison& comparison : result.comparisons(0)) EXPECT_LT(comparison.force_error, 1e-9);
 }
 
 TEST(ClosedLoop, RecordedPathReplaysTheForces) {

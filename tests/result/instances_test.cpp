@@ -112,7 +112,7 @@ TEST(Instances, ExportsAndReportsHaveThoseThatComeNearest) {
   const Experiment world = shapes_with(R"({"rule":"grid","counts":[7,7,7]})", {"/frames=40"});
   run_experiment_to_file(world, scratch / "world.h5", {"lmdbench", "run"});
   const ResultReader result(scratch / "world.h5");
-  const Scene scene = scene_of_result(result);
+  const Scene scene = scene_of_result(result).rest;
   ASSERT_EQ(scene.fixed.size(), 343u);
   const std::vector<std::size_t> drawn = drawn_bodies(scene, tracks_of_result(result, 10));
   EXPECT_EQ(drawn.size(), MOST_DRAWN);

@@ -99,12 +99,14 @@ TEST(Profiles, TruthContactAndCrosscheckAreEachProfilesOwn) {
     const Track& track = together.track_of(i);
     EXPECT_EQ(track.profile, i);
     EXPECT_EQ(track.in_contact, alone.in_contact);
-    ASSERT_EQ(track.truth.size(), alone.track_of(0).truth.size());
-    for (std::size_t k = 0; k < track.truth.size(); ++k) {
-      EXPECT_EQ(track.truth[k].force[0], alone.track_of(0).truth[k].force[0]);
-      EXPECT_EQ(together.comparisons[i][k].force_error, alone.comparisons[0][k].force_error);
+    const std::vector<TruthFrame>&truth = track.truth()->frames,
+          &alone_truth = alone.track_of(0).truth()->frames;
+    ASSERT_EQ(truth.size(), alone_truth.size());
+    for (std::size_t k = 0; k < truth.size(); ++k) {
+      EXPECT_EQ(truth[k].force[0], alone_truth[k].force[0]);
+      EXPECT_EQ(together.comparisons(i)[k].force_error, alone.comparisons(0)[k].force_error);
     }
-    ASSERT_EQ(track.fcl->frames.size(), alone.track_of(0).fcl->frames.size());
+    ASSERT_EQ(track.fcl()->frames.size(), alone.track_of(0).fcl()->frames.size());
   }
   double hardest = 0.0, softest = 0.0;
   for (const FrameRecord& frame : together.records[0].frames) hardest = std::max(hardest, frame.force.norm());
@@ -153,7 +155,7 @@ TEST(ClosedLoopFcl, IsComparedAtTheDevicesPoses) {
   const Experiment experiment =
       load_experiment(WALL_FILE, {"/frames=400", "/loop/push_n=[0, 0, -6]", "/probes/fcl/stride_frames=50"});
   const RunResult run = run_experiment_to_file(experiment, file, {"lmdbench", "run"});
-  const FclCheck& check = run.track_of(0).fcl.value();
+  const FclCheck& check = *run.track_of(0).fcl();
   ASSERT_EQ(check.frames.size(), 8u);
   for (const FclFrame& frame : check.frames) {
     EXPECT_TRUE(frame.agrees);

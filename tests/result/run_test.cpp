@@ -189,7 +189,7 @@ TEST(Run, OnlyWhatTheSceneNeedsIsInTheResult) {
   EXPECT_FALSE(result.has("/crosscheck"));
   EXPECT_FALSE(result.has("/methods/improved/truth"));
   EXPECT_FALSE(result.has("/methods/improved/lmds"));
-  EXPECT_FALSE(run.tracks[0].fcl.has_value());
+  EXPECT_EQ(run.tracks[0].fcl(), nullptr);
   EXPECT_THAT(summary_text(summarise(bare, run)), HasSubstr("error  not measured"));
 }
 
@@ -200,13 +200,14 @@ TEST(Run, EveryMethodRunsSideBySide) {
   const RunResult run = run_experiment(all);
   ASSERT_EQ(run.records.size(), 4u);
   EXPECT_EQ(run.records[2].result_hash, run.records[3].result_hash) << "certified is exact and complete";
-  for (const TruthComparison& row : run.comparisons[3]) {
+  for (const TruthComparison& row : run.comparisons(3)) {
     EXPECT_EQ(row.force_error, 0.0);
     EXPECT_TRUE(std::isnan(row.same.recall()) || row.same.recall() == 1.0);
     EXPECT_TRUE(std::isnan(row.same.precision()) || row.same.precision() == 1.0);
   }
-  const auto in_contact = std::count_if(run.tracks[0].truth.begin(), run.tracks[0].truth.end(),
-                                        [](const TruthFrame& frame) { return !frame.lmds.empty(); });
+  const auto in_contact =
+      std::count_if(run.tracks[0].truth()->frames.begin(), run.tracks[0].truth()->frames.end(),
+                    [](const TruthFrame& frame) { return !frame.lmds.empty(); });
   EXPECT_GE(in_contact, 3) << "or the test above says nothing";
 }
 
@@ -264,7 +265,7 @@ TEST(Run, PolylinesAreRecordedWhereTheyAreAskedFor) {
   std::vector<Override> asked = overrides;
   asked.emplace_back("/record/polylines/stride_frames=10");
   const Experiment experiment = short_shapes(asked);
-  EXPECT_TRUE(make_plan(experiment).needs(Part::INTERSECTIONS));
+  EXPECT_TRUE(make_plan(experiment).needs("intersection polylines"));
   run_to(scratch / "with.h5", experiment);
   const OpenResult result(scratch / "with.h5");
   const std::vector<std::int64_t> frames = result.integers("/polylines/frame");
@@ -316,7 +317,7 @@ TEST(Run, ASinglePoseIsAPathOfOneFrame) {
   std::ofstream(scratch / "path.tum") << "5 0.2 0 0 0 0 0 1\n";
   const RunResult run = run_experiment(short_shapes({"/path/file=" + (scratch / "path.tum").string()}));
   EXPECT_EQ(run.prepared.times, std::vector<double>{5.0});
-  EXPECT_TRUE(run.tracks[0].truth.empty());
+  EXPECT_EQ(run.tracks[0].truth(), nullptr);
 }
 
 TEST(Prepare, RefusesWhatCannotBeUsed) {

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include <lmdbench/run/complete_truth.h>
+#include <lmdbench/run/truth_probe.h>
 
 #include <gtest/gtest.h>
 

@@ -113,8 +113,8 @@ TEST_F(InitTest, AMinimalFileHasTheSameDefaults) {
   const PreparedRun prepared = prepare(minimal);
   write_new_experiment(written);
   const Experiment init = load_experiment(written.experiment_file);
-  EXPECT_EQ(init.truth_stride_frames, minimal.truth_stride_frames);
-  EXPECT_EQ(init.fcl_stride_frames, minimal.fcl_stride_frames);
+  EXPECT_EQ(init.probe_stride("truth"), minimal.probe_stride("truth"));
+  EXPECT_EQ(init.probe_stride("fcl"), minimal.probe_stride("fcl"));
   EXPECT_EQ(init.device, minimal.device);
   EXPECT_EQ(init.driver.search_every_frames, minimal.driver.search_every_frames);
   EXPECT_EQ(init.driver.repetitions, minimal.driver.repetitions);

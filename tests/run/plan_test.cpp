@@ -23,15 +23,15 @@ TEST(Plan, FollowsTheExperiment) {
   const Plan full = make_plan(planned_shapes());
   EXPECT_TRUE(full.needs(Part::LOCAL_TRACKING));
   EXPECT_FALSE(full.needs(Part::SEARCH_PER_FRAME));
-  EXPECT_TRUE(full.needs(Part::TRUTH_PROBE));
-  EXPECT_TRUE(full.needs(Part::FCL));
+  EXPECT_TRUE(full.needs("truth probe"));
+  EXPECT_TRUE(full.needs("FCL cross-check"));
   EXPECT_FALSE(full.needs(Part::LMD_LISTS));
   const Plan bare = make_plan(planned_shapes({"/probes/truth/stride_frames=0", "/probes/fcl/stride_frames=0",
                                               R"(/methods=[{"name":"exhaustive","force_law":"linear"}])"}));
   EXPECT_FALSE(bare.needs(Part::LOCAL_TRACKING));
   EXPECT_TRUE(bare.needs(Part::SEARCH_PER_FRAME));
-  EXPECT_FALSE(bare.needs(Part::TRUTH_PROBE));
-  EXPECT_FALSE(bare.needs(Part::FCL));
+  EXPECT_FALSE(bare.needs("truth probe"));
+  EXPECT_FALSE(bare.needs("FCL cross-check"));
 }
 
 TEST(Plan, EveryPartSaysWhy) {

@@ -1,6 +1,5 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include <lmdbench/experiment/probed_frames.h>
 #include <lmdbench/methods/registry.h>
 #include <lmdbench/run/fcl_probe.h>
 #include <lmdbench/run/truth_probe.h>
@@ -129,7 +128,8 @@ TEST(FclProbe, AgreesOnSpheresAndComparesOnlyWhereItMeansSomething) {
   const LockstepInput input =
       approach({0.04, 0.06, -0.1, 0.01});  // within, beyond the cutoff, in contact, within
   const LockstepMethod improved{"improved", [scene] { return make_method("improved", scene); }, PROFILE};
-  const FclCheck check = probe_fcl(scene, input, {improved}, {0, 1, 2}, 1e-6, {});
+  const auto checked = probe_fcl(scene, input, {improved}, {0, 1, 2}, 1e-6, {});
+  const FclCheck& check = *checked;
   ASSERT_EQ(check.frames.size(), 3u);
   EXPECT_TRUE(check.exceptions.empty());
   for (const FclFrame& frame : check.frames) EXPECT_TRUE(frame.agrees) << frame.frame;
@@ -148,7 +148,8 @@ TEST(FclProbe, DisagreesBeyondTheTolerance) {
   const Scene scene = facing_spheres();
   LockstepInput input = approach({0.04, 0.03, 0.02});
   for (Pose& pose : input.poses) pose.rotation = Eigen::AngleAxisd(0.7, Vec3(1.0, 2.0, 3.0).normalized());
-  const FclCheck check = probe_fcl(scene, input, {}, {0, 1, 2}, 0.0, {});
+  const auto checked = probe_fcl(scene, input, {}, {0, 1, 2}, 0.0, {});
+  const FclCheck& check = *checked;
   std::size_t differing = 0;
   for (const FclFrame& frame : check.frames) {
     EXPECT_TRUE(frame.separated);
@@ -189,9 +190,11 @@ TEST(FclProbe, AFrameAtThePoseOfTheOneBeforeHasItsAnswers) {
   const Scene scene = facing_spheres();
   const LockstepInput input = approach({0.04, 0.04, 0.04, 0.03, 0.03});
   const LockstepMethod off{"off", [] { return std::make_unique<WrongMethod>(0.044); }, PROFILE};
-  const FclCheck reused = probe_fcl(scene, input, {off}, {0, 1, 2, 3, 4}, 1e-6, {});
-  const FclCheck fresh =
+  const auto reused_check = probe_fcl(scene, input, {off}, {0, 1, 2, 3, 4}, 1e-6, {});
+  const FclCheck& reused = *reused_check;
+  const auto fresh_check =
       probe_fcl(scene, input, {off}, {0, 1, 2, 3, 4}, 1e-6, {}, {.warm = true, .reuse_repeated = false});
+  const FclCheck& fresh = *fresh_check;
   ASSERT_EQ(reused.frames.size(), 5u);
   ASSERT_EQ(reused.exceptions.size(), 5u) << "the method is wrong in every frame";
   ASSERT_EQ(fresh.exceptions.size(), 5u);
@@ -227,7 +230,8 @@ TEST(FclProbe, ListsExceptionsWithTheirPoses) {
   const LockstepInput input = approach({0.04, 0.03});
   const LockstepMethod blind{"blind", [] { return std::make_unique<WrongMethod>(std::nan("")); }, PROFILE};
   const LockstepMethod off{"off", [] { return std::make_unique<WrongMethod>(0.044); }, PROFILE};
-  const FclCheck check = probe_fcl(scene, input, {blind, off}, {0}, 1e-6, {});
+  const auto checked = probe_fcl(scene, input, {blind, off}, {0}, 1e-6, {});
+  const FclCheck& check = *checked;
   EXPECT_EQ(check.frames[0].method_difference[0], std::numeric_limits<double>::infinity()) << "found no pair";
   EXPECT_NEAR(check.frames[0].method_difference[1], 0.1, 1e-6);
   ASSERT_EQ(check.exceptions.size(), 2u);

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/methods/exhaustive/exhaustive.h>
 #include <lmdbench/snch/hierarchy.h>
-#include <lmdbench/snch/leaf_cones.h>
 #include <lmdbench/snch/node_tests.h>
 
 #include <gtest/gtest.h>

@@ -56,7 +56,7 @@ TEST_F(LoadSweep, MakesEveryCombinationOfAxesAndKeepsPlacesOfOneAxisTogether) {
   EXPECT_EQ(second.driver.search_latency_frames, 40);
   ASSERT_EQ(second.methods.size(), 1u);
   EXPECT_EQ(second.methods[0].options["visibility"], "orthogonal");
-  EXPECT_EQ(second.truth_stride_frames, 0) << "truth is the sweep's own business";
+  EXPECT_EQ(second.probe_stride("truth"), 0) << "truth is the sweep's own business";
   EXPECT_EQ(sweep.points[0].scene, "shapes");
   EXPECT_EQ(sweep.from_frame, 40) << "the largest latency";
   EXPECT_EQ(sweep.points[4].experiment.methods[0].force_law, ForceLaw::LINEAR);

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/base/error.h>
 #include <lmdbench/base/file_descriptor.h>
-#include <lmdbench/base/file_lock.h>
 #include <lmdbench/sweep/sweep_parts.h>
 
 #include <fcntl.h>

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/snch/minimum_distance.h>
-#include <lmdbench/world/mesh_outline.h>
+#include <lmdbench/world/mesh_bounds.h>
 
 #include <gtest/gtest.h>
 #include <support/scenes.h>

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include <lmdbench/force/aggregate.h>
+#include <lmdbench/force/aggregation.h>
 
 #include <benchmarks/every_frame.h>
 #include <benchmarks/whole_frame/implementation.h>

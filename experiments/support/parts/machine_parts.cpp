@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/base/error.h>
-#include <lmdbench/catalogue/rounded_circle.h>
+#include <lmdbench/catalogue/shapes.h>
 #include <lmdbench/catalogue/sleeve.h>
 #include <lmdbench/mesh/triangle_mesh.h>
 

@@ -9,7 +9,7 @@
 
 /// Machine parts as exact meshes: plates with holes and slots, rings, gears, threads, ribs, shafts, and what goes into
 /// what. About a metre large, closed manifolds without T-junctions; the same bits on every processor. Coordinates are
-/// dyadic fractions or multiples of the sines of rounded_circle.h, so that faces square to the axes are flat to the bit.
+/// dyadic fractions or multiples of the sines of shapes.h, so that faces square to the axes are flat to the bit.
 namespace lmdbench::parts {
 
 struct Part {

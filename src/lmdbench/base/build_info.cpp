@@ -7,9 +7,9 @@
 #include <lmdbench_git_state.h>  // made by git_state.cmake at every build, changed only when git's state changes
 
 #include <algorithm>
+#include <system_error>
 
 namespace lmdbench {
-
 namespace {
 
 /// "assimp=5.2.5 fcl=0.7.0" as CMake found them.
@@ -56,6 +56,26 @@ std::string version_text() {
     libraries += fmt::format("{}{} {}", libraries.empty() ? "" : ", ", name, version);
   }
   return text + "libraries: " + libraries;
+}
+
+EnvironmentError missing_part(const OptionalPart& part, const std::string& file, const std::string& place,
+                              const std::string& what) {
+  return {
+      file, place, fmt::format("{} needs {}, which this build was made without", what, part.name),
+      fmt::format("apt-get install {}, then configure with -D{}=ON and build", part.package, part.option)};
+}
+
+std::filesystem::path data_folder_of(const std::filesystem::path& program) {
+  const std::filesystem::path share = std::filesystem::path("share") / "lmdbench";
+  std::error_code none;
+  for (const std::filesystem::path& prefix : {program.parent_path().parent_path(), program.parent_path()})
+    if (std::filesystem::is_directory(prefix / share, none)) return prefix / share;
+  return {};
+}
+
+std::filesystem::path data_folder() {
+  std::error_code none;
+  return data_folder_of(std::filesystem::read_symlink("/proc/self/exe", none));
 }
 
 }  // namespace lmdbench

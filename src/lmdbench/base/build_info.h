@@ -2,6 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <lmdbench/base/error.h>
+
+#include <filesystem>
 #include <string>
 #include <utility>
 #include <vector>
@@ -25,5 +28,32 @@ const BuildInfo& build_info();
 
 /// "lmdbench 0.1.0 (commit, dirty flag), compiler, flags, library versions": the text of `--version`.
 std::string version_text();
+
+/// A library that a build may do without (the options LMDBENCH_WITH_... of CMakeLists.txt).
+struct OptionalPart {
+  const char* name;     ///< "FCL"
+  const char* option;   ///< "LMDBENCH_WITH_FCL"
+  const char* package;  ///< Debian's: "libfcl-dev"
+};
+
+inline constexpr OptionalPart PART_FCL{"FCL", "LMDBENCH_WITH_FCL", "libfcl-dev"};
+inline constexpr OptionalPart PART_ASSIMP{"assimp", "LMDBENCH_WITH_ASSIMP", "libassimp-dev"};
+inline constexpr OptionalPart PART_HDF5{"HDF5", "LMDBENCH_WITH_HDF5",
+                                        "libhdf5-dev libboost-dev libxxhash-dev"};
+
+/// What this build lacks and somebody asks for: the message names the part, its package and its option.
+/// @param file,place where it is asked for; may be empty
+/// @param what       that needs it
+EnvironmentError missing_part(const OptionalPart& part, const std::string& file, const std::string& place,
+                              const std::string& what);
+
+/// Where the running program's data are: `share/lmdbench` beside the folder of an installed program (`bin/`), or beside
+/// the program itself in a build tree, where it is a link to the sources. It holds `scripts/`, `experiments/`, `meshes/`
+/// and `paths/`. Found from the place of the program, so that an installed tree may be moved.
+/// @return empty where there is no such folder
+std::filesystem::path data_folder();
+
+/// The same for a program at `program`.
+std::filesystem::path data_folder_of(const std::filesystem::path& program);
 
 }  // namespace lmdbench

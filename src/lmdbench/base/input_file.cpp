@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/base/error.h>
 #include <lmdbench/base/file_descriptor.h>
 #include <lmdbench/base/file_hash.h>
 #include <lmdbench/base/input_file.h>
@@ -10,8 +11,12 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
+#include <cmath>
+#include <cstdlib>
+#include <sstream>
 #include <string>
 #include <system_error>
 #include <vector>
@@ -117,6 +122,29 @@ FileContent read_input_file(const std::filesystem::path& file, const InputKind& 
   input.bytes.resize(length);
   input.sha256 = sha256_of_text(input.bytes);
   return input;
+}
+
+void for_each_number_line(
+    const std::string& text, const std::string& name, const std::string& remedy,
+    const std::function<void(const std::string& place, std::span<const double> numbers)>& use) {
+  std::istringstream lines(text);
+  std::vector<double> numbers;
+  std::size_t number = 0;
+  for (std::string line; std::getline(lines, line);) {
+    const std::string place = fmt::format("line {}", ++number);
+    line.resize(std::min(line.find('#'), line.size()));
+    std::replace(line.begin(), line.end(), ',', ' ');
+    std::istringstream words(line);
+    numbers.clear();
+    for (std::string word; words >> word;) {
+      char* end = nullptr;
+      const double value = std::strtod(word.c_str(), &end);
+      if (*end != '\0' || !std::isfinite(value))
+        throw InputError(name, place, fmt::format("\"{}\" is no finite number", word), remedy);
+      numbers.push_back(value);
+    }
+    if (!numbers.empty()) use(place, numbers);
+  }
 }
 
 }  // namespace lmdbench

@@ -7,6 +7,8 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
+#include <span>
 #include <string>
 
 namespace lmdbench {
@@ -34,5 +36,15 @@ void refuse_unless_regular(const std::filesystem::path& file, const InputKind& k
 /// symbolic links to regular files are followed.
 /// @throws InputError, or UsageError where the kind's code says so: no such file, no regular file, larger than the limit, unreadable
 FileContent read_input_file(const std::filesystem::path& file, const InputKind& kind);
+
+/// Goes through text whose lines hold numbers, separated by blanks or commas; `#` begins a comment. Lines without a number are left
+/// out.
+/// @param name for messages
+/// @param remedy what a line should hold, for messages
+/// @param use gets the place of a line, for messages ("line 7"), and its numbers
+/// @throws InputError naming the line of a word that is no finite number
+void for_each_number_line(
+    const std::string& text, const std::string& name, const std::string& remedy,
+    const std::function<void(const std::string& place, std::span<const double> numbers)>& use);
 
 }  // namespace lmdbench

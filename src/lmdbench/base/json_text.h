@@ -27,4 +27,9 @@ std::string json_line(const nlohmann::ordered_json& document);
 /// past an array's end, when the text is no UTF-8, or above a limit of `parse_json`
 void apply_override(nlohmann::json& document, const std::string& override_text);
 
+/// The line, counted from 1, in which the value at a JSON pointer begins; that of the nearest enclosing value
+/// that is there where it is not (a missing key).
+/// @param text that `parse_json` accepts
+int line_of(const std::string& text, const std::string& pointer);
+
 }  // namespace lmdbench

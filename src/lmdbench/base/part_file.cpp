@@ -3,7 +3,6 @@
 #include <lmdbench/base/atomic_file.h>
 #include <lmdbench/base/error.h>
 #include <lmdbench/base/file_descriptor.h>
-#include <lmdbench/base/file_lock.h>
 #include <lmdbench/base/output_guard.h>
 #include <lmdbench/base/part_file.h>
 

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 #include <poll.h>
 #include <spawn.h>
+#include <stdlib.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -18,9 +19,9 @@
 #include <functional>
 #include <optional>
 #include <string_view>
+#include <system_error>
 
 namespace lmdbench {
-
 namespace {
 
 class FileActions {
@@ -169,6 +170,20 @@ ProgramOutcome run_program_to_file(const std::vector<std::string>& argv,
   if (!target.close()) fail();
   outcome.exit_status = program.wait();
   return outcome;
+}
+
+TemporaryFolder::TemporaryFolder(const std::filesystem::path& parent, const std::string& prefix) {
+  std::string name = (parent / (prefix + "XXXXXX")).string();
+  if (::mkdtemp(name.data()) == nullptr)
+    throw EnvironmentError(parent.string(), "",
+                           fmt::format("no folder can be made: {}", std::strerror(errno)),
+                           "check the disk space and the permissions");
+  path_ = name;
+}
+
+TemporaryFolder::~TemporaryFolder() {
+  std::error_code ignored;
+  std::filesystem::remove_all(path_, ignored);
 }
 
 }  // namespace lmdbench

@@ -29,4 +29,21 @@ ProgramOutcome run_program_to_file(const std::vector<std::string>& argv,
                                    const std::filesystem::path& working_folder, const std::string& remedy,
                                    const std::filesystem::path& file, std::int64_t most_bytes);
 
+/// A new folder that only this program's user can read, removed with all it holds at the end of its scope.
+class TemporaryFolder {
+ public:
+  /// @param parent where it is made: beside a final place, so that files can be renamed, or the system's temporary folder
+  /// @param prefix how its name begins
+  /// @throws EnvironmentError when it cannot be made
+  TemporaryFolder(const std::filesystem::path& parent, const std::string& prefix);
+  ~TemporaryFolder();
+  TemporaryFolder(const TemporaryFolder&) = delete;
+  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+
+  const std::filesystem::path& path() const { return path_; }
+
+ private:
+  std::filesystem::path path_;
+};
+
 }  // namespace lmdbench

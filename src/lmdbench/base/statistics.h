@@ -2,6 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <array>
+#include <charconv>
+#include <random>
 #include <vector>
 
 namespace lmdbench {
@@ -22,5 +25,23 @@ double mean(const std::vector<double>& values);
 
 /// Largest of the values that are set; NaN when none is.
 double maximum(const std::vector<double>& values);
+
+/// Uniform in [0, 1), multiples of 2^-53: the generator's upper 53 bits, as many as a double holds. The same number with every standard
+/// library; the standard's distributions are not specified to the bit.
+inline double uniform_number(std::mt19937_64& generator) {
+  return static_cast<double>(generator() >> 11U) * 0x1p-53;
+}
+
+/// The number nearest to a value that can be written in so many decimal digits, so that files and messages hold what one can
+/// say. The value itself where there is none, next to the ends of the range.
+/// @param digits 1 to 17
+inline double to_significant_digits(double value, int digits) {
+  std::array<char, 32> text{};
+  const auto written =
+      std::to_chars(text.data(), text.data() + text.size(), value, std::chars_format::scientific, digits - 1);
+  double result = value;
+  std::from_chars(text.data(), written.ptr, result);
+  return result;
+}
 
 }  // namespace lmdbench

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include <lmdbench/base/uniform_number.h>
+#include <lmdbench/base/statistics.h>
 #include <lmdbench/catalogue/deformation.h>
-#include <lmdbench/catalogue/rounded_circle.h>
+#include <lmdbench/catalogue/shapes.h>
 
 #include <algorithm>
 #include <array>

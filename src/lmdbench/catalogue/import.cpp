@@ -4,7 +4,6 @@
 #include <lmdbench/catalogue/assimp_reader.h>
 #include <lmdbench/catalogue/import.h>
 #include <lmdbench/catalogue/mesh_limits.h>
-#include <lmdbench/catalogue/obj_check.h>
 #include <lmdbench/catalogue/off_file.h>
 #include <lmdbench/catalogue/ply_check.h>
 #include <lmdbench/mesh/placement.h>

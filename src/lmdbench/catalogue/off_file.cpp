@@ -4,9 +4,9 @@
 #include <lmdbench/base/error.h>
 #include <lmdbench/base/input_file.h>
 #include <lmdbench/base/limits.h>
-#include <lmdbench/catalogue/cut_short.h>
 #include <lmdbench/catalogue/line_reader.h>
 #include <lmdbench/catalogue/off_file.h>
+#include <lmdbench/catalogue/ply_check.h>
 
 #include <fmt/format.h>
 

@@ -1,10 +1,6 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include <lmdbench/cli/anatomy_command.h>
 #include <lmdbench/cli/commands.h>
-#include <lmdbench/cli/export_command.h>
-#include <lmdbench/cli/mesh_command.h>
-#include <lmdbench/cli/path_command.h>
 
 namespace lmdbench {
 

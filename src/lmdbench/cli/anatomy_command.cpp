@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/base/error.h>
-#include <lmdbench/cli/anatomy_command.h>
+#include <lmdbench/cli/commands.h>
 #include <lmdbench/experiment/experiment.h>
 #include <lmdbench/run/contact.h>
 #include <lmdbench/run/prepare.h>

@@ -4,7 +4,6 @@
 #include <lmdbench/base/limits.h>
 #include <lmdbench/cli/app.h>
 #include <lmdbench/cli/commands.h>
-#include <lmdbench/cli/talk.h>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>

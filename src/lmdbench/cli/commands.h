@@ -30,5 +30,31 @@ void add_stability_command(CLI::App& app, int& exit_status);
 void add_record_command(CLI::App& app);
 void add_report_command(CLI::App& app);
 void add_work_precision_command(CLI::App& app, const std::vector<std::string>& argv);
+void add_anatomy_command(CLI::App& app);
+void add_export_command(CLI::App& app);
+/// `lmdbench mesh info MESH... [--json]` and `lmdbench mesh build [NAME...] [--json]`.
+void add_mesh_command(CLI::App& app);
+/// `lmdbench path generate SPEC.json --out FILE.tum [--json]` and
+/// `lmdbench path info FILE.tum [--spec SPEC.json] [--rate HZ] [--json]`.
+void add_path_command(CLI::App& app);
+
+/// What the program says beside its results: spdlog on standard error.
+/// @param verbosity 0 is normal (information), negative is quiet (errors only from -1 on), positive tells
+/// details. Colours are used on terminals only, and never where NO_COLOR is set (no-color.org).
+void set_up_talk(int verbosity);
+
+/// Whether a progress bar is welcome: not when quiet.
+bool progress_welcome();
+
+/// For commands that put their work into order first: from now on the first of the signals that users, terminals and
+/// schedulers send to end a program (SIGINT, SIGTERM and SIGHUP) is only remembered; a second one ends the program at once. What `nohup`
+/// has set to be ignored stays ignored.
+void heed_stop_signals();
+
+/// Whether one has come.
+bool stop_requested();
+
+/// Ends the program by the signal that came, so that a calling shell or script sees the interruption, too.
+void end_by_the_signal();
 
 }  // namespace lmdbench

@@ -4,7 +4,6 @@
 #include <lmdbench/base/error.h>
 #include <lmdbench/cli/commands.h>
 #include <lmdbench/comparison/compare.h>
-#include <lmdbench/comparison/comparison_json.h>
 #include <lmdbench/comparison/comparison_text.h>
 
 #include <CLI/CLI.hpp>

@@ -3,7 +3,6 @@
 #include <lmdbench/base/error.h>
 #include <lmdbench/cli/commands.h>
 #include <lmdbench/comparison/machine_health.h>
-#include <lmdbench/comparison/noise_floor.h>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>

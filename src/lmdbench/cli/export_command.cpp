@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include <lmdbench/cli/export_command.h>
+#include <lmdbench/cli/commands.h>
 #include <lmdbench/view/export_frames.h>
 
 #include <CLI/CLI.hpp>

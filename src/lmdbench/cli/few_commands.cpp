@@ -1,10 +1,8 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
 // In place of all_commands.cpp in a build without HDF5 (LMDBENCH_WITH_HDF5).
-#include <lmdbench/base/missing_part.h>
+#include <lmdbench/base/build_info.h>
 #include <lmdbench/cli/commands.h>
-#include <lmdbench/cli/mesh_command.h>
-#include <lmdbench/cli/path_command.h>
 
 #include <CLI/CLI.hpp>
 

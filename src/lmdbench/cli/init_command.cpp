@@ -3,7 +3,6 @@
 #include <lmdbench/catalogue/manifest.h>
 #include <lmdbench/cli/commands.h>
 #include <lmdbench/cli/progress_bar.h>
-#include <lmdbench/cli/talk.h>
 #include <lmdbench/run/new_experiment.h>
 
 #include <CLI/CLI.hpp>

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/base/error.h>
 #include <lmdbench/cli/app.h>
-#include <lmdbench/cli/talk.h>
+#include <lmdbench/cli/commands.h>
 
 #include <CLI/CLI.hpp>
 #include <spdlog/spdlog.h>

@@ -5,7 +5,7 @@
 #include <lmdbench/base/printable_text.h>
 #include <lmdbench/catalogue/build_mesh.h>
 #include <lmdbench/catalogue/manifest.h>
-#include <lmdbench/cli/mesh_command.h>
+#include <lmdbench/cli/commands.h>
 #include <lmdbench/mesh/flatten.h>
 #include <lmdbench/mesh/self_intersections.h>
 #include <lmdbench/mesh/surface.h>

@@ -6,9 +6,8 @@
 #include <lmdbench/base/limits.h>
 #include <lmdbench/base/output_guard.h>
 #include <lmdbench/catalogue/manifest.h>
-#include <lmdbench/cli/path_command.h>
+#include <lmdbench/cli/commands.h>
 #include <lmdbench/cli/progress_bar.h>
-#include <lmdbench/cli/talk.h>
 #include <lmdbench/mesh/placement.h>
 #include <lmdbench/motion/generate.h>
 #include <lmdbench/motion/interpolate.h>

@@ -3,15 +3,13 @@
 #include <lmdbench/base/error.h>
 #include <lmdbench/cli/commands.h>
 #include <lmdbench/cli/progress_bar.h>
-#include <lmdbench/cli/talk.h>
 #include <lmdbench/experiment/experiment.h>
-#include <lmdbench/experiment/schema.h>
 #include <lmdbench/methods/registry.h>
-#include <lmdbench/run/deforming_distance.h>
-#include <lmdbench/run/expected_times.h>
+#include <lmdbench/run/contact.h>
 #include <lmdbench/run/mover_probe.h>
 #include <lmdbench/run/plan.h>
 #include <lmdbench/run/prepare.h>
+#include <lmdbench/run/scene_look.h>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -62,8 +60,7 @@ void add_plan_command(CLI::App& app) {
             ? frames_in_contact(*prepared.input.movers, prepared.scene().cutoff)
             : frames_in_contact(prepared.scene(), prepared.input.deformation, prepared.input.poses);
     plan.scene = look_at(experiment, prepared, in_contact);
-    plan.rules =
-        decide_rules({experiment, prepared.input.poses, in_contact, truth_frames(experiment, prepared)});
+    plan.rules = decide_rules({experiment, prepared.input.poses, in_contact});
     plan.scene->times = expected_times(experiment, prepared);
     bar.wipe();
     if (options->json)

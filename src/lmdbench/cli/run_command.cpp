@@ -3,13 +3,11 @@
 #include <lmdbench/base/error.h>
 #include <lmdbench/cli/commands.h>
 #include <lmdbench/cli/progress_bar.h>
-#include <lmdbench/cli/stop_signals.h>
-#include <lmdbench/cli/talk.h>
 #include <lmdbench/experiment/experiment.h>
 #include <lmdbench/methods/registry.h>
 #include <lmdbench/metrics/summary.h>
 #include <lmdbench/result/run_to_file.h>
-#include <lmdbench/result/write_realtime.h>
+#include <lmdbench/result/write_result.h>
 #include <lmdbench/run/run.h>
 
 #include <CLI/CLI.hpp>
@@ -63,8 +61,8 @@ void run_to_file(const RunOptions& options, const std::vector<std::string>& argv
     if (options.json)
       for (const std::string& warning : summary.warnings) spdlog::warn("{}", warning);
     for (const Track& track : result.tracks) {
-      if (!track.fcl) continue;
-      for (const FclException& e : track.fcl->exceptions)
+      if (track.fcl() == nullptr) continue;
+      for (const FclException& e : track.fcl()->exceptions)
         spdlog::debug(
             "frame {}: {} {:.17g} m, FCL {:.17g} m, exact {:.17g} m; position {:.17g} {:.17g} {:.17g}, "
             "orientation xyzw {:.17g} {:.17g} {:.17g} {:.17g}; FCL's triangles {} and {} of fixed mesh {}",

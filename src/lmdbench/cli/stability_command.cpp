@@ -3,7 +3,6 @@
 #include <lmdbench/base/error.h>
 #include <lmdbench/cli/commands.h>
 #include <lmdbench/cli/progress_bar.h>
-#include <lmdbench/cli/talk.h>
 #include <lmdbench/stability/stability_search.h>
 
 #include <CLI/CLI.hpp>

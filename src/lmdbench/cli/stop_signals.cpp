@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include <lmdbench/cli/stop_signals.h>
+#include <lmdbench/cli/commands.h>
 
 #include <array>
 #include <csignal>

@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/cli/commands.h>
 #include <lmdbench/cli/progress_bar.h>
-#include <lmdbench/cli/stop_signals.h>
-#include <lmdbench/cli/talk.h>
 #include <lmdbench/sweep/run_sweep.h>
 #include <lmdbench/sweep/sweep_parts.h>
 #include <lmdbench/sweep/write_sweep.h>

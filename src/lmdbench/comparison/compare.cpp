@@ -6,8 +6,7 @@
 #include <lmdbench/comparison/compare.h>
 #include <lmdbench/comparison/comparison_text.h>
 #include <lmdbench/comparison/experiment_differences.h>
-#include <lmdbench/comparison/machine_differences.h>
-#include <lmdbench/comparison/work_of_stage.h>
+#include <lmdbench/comparison/stage_times.h>
 
 #include <fmt/format.h>
 

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <lmdbench/comparison/difference.h>
 #include <lmdbench/comparison/exact_differences.h>
 #include <lmdbench/comparison/stage_times.h>
 #include <lmdbench/comparison/timing_verdict.h>

@@ -5,8 +5,161 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <string_view>
 
 namespace lmdbench {
+namespace {
+
+nlohmann::ordered_json facts_json(const std::vector<std::pair<std::string, std::string>>& facts) {
+  nlohmann::ordered_json json = nlohmann::ordered_json::object();
+  for (const auto& [name, value] : facts) json[name] = value;
+  return json;
+}
+
+template <typename Value>
+nlohmann::ordered_json or_null(const std::optional<Value>& value) {
+  return value ? nlohmann::ordered_json(*value) : nlohmann::ordered_json(nullptr);
+}
+
+nlohmann::ordered_json finite_or_null(double value) {
+  return std::isfinite(value) ? nlohmann::ordered_json(value) : nlohmann::ordered_json(nullptr);
+}
+
+std::string xml_escaped(std::string_view text) {
+  std::string escaped;
+  for (const char c : text) {
+    switch (c) {
+      case '&':
+        escaped += "&amp;";
+        break;
+      case '<':
+        escaped += "&lt;";
+        break;
+      case '>':
+        escaped += "&gt;";
+        break;
+      case '"':
+        escaped += "&quot;";
+        break;
+      default:
+        escaped += c;
+    }
+  }
+  return escaped;
+}
+
+std::string number_of(const std::vector<std::pair<std::string, std::string>>& facts, std::string_view name) {
+  const auto found =
+      std::find_if(facts.begin(), facts.end(), [&](const auto& fact) { return fact.first == name; });
+  return found == facts.end() ? "" : found->second;
+}
+
+/// 0 where the text is no number.
+double as_number(const std::string& text) {
+  try {
+    return std::stod(text);
+  } catch (const std::exception&) {
+    return 0.0;
+  }
+}
+
+}  // namespace
+
+std::string comparison_json(const Comparison& comparison) {
+  nlohmann::ordered_json json{{"verdict", verdict_name(comparison.verdict)},
+                              {"differences", nlohmann::ordered_json::array()},
+                              {"timings", nlohmann::ordered_json::array()}};
+  for (const Difference& d : comparison.differences)
+    json["differences"].push_back(
+        {{"method", d.method.empty() ? nlohmann::ordered_json(nullptr) : nlohmann::ordered_json(d.method)},
+         {"dataset", d.dataset},
+         {"frame", or_null(d.frame)},
+         {"base", d.base},
+         {"candidate", d.candidate}});
+  for (const Timing& t : comparison.timings)
+    json["timings"].push_back({{"method", t.method},
+                               {"stage", t.stage},
+                               {"ratio", t.estimate.ratio},
+                               {"low", finite_or_null(t.estimate.has_interval() ? t.estimate.low : NAN)},
+                               {"high", finite_or_null(t.estimate.high)},
+                               {"verdict", verdict_name(t.verdict)},
+                               {"detectable", finite_or_null(t.estimate.detectable)}});
+  const MachineComparison& machine = comparison.machine;
+  json["machine"] = {{"comparable", machine.comparable},
+                     {"reasons", machine.reasons},
+                     {"build_notes", machine.build_notes},
+                     {"base", facts_json(machine.base)},
+                     {"candidate", facts_json(machine.candidate)}};
+  // Texts of a foreign file need not be UTF-8.
+  return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
+}
+
+std::string google_benchmark_json(const std::vector<StageTimes>& processes,
+                                  const std::vector<std::pair<std::string, std::string>>& machine) {
+  constexpr double NANOSECONDS = 1e9;
+  nlohmann::ordered_json json;
+  json["context"] = {{"executable", "lmdbench"},
+                     {"num_cpus", static_cast<int>(as_number(number_of(machine, "logical_processors")))},
+                     {"mhz_per_cpu", 0},
+                     {"cpu_scaling_enabled", number_of(machine, "frequency_governor") != "performance"},
+                     {"caches", nlohmann::ordered_json::array()},
+                     {"load_avg", {as_number(number_of(machine, "load_average_1_minute"))}},
+                     {"library_build_type", "release"}};
+  json["benchmarks"] = nlohmann::ordered_json::array();
+  for (std::size_t i = 0; i < processes.size(); ++i) {
+    for (const auto& [method, times] : processes[i]) {
+      for (const TimedStage& stage : stages()) {
+        const auto found = times.find(std::string(stage.name));
+        if (found == times.end()) continue;
+        std::string name = method + "/" + found->first;
+        std::replace(name.begin(), name.end(), ' ', '_');
+        json["benchmarks"].push_back({{"name", name},
+                                      {"run_name", name},
+                                      {"run_type", "iteration"},
+                                      {"repetitions", processes.size()},
+                                      {"repetition_index", i},
+                                      {"threads", 1},
+                                      {"iterations", 1},
+                                      {"real_time", found->second * NANOSECONDS},
+                                      {"cpu_time", found->second * NANOSECONDS},
+                                      {"time_unit", "ns"}});
+      }
+    }
+  }
+  return json.dump(2);
+}
+
+std::string comparison_junit(const Comparison& comparison) {
+  std::string cases;
+  std::size_t failures = 0, skipped = 0;
+  const auto add = [&](const std::string& group, const std::string& name, Verdict verdict,
+                       const std::string& message) {
+    cases += fmt::format("  <testcase classname=\"lmdbench.compare.{}\" name=\"{}\">", xml_escaped(group),
+                         xml_escaped(name));
+    if (verdict == Verdict::SLOWER || verdict == Verdict::CHANGED) {
+      ++failures;
+      cases +=
+          fmt::format("<failure type=\"{}\" message=\"{}\"/>", verdict_name(verdict), xml_escaped(message));
+    } else if (verdict == Verdict::UNSURE) {
+      ++skipped;
+      cases += fmt::format("<skipped message=\"{}\"/>", xml_escaped(message));
+    }
+    cases += "</testcase>\n";
+  };
+  std::string changes;
+  for (const Difference& difference : comparison.differences) changes += difference_text(difference) + "; ";
+  add("results", "forces, LMD sets and counters",
+      comparison.differences.empty() ? Verdict::SAME : Verdict::CHANGED, changes);
+  for (const Timing& timing : comparison.timings)
+    add(timing.method, timing.stage, timing.verdict, timing_text(timing));
+  return fmt::format(
+      "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuite name=\"lmdbench compare\" tests=\"{}\" "
+      "failures=\"{}\" "
+      "skipped=\"{}\" errors=\"0\">\n{}</testsuite>\n",
+      comparison.timings.size() + 1, failures, skipped, cases);
+}
+
 namespace {
 
 /// Values in full precision; long rows are cut.

@@ -8,6 +8,23 @@
 
 namespace lmdbench {
 
+/// {"verdict": "same|faster|slower|changed|unsure",
+///  "differences": [{"method", "dataset", "frame", "base", "candidate"}],
+///  "timings": [{"method", "stage", "ratio", "low", "high", "verdict", "detectable"}],
+///  "machine": {"comparable", "reasons", "build_notes", "base", "candidate"}}
+/// "method" is null for what belongs to none, "frame" where a whole dataset differs; NaN is null.
+std::string comparison_json(const Comparison& comparison);
+
+/// One side's times in Google Benchmark's format, which compare.py of libbenchmark-tools, github-action-benchmark and
+/// Bencher read: a benchmark a method and stage, a repetition a process, real time [ns] of the whole path.
+/// @param machine facts of the side, for the context
+std::string google_benchmark_json(const std::vector<StageTimes>& processes,
+                                  const std::vector<std::pair<std::string, std::string>>& machine);
+
+/// JUnit XML, a test case a method and stage and one for the exact part: slower and changed are failures, unsure is
+/// skipped, so that CI servers show them with their reasons.
+std::string comparison_junit(const Comparison& comparison);
+
 /// For people, as plain text; the first line is the verdict.
 std::string comparison_text(const Comparison& comparison);
 

@@ -2,13 +2,49 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <lmdbench/comparison/difference.h>
-#include <lmdbench/record/result_reader.h>
+#include <lmdbench/result_file/result_reader.h>
 
+#include <nlohmann/json.hpp>
+
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <optional>
 #include <string>
+#include <tuple>
 #include <vector>
 
 namespace lmdbench {
+
+/// A place where two results that should be the same are not: the first row of one dataset that differs.
+struct Difference {
+  std::string method;  ///< Label; empty for what belongs to no method (experiment, inputs, truth)
+  std::string
+      dataset;  ///< Path inside the method's group, "force" or "counters/node_pairs"; else an absolute path
+  std::optional<std::int64_t> frame;  ///< Haptic frame; unset where the whole dataset or attribute differs
+  nlohmann::json base;  ///< Value there: number, text or row of numbers; null for NaN and for "absent"
+  nlohmann::json candidate;
+  std::size_t rows = 0;  ///< Rows of the dataset that differ, this one included; 0 where there are no rows
+};
+
+/// The order of reports: what belongs to no method, then by frame, so that the first entry is nearest to the cause;
+/// whole datasets last.
+inline bool reported_before(const Difference& a, const Difference& b) {
+  const auto key = [](const Difference& d) {
+    return std::tuple(!d.method.empty(), d.frame.value_or(std::numeric_limits<std::int64_t>::max()), d.method,
+                      d.dataset);
+  };
+  return key(a) < key(b);
+}
+
+/// The haptic frame that a row of a dataset belongs to, by the datasets that say so (results/README.md): `frame` or
+/// `frame_offset` of the dataset's own group, `global_frame` of the method for what has one row a search, and the row
+/// itself for what has one row a frame.
+/// @param group   "/methods/improved", or "/reference"
+/// @param dataset path inside the group
+/// @return unset where the file does not tell
+std::optional<std::int64_t> frame_of_row(const ResultReader& file, const std::string& group,
+                                         const std::string& dataset, std::size_t row);
 
 struct ExactOptions {
   /// Real numbers may differ by this share of the largest magnitude in their row; 0: the same bits. NaN equals NaN.

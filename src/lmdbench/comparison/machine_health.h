@@ -2,13 +2,37 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstddef>
 #include <map>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
-/// What makes timings on this machine unreliable, and what to do about it.
 namespace lmdbench {
+
+/// How repeatable a fixed piece of work is on this machine at this moment.
+struct NoiseFloor {
+  double seconds = 0.0;         ///< That the measurement took
+  double piece_seconds = 0.0;   ///< Least time of one piece of work
+  double typical_excess = 0.0;  ///< Median piece over the least one, less 1
+  double slow_excess = 0.0;     ///< 99 % of the pieces are below this, likewise
+  /// Standard deviation of the logarithm of what `stage_times` makes of one process: what is left of the noise where
+  /// every frame counts with the least time of its repetitions. Effects of memory layout are not in it.
+  double spread = 0.0;
+  double detectable =
+      0.0;  ///< Smallest change that `processes` processes a side would show; NaN if too little was measured
+  std::size_t processes = 0;
+};
+
+/// The pieces of one measurement in the order in which they were run: groups of `repetitions` times `pieces`.
+/// @param times (group, repetition, piece), row-major [s]; at least two groups
+NoiseFloor summarise_noise(std::span<const double> times, std::size_t repetitions, std::size_t pieces);
+
+/// Runs pieces of a fixed computation for about `seconds`; nothing of lmdbench's own, so that its changes do not move it.
+NoiseFloor measure_noise_floor(double seconds);
+
+/// What makes timings on this machine unreliable, and what to do about it.
 
 enum class Health {
   GOOD,

@@ -5,8 +5,36 @@
 #include <cstddef>
 #include <limits>
 #include <span>
+#include <vector>
 
 namespace lmdbench {
+
+/// All differences candidate - base, sorted: the pairings of Mann and Whitney's two-sample rank test (1947). Their median
+/// is the shift of Hodges and Lehmann (1963), and the test's acceptance region cuts an exact interval out of them (Moses
+/// 1965). Nothing is assumed of the distribution but that it is the same on both sides up to the shift, so a process that
+/// a neighbour held up moves the interval by one place only, however long it was held up.
+class Pairings {
+ public:
+  /// Both samples have at least one value, all finite.
+  Pairings(std::span<const double> base, std::span<const double> candidate);
+
+  double shift() const;  ///< Their median
+
+  /// The true shift lies below it with a probability of at most the error whose `rank_bound` is given: the `bound`-th
+  /// smallest pairing. Ties widen nothing and break nothing: the probability only falls.
+  double low(std::size_t bound) const;
+  /// Likewise above it: the `bound`-th largest.
+  double high(std::size_t bound) const;
+
+ private:
+  std::vector<double> sorted_;
+};
+
+/// Largest k such that, of `base` x `candidate` pairings of samples from one source, fewer than k are negative with a
+/// probability of at most `error`; exact, by counting the orders of the pooled values. 0 where so few processes cannot
+/// reach the error: then even pairings that all agree are too likely.
+/// @param error in (0, 0.5)
+std::size_t rank_bound(std::size_t base, std::size_t candidate, double error);
 
 /// By how much a candidate's times differ from a base's, from one time a process.
 struct RatioEstimate {
@@ -30,7 +58,7 @@ struct RatioEstimate {
 /// needs no share for every stage, since all stages must be within the least effect and the slow one alone would have to
 /// fail.
 inline constexpr double INTERVAL_ERROR = 0.05;
-/// Intervals of the exact rank test (`rank_interval.h`), so their errors are known without any assumption about the noise
+/// Intervals of the exact rank test (`ratio_estimate.h`), so their errors are known without any assumption about the noise
 /// but that it is alike on both sides.
 /// @param base  one time a process [s], at least one, all positive; likewise candidate
 /// @param error probability of a false alarm on either side, in (0, 0.5)

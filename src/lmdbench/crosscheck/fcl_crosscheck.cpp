@@ -153,6 +153,11 @@ FclCrosscheck::FclCrosscheck(const Surface& moving, const std::vector<const Surf
                              FclScaling scaling)
     : implementation_(std::make_unique<Implementation>(moving, fixed, scaling)) {}
 FclCrosscheck::~FclCrosscheck() = default;
+
+bool FclCrosscheck::is_built_in() {
+  return true;
+}
+
 FclCrosscheck::FclCrosscheck(FclCrosscheck&& other) noexcept = default;
 FclCrosscheck& FclCrosscheck::operator=(FclCrosscheck&& other) noexcept = default;
 

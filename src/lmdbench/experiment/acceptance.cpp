@@ -37,10 +37,10 @@ Acceptance read_acceptance(const nlohmann::json& entry, const Experiment& experi
   const char* const unprobed = acceptance.recall          ? "recall"
                                : acceptance.force_error_n ? "force_error_n"
                                                           : nullptr;
-  if (unprobed != nullptr && experiment.truth_stride_frames == 0)
+  if (unprobed != nullptr && experiment.probe_stride("truth") == 0)
     throw UsageError(file, fmt::format("/limits/{}", unprobed), "is not measured: the truth probe is off",
                      "set /probes/truth/stride_frames above 0");
-  if (acceptance.fcl_disagreements && experiment.fcl_stride_frames == 0)
+  if (acceptance.fcl_disagreements && experiment.probe_stride("fcl") == 0)
     throw UsageError(file, "/limits/fcl_disagreements", "are not measured: the FCL cross-check is off",
                      "set /probes/fcl/stride_frames above 0");
   return acceptance;

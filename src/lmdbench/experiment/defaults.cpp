@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include <lmdbench/base/significant_digits.h>
+#include <lmdbench/base/statistics.h>
 #include <lmdbench/experiment/defaults.h>
-#include <lmdbench/experiment/fcl_part.h>
+#include <lmdbench/experiment/probe.h>
 #include <lmdbench/lmd/scene.h>
 #include <lmdbench/mesh/triangle_mesh.h>
 #include <lmdbench/methods/registry.h>
@@ -22,9 +22,6 @@ namespace {
 using Json = nlohmann::json;
 
 constexpr const char* USUAL_DEVICE = "phantom-desktop";
-/// Frames between two looks at the truth and at FCL, where the file says nothing of probes.
-constexpr int FIRST_TRUTH_STRIDE = 20;
-constexpr int FIRST_FCL_STRIDE = 50;
 /// For a device without a limit [N].
 constexpr double USUAL_FORCE = 1.0;
 
@@ -85,8 +82,9 @@ std::vector<DefaultNote> add_file_defaults(Json& document, const std::filesystem
   add_force(document, notes);
   // The schema's own defaults are for files that say more; one without path and probes is a first look at two meshes.
   if (!document.contains("probes") && !document.contains("path"))
-    document["probes"] = {{"truth", {{"stride_frames", FIRST_TRUTH_STRIDE}}},
-                          {"fcl", {{"stride_frames", has_fcl() ? FIRST_FCL_STRIDE : 0}}}};
+    for (const Probe& probe : probes())
+      if (probe.parent == "/probes")
+        document["probes"][probe.name] = {{"stride_frames", probe.first_stride_frames}};
   return notes;
 }
 

@@ -7,6 +7,7 @@
 #include <lmdbench/experiment/instance_choice.h>
 #include <lmdbench/experiment/loop_choice.h>
 #include <lmdbench/experiment/mesh_deformation.h>
+#include <lmdbench/experiment/probe.h>
 #include <lmdbench/experiment/realtime_choice.h>
 #include <lmdbench/experiment/rules.h>
 #include <lmdbench/force/force_law.h>
@@ -23,8 +24,11 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
+#include <map>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 /// An experiment file after checking, with every default filled in (schema: experiments/schema).
@@ -121,17 +125,19 @@ struct Experiment {
   std::optional<RealtimeChoice> realtime;  ///< Set: the driver is `realtime_driver.h`'s, not lockstep's.
   std::string device;
   LoopChoice loop;
-  std::int64_t truth_stride_frames = 0;  ///< 0: no truth probe.
-  std::int64_t fcl_stride_frames = 0;    ///< 0: no cross-check.
-  double fcl_tolerance_relative = 0.0;
+  std::map<std::string, ProbeChoice, std::less<>> probes;  ///< By name.
   bool record_frames = true;    ///< Every frame's and search's numbers, without counters and times.
   bool record_counters = true;  ///< Every frame's and search's work counters.
   bool record_timings = true;   ///< Every time of every repetition.
   bool record_lmds = false;
-  std::int64_t polyline_stride_frames = 0;  ///< 0: no intersection polylines.
   bool record_torque = false;
   RuleSwitches rules{};
   Acceptance acceptance;
+  /// Frames between two looks of a probe; 0: it is left out.
+  std::int64_t probe_stride(std::string_view name) const {
+    const auto found = probes.find(name);
+    return found == probes.end() ? 0 : found->second.stride_frames;
+  }
   /// Whether fixed meshes are instances (lmd/scene.h).
   bool is_world() const {
     return std::any_of(fixed.begin(), fixed.end(),
@@ -172,5 +178,9 @@ void check_movers(const Experiment& experiment);
 /// @throws UsageError naming the profile, where one has an aggregation that needs critical pairs
 void refuse_critical_pairs(const Experiment& experiment, const std::string& file, const std::string& problem,
                            const std::string& remedy);
+
+/// The JSON Schema (draft 07) of experiment files: experiments/schema/experiment.schema.json, with the names
+/// and options of the methods of this build.
+const nlohmann::json& experiment_schema();
 
 }  // namespace lmdbench

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/base/error.h>
 #include <lmdbench/base/input_file.h>
-#include <lmdbench/base/number_lines.h>
 #include <lmdbench/experiment/instance_choice.h>
 #include <lmdbench/motion/tum_file.h>
 

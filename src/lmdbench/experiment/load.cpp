@@ -5,8 +5,6 @@
 #include <lmdbench/base/json_document.h>
 #include <lmdbench/base/json_schema.h>
 #include <lmdbench/experiment/experiment.h>
-#include <lmdbench/experiment/fcl_part.h>
-#include <lmdbench/experiment/schema.h>
 #include <lmdbench/force/aggregation.h>
 #include <lmdbench/methods/registry.h>
 #include <lmdbench/motion/tum_file.h>
@@ -247,11 +245,7 @@ Experiment from_json(Json document, const std::filesystem::path& path) {
     experiment.driver.search_latency_frames = 0;
   }
   experiment.loop = loop_choice(document["loop"], device, file);
-  const Json& probes = document["probes"];
-  experiment.truth_stride_frames = probes["truth"]["stride_frames"].get<std::int64_t>();
-  experiment.fcl_stride_frames = probes["fcl"]["stride_frames"].get<std::int64_t>();
-  if (experiment.fcl_stride_frames > 0) require_fcl(file, "/probes/fcl/stride_frames");
-  experiment.fcl_tolerance_relative = probes["fcl"]["tolerance_relative"].get<double>();
+  read_probes(experiment, document);
   experiment.acceptance = read_acceptance(document["limits"], experiment, file);
   experiment.rules = read_rule_switches(document["plan"]);
   experiment.record_frames = document["record"]["frames"].get<bool>();
@@ -259,10 +253,6 @@ Experiment from_json(Json document, const std::filesystem::path& path) {
   experiment.record_timings = document["record"]["timings"].get<bool>();
   experiment.record_torque = document["record"]["torque"].get<bool>();
   experiment.record_lmds = document["record"]["lmds"].get<bool>();
-  experiment.polyline_stride_frames = document["record"]["polylines"]["stride_frames"].get<std::int64_t>();
-  if (experiment.is_world() && experiment.polyline_stride_frames > 0)
-    throw UsageError(file, "/record/polylines/stride_frames", "polylines are not traced among instances",
-                     "set it to 0, or list the fixed meshes without \"instances\"");
   if (experiment.is_world() && experiment.path_file.empty())
     throw UsageError(file, "/path/file", "no path is made among instances", "name a path (paths/README.md)");
   check_deformations(experiment, file);
@@ -283,6 +273,34 @@ void refuse_deformation(const Experiment& experiment) {
   throw UsageError(experiment.file.string(), first_deformation(experiment).place,
                    "the mesh deforms, and this looks at meshes at rest",
                    "leave the deformation out; run, plan, compare, report and export follow it");
+}
+
+void refuse_movers(const Experiment& experiment) {
+  if (experiment.movers.empty()) return;
+  throw UsageError(experiment.file.string(), experiment.movers.front().place,
+                   "a mesh moves beside the moving one, and this looks at one that moves",
+                   "leave movers out; run, plan, compare, report and export know them");
+}
+
+void check_movers(const Experiment& experiment) {
+  if (experiment.movers.empty()) return;
+  const std::string file = experiment.file.string();
+  if (experiment.loop.closed)
+    throw UsageError(file, "/loop/kind",
+                     "a closed loop moves one mesh, and /movers are on paths of their own",
+                     "take an open loop (--set /loop/kind=open), or leave movers out");
+  if (experiment.realtime)
+    throw UsageError(file, "/driver/kind", "the driver realtime moves one mesh",
+                     "take the driver lockstep (--set /driver/kind=lockstep), or leave movers out");
+  if (experiment.driver.predict)
+    throw UsageError(file, "/driver/prediction", "a search is predicted for one mesh that moves",
+                     "set it to none, or leave movers out");
+  if (experiment.deforms())
+    throw UsageError(file, experiment.movers.front().place,
+                     "movers do not go together with meshes that deform",
+                     "leave the deformations out, or movers");
+  refuse_critical_pairs(experiment, file, "forces of several movers are sums",
+                        "take sum, or leave movers out");
 }
 
 void refuse_critical_pairs(const Experiment& experiment, const std::string& file, const std::string& problem,

@@ -14,7 +14,7 @@
 
 namespace lmdbench {
 
-/// How the device turns where it actuates torque as well (simulated_gimbal.h).
+/// How the device turns where it actuates torque as well (simulated_device.h).
 struct RotationChoice {
   DeviceDynamics
       dynamics;  ///< Inertia [kg m^2] in the place of mass, damping [N m s], friction [N m], hand likewise.

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/base/error.h>
 #include <lmdbench/experiment/experiment.h>
-#include <lmdbench/experiment/probed_frames.h>
 #include <lmdbench/experiment/rules.h>
 #include <lmdbench/methods/registry.h>
 
@@ -35,11 +34,12 @@ RuleVerdict contact_forecast(const RuleFacts& facts) {
 }
 
 RuleVerdict truth_in_contact(const RuleFacts& facts) {
-  if (facts.truth_frames.empty()) return {false, "no frame is compared with truth"};
+  const auto truth_frames = probed_frames(facts.experiment, "truth", facts.poses.size());
+  if (truth_frames.empty()) return {false, "no frame is compared with truth"};
   if (facts.experiment.loop.closed)
     return {true, "as many exhaustive searches as the devices' frames are out of contact"};
   std::int64_t searches = 0, empty = 0;
-  for (const std::int64_t frame : facts.truth_frames) {
+  for (const std::int64_t frame : truth_frames) {
     for (const std::int64_t at : {frame, frame + 1}) {
       ++searches;
       if (!facts.in_contact[static_cast<std::size_t>(at)]) ++empty;
@@ -61,9 +61,9 @@ std::int64_t repeats_among(const std::vector<std::int64_t>& frames, std::span<co
 }
 
 RuleVerdict repeated_pose(const RuleFacts& facts) {
-  const std::vector<std::int64_t> fcl_frames =
-      probed_frames(static_cast<std::int64_t>(facts.poses.size()), facts.experiment.fcl_stride_frames);
-  if (facts.truth_frames.empty() && fcl_frames.empty()) return {false, "no frame is probed"};
+  const auto fcl_frames = probed_frames(facts.experiment, "fcl", facts.poses.size());
+  const auto probed = probed_frames(facts.experiment, "truth", facts.poses.size());
+  if (probed.empty() && fcl_frames.empty()) return {false, "no frame is probed"};
   if (facts.experiment.deforms()) return {false, DEFORMS};
   if (!facts.experiment.movers.empty()) return {false, SEVERAL_MOVE};
   // What a closed loop's encoders will tell nobody knows, but they count in steps.
@@ -74,8 +74,7 @@ RuleVerdict repeated_pose(const RuleFacts& facts) {
                          : "the simulated device's encoders are exact"};
   }
   std::vector<std::int64_t> truth_frames;  // each is searched with the next one
-  for (const std::int64_t frame : facts.truth_frames)
-    truth_frames.insert(truth_frames.end(), {frame, frame + 1});
+  for (const std::int64_t frame : probed) truth_frames.insert(truth_frames.end(), {frame, frame + 1});
   const std::int64_t truth = repeats_among(truth_frames, facts.poses);
   const std::int64_t fcl = repeats_among(fcl_frames, facts.poses);
   return {truth + fcl > 0,
@@ -85,11 +84,11 @@ RuleVerdict repeated_pose(const RuleFacts& facts) {
 }
 
 RuleVerdict warm_crosscheck(const RuleFacts& facts) {
-  if (facts.experiment.fcl_stride_frames == 0) return {false, "nothing is compared with FCL"};
+  const std::int64_t stride = facts.experiment.probe_stride("fcl");
+  if (stride == 0) return {false, "nothing is compared with FCL"};
   if (facts.experiment.deforms()) return {false, DEFORMS};
   if (!facts.experiment.movers.empty()) return {false, SEVERAL_MOVE};
-  return {true,
-          fmt::format("minimum distances every {} frames of one path", facts.experiment.fcl_stride_frames)};
+  return {true, fmt::format("minimum distances every {} frames of one path", stride)};
 }
 
 constexpr std::array<RuleDescription, RULE_COUNT> RULES{{

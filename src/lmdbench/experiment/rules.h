@@ -43,9 +43,8 @@ using RuleSwitches = std::array<RuleSwitch, RULE_COUNT>;
 /// All that conditions look at.
 struct RuleFacts {
   const Experiment& experiment;
-  std::span<const Pose> poses;                 ///< Of the path's frames.
-  const std::vector<bool>& in_contact;         ///< One a frame.
-  std::span<const std::int64_t> truth_frames;  ///< Frames that the truth probe looks at.
+  std::span<const Pose> poses;          ///< Of the path's frames.
+  const std::vector<bool>& in_contact;  ///< One a frame.
 };
 
 struct RuleVerdict {

@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/catalogue/deformation.h>
+#include <lmdbench/experiment/experiment.h>
+#include <lmdbench/experiment/probe.h>
 #include <lmdbench/experiment/rules.h>
-#include <lmdbench/experiment/schema.h>
-#include <lmdbench/experiment/schema_text.h>
 #include <lmdbench/force/aggregation.h>
 #include <lmdbench/methods/registry.h>
 
@@ -12,6 +12,10 @@
 #include <string>
 
 namespace lmdbench {
+
+/// experiments/schema/experiment.schema.json as it was when the program was built.
+const std::string& experiment_schema_text();
+
 namespace {
 
 using Json = nlohmann::json;
@@ -54,6 +58,7 @@ const Json& experiment_schema() {
     add_aggregations(text["properties"]["force"]["properties"]["aggregation"]);
     add_generators(text["definitions"]["deformation"]["properties"]["generator"]);
     text["properties"]["plan"] = rules_schema();
+    add_probe_schemas(text);
     return text;
   }();
   return schema;

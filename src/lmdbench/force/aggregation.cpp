@@ -1,13 +1,45 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/base/contract.h>
 #include <lmdbench/base/error.h>
 #include <lmdbench/force/aggregation.h>
+#include <lmdbench/force/wrench_sum.h>
 
+#include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
 #include <fmt/format.h>
 
 #include <algorithm>
 
 namespace lmdbench {
+
+Wrench WrenchSum::wrench() const {
+  Wrench sum{force_, torque_, 0.0};
+  const double length = sum.force.stableNorm();
+  if (length > 0.0) {
+    const Vec3 away_W = sum.force / length;
+    sum.stiffness = away_W.dot(stiffness_W_ * away_W);
+  } else if (length == 0.0) {
+    // Balanced forces leave no direction to translate along: the stiffest one is reported.
+    sum.stiffness =
+        Eigen::SelfAdjointEigenSolver<Mat3>(stiffness_W_, Eigen::EigenvaluesOnly).eigenvalues()[2];
+  } else {
+    sum.stiffness = length;  // NaN in, NaN out: a broken LMD stays visible.
+  }
+  return sum;
+}
+
+Wrench sum_forces(const LmdSet& lmds, const ForceProfile& profile, const Vec3& reference_W) {
+  LMDBENCH_EXPECTS(profile.maximum_force > 0.0 && profile.cutoff > 0.0,
+                   "a profile that was not validated (validate_force_profile)");
+  WrenchSum sum(reference_W);
+  for (const Lmd& lmd : lmds) {
+    if (!WrenchSum::acts(lmd, profile)) continue;
+    sum.push(lmd, force_magnitude(profile, lmd.distance));
+    sum.stiffen(lmd.direction, lmd.direction, force_stiffness(profile, lmd.distance));
+  }
+  return sum.wrench();
+}
 
 const std::vector<Aggregation>& aggregations() {
   static const std::vector<Aggregation> all{sum_law(), signed_law(), shared_law(), layered_law()};

@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/base/contract.h>
 #include <lmdbench/force/contact_finder.h>
 #include <lmdbench/mesh/triangle_mesh.h>
 
@@ -11,6 +12,7 @@ namespace lmdbench {
 namespace {
 
 double minimum_area_of(const Scene& scene, double share) {
+  LMDBENCH_EXPECTS(share >= 0.0, "a share that is negative or not a number");
   if (!scene.moving) return 0.0;
   double diagonal = bounding_box_diagonal(scene.moving->surface().mesh);
   for (const auto& fixed : scene.fixed)
@@ -31,6 +33,8 @@ ContactFinder::ContactFinder(const Aggregation& aggregation, Scene scene, const 
 void ContactFinder::search(Method& method, const Pose& X_WM, LmdSet& lmds, WorkCounters& counters) {
   if (aggregation_.needs == AggregationNeeds::MINIMA) return method.search(X_WM, lmds, counters);
   method.find_critical(X_WM, critical_, counters);
+  LMDBENCH_ENSURES(std::ranges::is_sorted(critical_, lmd_less, &CriticalPair::pair),
+                   "a method that gives critical pairs in its own order");
   lmds = minima_of(critical_);
   if (aggregation_.needs == AggregationNeeds::CRITICAL_PAIRS) return;
   merge_finder_.find(X_WM, critical_, merges_);

@@ -69,11 +69,13 @@ void validate_force_profile(const ForceProfile& profile, const std::string& file
 }
 
 double force_magnitude(const ForceProfile& profile, double distance) {
+  LMDBENCH_EXPECTS(std::isnan(distance) || distance >= 0.0, "a signed depth in place of a distance");
   if (std::isnan(distance)) return distance;  // An unset distance must not pass for a free one.
   if (distance <= profile.saturation_distance) return profile.maximum_force;
   if (distance >= profile.cutoff) return 0.0;
   const double s = closeness(profile, distance);
   if (is_linear(profile)) return profile.maximum_force * s;
+  LMDBENCH_EXPECTS(profile.sharpness > 0.0, "a profile that was not validated (validate_force_profile)");
   // Decision E9, ours: (e^(k s) - 1) / (e^k - 1), written as e^(k (s - 1)) (1 - e^(-k s)) / (1 - e^(-k)), in
   // which no exponent is positive: nothing overflows for large k, and expm1 keeps every digit for small k.
   const double k = profile.sharpness;
@@ -81,6 +83,7 @@ double force_magnitude(const ForceProfile& profile, double distance) {
 }
 
 double force_stiffness(const ForceProfile& profile, double distance) {
+  LMDBENCH_EXPECTS(std::isnan(distance) || distance >= 0.0, "a signed depth in place of a distance");
   if (std::isnan(distance)) return distance;
   if (distance <= profile.saturation_distance || distance >= profile.cutoff) return 0.0;
   const double linear_stiffness = profile.maximum_force / (profile.cutoff - profile.saturation_distance);

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <lmdbench/force/aggregate.h>
+#include <lmdbench/force/aggregation.h>
 
 namespace lmdbench {
 

@@ -1,12 +1,11 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include <lmdbench/geometry/all_candidates.h>
 #include <lmdbench/geometry/face_frame.h>
 #include <lmdbench/geometry/planar_overlap.h>
 #include <lmdbench/geometry/point_triangle.h>
 #include <lmdbench/geometry/segment_kernel.h>
-#include <lmdbench/geometry/shared_segment.h>
 #include <lmdbench/geometry/sorted_triangle.h>
+#include <lmdbench/geometry/triangle_distance_steps.h>
 #include <lmdbench/geometry/triangle_intersection.h>
 
 #include <algorithm>

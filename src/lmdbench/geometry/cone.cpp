@@ -3,7 +3,7 @@
 #include <lmdbench/base/contract.h>
 #include <lmdbench/geometry/cone.h>
 #include <lmdbench/geometry/sphere.h>
-#include <lmdbench/geometry/unit_vector.h>
+#include <lmdbench/geometry/types.h>
 
 #include <Eigen/Geometry>
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include <lmdbench/geometry/feature_guess.h>
+#include <lmdbench/geometry/triangle_distance_steps.h>
 
 #include <array>
 #include <cstdint>

@@ -1,11 +1,9 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include <lmdbench/geometry/carriers.h>
 #include <lmdbench/geometry/face_frame.h>
-#include <lmdbench/geometry/feature_guess.h>
-#include <lmdbench/geometry/feature_proof.h>
 #include <lmdbench/geometry/segment_kernel.h>
 #include <lmdbench/geometry/sorted_triangle.h>
+#include <lmdbench/geometry/triangle_distance_steps.h>
 
 #include <algorithm>
 #include <array>
@@ -16,7 +14,7 @@
 // - triangles that are far apart for their size: start at the corners that are farthest towards the other
 //   triangle and take the edges from there that lead ahead;
 // - else, or where that proves nothing: the features that a quick look at all candidates finds nearest
-//   (feature_guess.h);
+//   (triangle_distance_steps.h);
 // - solve for the nearest points p, q of these features (corner, edge or face);
 // - with d = q - p look for a corner of a beyond p along d, or of b beyond q along -d. If every corner that
 //   does not carry the pair is behind by a clear margin, the plane through p across d and the one through q

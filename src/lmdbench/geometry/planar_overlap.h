@@ -28,4 +28,25 @@ struct FaceOverFace {
 /// Does not exist where the overlap is narrower than the tolerance.
 FaceOverFace face_over_face(const FaceFrame& first, const FaceFrame& second, double tolerance);
 
+/// What two intersecting triangles of different planes share.
+struct SharedSegment {
+  bool is_clear = false;  ///< false where there is no chord, or only rounding lets it and the face overlap
+  bool is_certain =
+      false;  ///< the triangles intersect by a margin (CERTAIN_PART) that needs no exact predicate
+  Vec3 begin, end;
+  double length = 0.0;
+
+  Vec3 middle() const { return 0.5 * (begin + end); }
+};
+
+/// Cuts `corners` by the face's plane and keeps the part of the chord over the face. The chord lies on the
+/// edges of `corners`, the cut follows the frame of `face`, so both ends are on both triangles up to rounding
+/// however thin `corners` is; the better-shaped triangle should be the face.
+/// @pre corners in lexicographic order, face.has_face
+SharedSegment shared_segment(const FaceFrame& face, const Triangle& corners);
+
+/// The better-shaped triangle as the face; not clear where neither has a face.
+SharedSegment shared_segment(const Triangle& a, const FaceFrame& face_a, const Triangle& b,
+                             const FaceFrame& face_b);
+
 }  // namespace lmdbench::kernel

@@ -4,7 +4,6 @@
 
 #include <lmdbench/base/contract.h>
 #include <lmdbench/geometry/types.h>
-#include <lmdbench/geometry/unit_vector.h>
 
 #include <Eigen/Geometry>
 

@@ -35,9 +35,9 @@ struct TrianglePairDistance {
 /// gives the same bits from each of its triangles. Never NaN for finite input; all NaN where a
 /// coordinate is not finite.
 ///
-/// Most pairs are proved from a guess of the nearest features (feature_proof.h), about 60 ns a few sizes
+/// Most pairs are proved from a guess of the nearest features (triangle_distance_steps.h), about 60 ns a few sizes
 /// apart and 140 ns face to face; contact, parallel features and exact ties take all candidates
-/// (all_candidates.h), 0.3 to 1 us.
+/// (triangle_distance_steps.h), 0.3 to 1 us.
 TrianglePairDistance triangle_distance(const Triangle& a, const Triangle& b);
 
 }  // namespace lmdbench

@@ -3,7 +3,7 @@
 #include <lmdbench/base/contract.h>
 #include <lmdbench/geometry/extent.h>
 #include <lmdbench/geometry/segment_distance.h>
-#include <lmdbench/geometry/unit_vector.h>
+#include <lmdbench/geometry/types.h>
 #include <lmdbench/lmd/decide.h>
 #include <lmdbench/lmd/overlap.h>
 #include <lmdbench/lmd/polar_condition.h>

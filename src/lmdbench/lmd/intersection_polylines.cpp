@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include <lmdbench/geometry/piercing.h>
+#include <lmdbench/geometry/triangle_intersection.h>
 #include <lmdbench/lmd/intersection_polylines.h>
 
 #include <algorithm>

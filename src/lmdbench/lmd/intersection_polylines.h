@@ -28,7 +28,7 @@ struct IntersectionPolyline {
 
 /// Chains the segments that pairs of triangles share. A point is where an edge of one mesh pierces a triangle of the
 /// other; two segments meet there because they name the same edge and triangle, not because their numbers are
-/// equal, and who pierces whom is decided exactly, for meshes that only touch too (piercing.h). So on closed
+/// equal, and who pierces whom is decided exactly, for meshes that only touch too (triangle_intersection.h). So on closed
 /// meshes every polyline is closed, always. It ends where a mesh has a boundary, and where more than two triangles
 /// meet in an edge.
 /// @param pairs every pair of triangles of the two surfaces that shares a point; others do no harm. Sorted here.

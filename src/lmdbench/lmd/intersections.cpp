@@ -3,7 +3,7 @@
 #include <lmdbench/base/contract.h>
 #include <lmdbench/lmd/corner_groups.h>
 #include <lmdbench/lmd/intersections.h>
-#include <lmdbench/mesh/feature_corners.h>
+#include <lmdbench/mesh/surface.h>
 
 #include <algorithm>
 #include <cstddef>

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/base/contract.h>
 #include <lmdbench/geometry/point_triangle.h>
-#include <lmdbench/geometry/unit_vector.h>
+#include <lmdbench/geometry/types.h>
 #include <lmdbench/lmd/overlap.h>
 
 #include <Eigen/LU>

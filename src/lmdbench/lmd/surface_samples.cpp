@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/lmd/critical_index.h>
 #include <lmdbench/lmd/surface_samples.h>
-#include <lmdbench/snch/nearest_point.h>
+#include <lmdbench/snch/minimum_distance.h>
 
 #include <algorithm>
 #include <limits>

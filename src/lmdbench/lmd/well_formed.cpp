@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include <lmdbench/geometry/unit_vector.h>
+#include <lmdbench/geometry/types.h>
 #include <lmdbench/lmd/well_formed.h>
 
 #include <algorithm>

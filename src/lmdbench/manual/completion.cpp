@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include <lmdbench/manual/completion.h>
+#include <lmdbench/manual/manual.h>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

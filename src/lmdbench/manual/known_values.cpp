@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/base/limits.h>
-#include <lmdbench/manual/known_values.h>
+#include <lmdbench/manual/manual.h>
 #include <lmdbench/methods/registry.h>
 #ifdef LMDBENCH_HAS_EXPERIMENTS
-#include <lmdbench/experiment/schema.h>
+#include <lmdbench/experiment/experiment.h>
 #endif
 
 #include <nlohmann/json.hpp>

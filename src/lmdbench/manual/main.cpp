@@ -4,9 +4,7 @@
 #include <lmdbench/base/build_info.h>
 #include <lmdbench/base/error.h>
 #include <lmdbench/cli/app.h>
-#include <lmdbench/manual/completion.h>
-#include <lmdbench/manual/known_values.h>
-#include <lmdbench/manual/man_page.h>
+#include <lmdbench/manual/manual.h>
 
 #include <CLI/CLI.hpp>
 

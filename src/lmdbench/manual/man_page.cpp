@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include <lmdbench/manual/man_page.h>
+#include <lmdbench/manual/manual.h>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

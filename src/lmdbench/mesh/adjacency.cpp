@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/base/contract.h>
 #include <lmdbench/base/parallel.h>
 #include <lmdbench/mesh/adjacency.h>
 
@@ -8,7 +9,6 @@
 #include <utility>
 
 namespace lmdbench {
-
 namespace {
 
 /// Sides are numbered 3 * triangle + k; side k joins corners k and (k + 1) % 3.
@@ -72,6 +72,14 @@ std::vector<SideIndex> first_sides(const TriangleMesh& mesh, const CsrRows& vert
 }  // namespace
 
 Adjacency build_adjacency(const TriangleMesh& mesh) {
+  LMDBENCH_EXPECTS(std::ranges::all_of(mesh.triangles,
+                                       [&](const auto& corners) {
+                                         return std::ranges::all_of(corners, [&](std::int32_t v) {
+                                           return v >= 0 &&
+                                                  static_cast<std::size_t>(v) < mesh.vertices.size();
+                                         });
+                                       }),
+                   "an index that import did not check");
   Adjacency adjacency;
   adjacency.vertex_triangles = triangles_of_vertices(mesh);
   const std::vector<SideIndex> first = first_sides(mesh, adjacency.vertex_triangles);

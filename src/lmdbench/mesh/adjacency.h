@@ -3,14 +3,62 @@
 #pragma once
 
 #include <lmdbench/mesh/csr_rows.h>
-#include <lmdbench/mesh/edge_triangles.h>
 #include <lmdbench/mesh/triangle_mesh.h>
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace lmdbench {
+
+/// The triangles of every edge. Nearly all edges have one or two, so these stand in pairs, without the
+/// offsets that rows of any length need; the rows of the others stand apart.
+class EdgeTriangles {
+ public:
+  EdgeTriangles() = default;
+  explicit EdgeTriangles(std::size_t edge_count) : pairs_(edge_count, {NONE, NONE}) {}
+
+  /// Adds a triangle to an edge; one that was added to it last is not added again.
+  void add(std::int32_t edge, std::int32_t triangle) {
+    const auto present = (*this)[edge];
+    if (!present.empty() && present.back() == triangle) return;
+    auto& pair = pairs_[static_cast<std::size_t>(edge)];
+    if (present.size() < 2) {
+      pair[present.size()] = triangle;
+      return;
+    }
+    if (present.size() == 2) {
+      rows_.emplace_back(present.begin(), present.end());
+      pair[1] = FIRST_ROW - static_cast<std::int32_t>(rows_.size() - 1);
+    }
+    rows_[static_cast<std::size_t>(FIRST_ROW - pair[1])].push_back(triangle);
+  }
+
+  /// In the order in which they were added.
+  std::span<const std::int32_t> operator[](std::int32_t edge) const {
+    const auto& pair = pairs_[static_cast<std::size_t>(edge)];
+    if (pair[1] > NONE) return pair;
+    if (pair[1] == NONE) return {pair.data(), pair[0] == NONE ? 0u : 1u};
+    return rows_[static_cast<std::size_t>(FIRST_ROW - pair[1])];
+  }
+
+  /// Memory that the lists take.
+  std::size_t bytes() const {
+    std::size_t sum = pairs_.size() * sizeof(pairs_[0]);
+    for (const auto& row : rows_)
+      sum += sizeof(std::vector<std::int32_t>) + row.capacity() * sizeof(std::int32_t);
+    return sum;
+  }
+
+ private:
+  static constexpr std::int32_t NONE = -1;       ///< No triangle.
+  static constexpr std::int32_t FIRST_ROW = -2;  ///< As second entry: the first of rows_; -3 the second, ...
+
+  std::vector<std::array<std::int32_t, 2>> pairs_;
+  std::vector<std::vector<std::int32_t>> rows_;
+};
 
 /// Who touches whom in a mesh. Non-manifold edges keep all their triangles.
 struct Adjacency {

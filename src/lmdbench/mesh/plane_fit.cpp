@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/base/contract.h>
-#include <lmdbench/geometry/unit_vector.h>
+#include <lmdbench/geometry/types.h>
 #include <lmdbench/mesh/plane_fit.h>
 
 #include <Eigen/Eigenvalues>

@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/base/contract.h>
 #include <lmdbench/geometry/tolerance.h>
 #include <lmdbench/mesh/region_shape.h>
 
@@ -15,6 +16,8 @@ namespace {
 RegionShape shape_of(const Surface& surface, const FlatRegions& regions, std::int32_t region,
                      double tolerance) {
   RegionShape shape;
+  LMDBENCH_EXPECTS(static_cast<std::size_t>(region) < regions.planes.size() && tolerance >= 0.0,
+                   "a region of another mesh");
   const Plane& plane = regions.planes[static_cast<std::size_t>(region)];
   shape.frame = PlanarFrame(plane.point, plane.normal);
   const auto vertex = [&](std::int32_t v) -> const Vec3& {

@@ -3,9 +3,9 @@
 #include <lmdbench/base/parallel.h>
 #include <lmdbench/geometry/point_triangle.h>
 #include <lmdbench/geometry/tolerance.h>
-#include <lmdbench/mesh/feature_corners.h>
 #include <lmdbench/mesh/planar_faces.h>
 #include <lmdbench/mesh/shape_complex.h>
+#include <lmdbench/mesh/surface.h>
 #include <lmdbench/mesh/triangle_normal.h>
 
 #include <algorithm>

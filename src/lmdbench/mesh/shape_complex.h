@@ -7,7 +7,7 @@
 #include <lmdbench/mesh/region_shape.h>
 #include <lmdbench/mesh/surface.h>
 #include <lmdbench/mesh/surface_change.h>
-#include <lmdbench/mesh/vertex_neighbours.h>
+#include <lmdbench/mesh/vertex_fan.h>
 
 #include <cstddef>
 #include <cstdint>

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/base/contract.h>
 #include <lmdbench/base/parallel.h>
-#include <lmdbench/geometry/unit_vector.h>
+#include <lmdbench/geometry/types.h>
 #include <lmdbench/mesh/surface.h>
 #include <lmdbench/mesh/triangle_normal.h>
 
@@ -11,7 +11,6 @@
 #include <utility>
 
 namespace lmdbench {
-
 namespace {
 
 /// Items that one task takes at a time.

@@ -7,6 +7,7 @@
 #include <lmdbench/mesh/feature.h>
 #include <lmdbench/mesh/triangle_mesh.h>
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -76,5 +77,29 @@ inline Vec3 Surface::vertex_normal(std::int32_t vertex) const {
   return vertex_normal_is_stale.empty() || !vertex_normal_is_stale[v] ? vertex_pseudo_normals[v]
                                                                       : vertex_pseudo_normal(*this, vertex);
 }
+
+/// Vertices of a feature with its ends: one, two or three.
+class FeatureCorners {
+ public:
+  FeatureCorners(const Surface& surface, const FeatureId& feature) {
+    const auto index = static_cast<std::size_t>(feature.index);
+    switch (feature.kind) {
+      case FeatureKind::VERTEX:
+        vertices_[count_++] = feature.index;
+        break;
+      case FeatureKind::EDGE:
+        for (const std::int32_t vertex : surface.adjacency.edges[index]) vertices_[count_++] = vertex;
+        break;
+      case FeatureKind::FACE:
+        for (const std::int32_t vertex : surface.mesh.triangles[index]) vertices_[count_++] = vertex;
+        break;
+    }
+  }
+  std::span<const std::int32_t> view() const { return {vertices_.data(), count_}; }
+
+ private:
+  std::array<std::int32_t, 3> vertices_{};
+  std::size_t count_ = 0;
+};
 
 }  // namespace lmdbench

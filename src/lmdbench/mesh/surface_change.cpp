@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/base/contract.h>
 #include <lmdbench/base/error.h>
 #include <lmdbench/base/parallel.h>
 #include <lmdbench/geometry/tolerance.h>
@@ -55,6 +56,11 @@ SurfaceMover::SurfaceMover(const Surface& surface)
 const SurfaceChange& SurfaceMover::move(std::span<const Vec3> vertices, Surface& surface) {
   TriangleMesh& mesh = surface.mesh;
   SurfaceChange& change = change_;
+  LMDBENCH_EXPECTS(edge_marks_.size() == surface.adjacency.edges.size() &&
+                       change.face_marks.size() == mesh.triangles.size(),
+                   "a mover of another surface");
+  LMDBENCH_EXPECTS(vertices.size() == mesh.vertices.size(),
+                   "vertices that were not checked (check_moved_vertices)");
   change.moved.clear();
   change.faces.clear();
   change.edges.clear();
@@ -72,6 +78,7 @@ const SurfaceChange& SurfaceMover::move(std::span<const Vec3> vertices, Surface&
     change.moved.push_back(static_cast<std::int32_t>(v));
   }
   change.largest_move = std::sqrt(squared_move);
+  LMDBENCH_ENSURES(std::ranges::is_sorted(change.moved), "vertices that moved in another order than theirs");
 
   const auto is_new = [&](std::vector<std::uint32_t>& marks, std::int32_t index) {
     std::uint32_t& mark = marks[static_cast<std::size_t>(index)];

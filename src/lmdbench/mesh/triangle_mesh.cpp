@@ -1,11 +1,13 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/base/contract.h>
 #include <lmdbench/mesh/triangle_mesh.h>
 
 #include <Eigen/Geometry>
 
-namespace lmdbench {
+#include <algorithm>
 
+namespace lmdbench {
 namespace {
 
 Eigen::AlignedBox3d bounding_box(const TriangleMesh& mesh) {
@@ -35,6 +37,13 @@ Vec3 bounding_box_centre(const TriangleMesh& mesh) {
   if (mesh.vertices.empty()) return Vec3::Zero();
   const Eigen::AlignedBox3d box = bounding_box(mesh);
   return box.min() + 0.5 * box.diagonal();
+}
+
+double radius_about(const TriangleMesh& mesh, const Vec3& centre) {
+  LMDBENCH_EXPECTS(centre.allFinite(), "the middle of a mesh without vertices");
+  double radius = 0.0;
+  for (const Vec3& vertex : mesh.vertices) radius = std::max(radius, (vertex - centre).norm());
+  return radius;
 }
 
 }  // namespace lmdbench

@@ -36,4 +36,7 @@ double mean_edge_length(const TriangleMesh& mesh);
 /// Centre of the axis-aligned bounding box.
 Vec3 bounding_box_centre(const TriangleMesh& mesh);
 
+/// Largest distance of a vertex from a point; 0 for a mesh without vertices.
+double radius_about(const TriangleMesh& mesh, const Vec3& centre);
+
 }  // namespace lmdbench

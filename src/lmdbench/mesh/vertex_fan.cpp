@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/base/contract.h>
 #include <lmdbench/mesh/vertex_fan.h>
 
 #include <algorithm>
@@ -38,6 +39,8 @@ bool is_one_closed_fan(const Surface& surface, std::int32_t vertex) {
 }  // namespace
 
 int fan_count(const Surface& surface, std::int32_t vertex) {
+  LMDBENCH_EXPECTS(vertex >= 0 && static_cast<std::size_t>(vertex) < surface.mesh.vertices.size(),
+                   "a vertex of another mesh");
   if (is_one_closed_fan(surface, vertex)) return 1;
   const auto triangles = surface.adjacency.vertex_triangles[vertex];
   std::vector<bool> reached(triangles.size(), false);

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <lmdbench/snch/leaf_cones.h>
+#include <lmdbench/snch/hierarchy.h>
 
 #include <nlohmann/json.hpp>
 

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <lmdbench/base/missing_part.h>
+#include <lmdbench/base/build_info.h>
 #include <lmdbench/lmd/method.h>
 #include <lmdbench/lmd/method_description.h>
 #include <lmdbench/lmd/scene.h>

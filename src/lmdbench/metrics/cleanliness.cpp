@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/base/contract.h>
 #include <lmdbench/metrics/cleanliness.h>
 
 #include <array>
@@ -53,6 +54,7 @@ double frequency(std::span<const Vec3> velocity, double period) {
 std::vector<Vec3> above_30_hz(const std::vector<Vec3>& signal, double period_s) {
   // Bilinear transform.
   const double w = std::tan(std::numbers::pi * HIGH_PASS_HZ * period_s);
+  LMDBENCH_EXPECTS(period_s > 0.0 && 2.0 * HIGH_PASS_HZ * period_s < 1.0, "a rate that cannot render 30 Hz");
   const double scale = 1.0 / (1.0 + std::numbers::sqrt2 * w + w * w);
   const double a1 = 2.0 * (w * w - 1.0) * scale;
   const double a2 = (1.0 - std::numbers::sqrt2 * w + w * w) * scale;
@@ -87,6 +89,8 @@ std::string_view to_string(CleanMeasure measure) {
 
 Cleanliness judge(const Swing& swing) {
   const std::size_t frames = swing.position_W.size();
+  LMDBENCH_EXPECTS(swing.velocity_W.size() == frames && swing.force_W.size() == frames,
+                   "parallel arrays of unlike lengths");
   const std::size_t window = frames * WINDOW_CYCLES / (SKIPPED_CYCLES + 2 * WINDOW_CYCLES);
   assert(window > 0 && "too short a swing");
   const auto windows = [&](const std::vector<Vec3>& values, bool about_mean) {

@@ -1,8 +1,12 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/base/contract.h>
 #include <lmdbench/base/statistics.h>
 #include <lmdbench/metrics/cleanliness.h>
 #include <lmdbench/metrics/errors.h>
+
+#include <boost/math/distributions/chi_squared.hpp>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
@@ -10,6 +14,35 @@
 #include <iterator>
 
 namespace lmdbench {
+namespace {
+
+constexpr double TAIL = 0.025;
+
+/// The mean of a Poisson variable whose counts lie on one side of `count` with the probability TAIL, by way of chi-squared.
+double limit(double degrees_of_freedom, double probability) {
+  return 0.5 * boost::math::quantile(boost::math::chi_squared(degrees_of_freedom), probability);
+}
+
+}  // namespace
+
+Events count_events(std::int64_t count, double seconds) {
+  LMDBENCH_EXPECTS(count >= 0, "a difference in place of a count");
+  Events events;
+  if (!(seconds > 0.0)) return events;
+  events.count = static_cast<double>(count);
+  events.low = count == 0 ? 0.0 : limit(2.0 * events.count, TAIL) / seconds;
+  events.high = limit(2.0 * events.count + 2.0, 1.0 - TAIL) / seconds;
+  if (count >= LEAST_EVENTS) events.per_second = events.count / seconds;
+  return events;
+}
+
+std::string events_text(const Events& events, double seconds, const std::string& within) {
+  if (std::isnan(events.count)) return "-";
+  std::string text = fmt::format("{:.0f} in {:.3g} s{}", events.count, seconds, within);
+  if (!std::isnan(events.per_second)) text += fmt::format(", {:.3g} a second", events.per_second);
+  return text + fmt::format(" (95 %: {:.3g} to {:.3g} a second)", events.low, events.high);
+}
+
 namespace {
 
 double root_mean_square(std::vector<double> values) {
@@ -55,6 +88,8 @@ std::vector<double> changes_in_contact(const std::vector<Vec3>& forces, const Ru
 
 void summarise_counts(MethodSummary& summary, const MethodRecord& record, const RunFrames& frames) {
   std::vector<double> counts, candidates, ratios;
+  LMDBENCH_EXPECTS(frames.in_contact.size() == record.frames.size(),
+                   "contact of other frames than the record's");
   std::int64_t touching = 0, most = 0;
   for (std::size_t i = 0; i < record.frames.size(); ++i) {
     const FrameRecord& frame = record.frames[i];
@@ -102,6 +137,8 @@ void summarise_jumps(MethodSummary& summary, const MethodRecord& record, const R
 
 void summarise_rendering(MethodSummary& summary, const MethodRecord& record, const RunFrames& frames) {
   std::vector<double> force, stiffness;
+  LMDBENCH_EXPECTS(frames.in_contact.size() == record.frames.size() && frames.frame_rate_hz > 0.0,
+                   "contact of other frames than the record's");
   std::vector<Vec3> all;
   std::size_t clipped = 0;
   std::int64_t dropouts = 0;
@@ -141,6 +178,7 @@ void summarise_rendering(MethodSummary& summary, const MethodRecord& record, con
 void summarise_errors(MethodSummary& summary, ForceLaw law, const std::vector<TruthFrame>& truth,
                       const std::vector<TruthComparison>& comparisons, const RunFrames& frames) {
   const auto index = static_cast<std::size_t>(law);
+  LMDBENCH_EXPECTS(comparisons.size() == truth.size(), "comparisons with another truth");
   Agreement same, neighbours;
   std::size_t wrong = 0;
   std::int64_t true_jumps = 0;

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/base/contract.h>
 #include <lmdbench/base/statistics.h>
-#include <lmdbench/force/aggregate.h>
+#include <lmdbench/force/aggregation.h>
 #include <lmdbench/metrics/errors.h>
 #include <lmdbench/metrics/step_numbers.h>
 
@@ -58,6 +59,8 @@ StepNumbers count_steps(const MethodRecord& record, ForceLaw law, const std::vec
                         const std::vector<TruthComparison>& rows, const PreparedRun& run,
                         const PreparedRun& truth_run, const std::vector<bool>& in_contact) {
   StepNumbers numbers{.jumps = 0.0, .true_jumps = 0.0};
+  LMDBENCH_EXPECTS(rows.size() == truth.size() && in_contact.size() == record.frames.size(),
+                   "parallel arrays of unlike lengths");
   for (const StepNumber& number : STEP_NUMBERS) {
     // Counts begin at 0; what is a mean or a quantile stays unset until it is known.
     if (number.units == "1") numbers.*number.value = 0.0;

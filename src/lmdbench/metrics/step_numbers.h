@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <lmdbench/base/metric.h>
+#include <lmdbench/metrics/method_summary.h>
 #include <lmdbench/run/prepare.h>
 #include <lmdbench/run/records.h>
 #include <lmdbench/run/truth_probe.h>

@@ -170,20 +170,23 @@ nlohmann::ordered_json method_json(const MethodSummary& m) {
 
 void summarise_truth(RunSummary& summary, const RunResult& result) {
   std::vector<double> counts, in_contact;
-  if (const auto& complete = result.track_of(0).complete) {
+  const Track& track = result.track_of(0);
+  const TruthFindings* truth = track.truth();
+  if (truth == nullptr) return;
+  summary.frames_probed = static_cast<std::int64_t>(truth->frames.size());
+  if (const auto& complete = truth->complete) {
     summary.truth_of_every_frame = complete->label;
     for (std::size_t i = 0; i < complete->lmd_count.size(); ++i) {
       counts.push_back(static_cast<double>(complete->lmd_count[i]));
-      if (result.track_of(0).in_contact[i]) in_contact.push_back(counts.back());
+      if (track.in_contact[i]) in_contact.push_back(counts.back());
     }
     summary.true_lmd_count_median = median(in_contact);
     summary.true_lmd_count_maximum = maximum(counts);
     return;
   }
-  for (const TruthFrame& frame : result.track_of(0).truth) {
+  for (const TruthFrame& frame : truth->frames) {
     counts.push_back(static_cast<double>(frame.lmds.size()));
-    if (result.track_of(0).in_contact[static_cast<std::size_t>(frame.frame)])
-      in_contact.push_back(counts.back());
+    if (track.in_contact[static_cast<std::size_t>(frame.frame)]) in_contact.push_back(counts.back());
   }
   summary.true_lmd_count_median = median(in_contact);
   summary.true_lmd_count_maximum = maximum(counts);
@@ -222,7 +225,6 @@ RunSummary summarise(const Experiment& experiment, const RunResult& result) {
   summary.closed_loop = experiment.loop.closed;
   summary.frame_rate_hz = experiment.frame_rate_hz;
   summary.frames_in_contact = std::count(result.in_contact.begin(), result.in_contact.end(), true);
-  summary.frames_probed = static_cast<std::int64_t>(result.track_of(0).truth.size());
   summarise_truth(summary, result);
   summary.measured_repetitions = std::max<std::int64_t>(experiment.driver.repetitions - 1, 1);
   summary.cutoff_m = result.prepared.scene().cutoff;
@@ -241,20 +243,22 @@ RunSummary summarise(const Experiment& experiment, const RunResult& result) {
     summarise_counts(method, record, frames);
     summarise_rendering(method, record, frames);
     summarise_jumps(method, record, frames);
-    if (!track.truth.empty())
-      summarise_errors(method, experiment.methods[i].force_law, track.truth, result.comparisons[i], frames);
-    if (track.complete)
-      summarise_true_steps(method, experiment.methods[i].force_law, record, *track.complete, frames);
+    if (const TruthFindings* truth = track.truth()) {
+      summarise_errors(method, experiment.methods[i].force_law, truth->frames, result.comparisons(i), frames);
+      if (truth->complete)
+        summarise_true_steps(method, experiment.methods[i].force_law, record, *truth->complete, frames);
+    }
     summarise_times(method, record, track.in_contact);
     summary.methods.push_back(std::move(method));
   }
   summarise_profiles(summary, experiment, result);
   for (const Track& track : result.tracks) {
-    if (!track.fcl) continue;
-    summary.fcl_tolerance_relative = experiment.fcl_tolerance_relative;
-    summary.fcl_frames += static_cast<std::int64_t>(track.fcl->frames.size());
-    for (const FclException& exception : track.fcl->exceptions) ++summary.fcl_exceptions[exception.who];
-    for (const FclFrame& frame : track.fcl->frames) {
+    const FclCheck* fcl = track.fcl();
+    if (fcl == nullptr) continue;
+    summary.fcl_tolerance_relative = fcl->tolerance_relative;
+    summary.fcl_frames += static_cast<std::int64_t>(fcl->frames.size());
+    for (const FclException& exception : fcl->exceptions) ++summary.fcl_exceptions[exception.who];
+    for (const FclFrame& frame : fcl->frames) {
       summary.fcl_separated += frame.separated ? 1 : 0;
       summary.fcl_agreeing += frame.agrees ? 1 : 0;
     }

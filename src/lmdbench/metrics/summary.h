@@ -3,7 +3,7 @@
 #pragma once
 
 #include <lmdbench/metrics/method_summary.h>
-#include <lmdbench/record/result_writer.h>
+#include <lmdbench/result_file/result_writer.h>
 #include <lmdbench/run/run.h>
 
 #include <cstdint>
@@ -34,7 +34,7 @@ struct RunSummary {
   std::int64_t measured_repetitions = 0;
   double frame_rate_hz = UNSET;
   double cutoff_m = UNSET;
-  /// Label of the method whose sets are the truth of every frame (complete_truth.h), in a closed loop of the first method's
+  /// Label of the method whose sets are the truth of every frame (CompleteTruth), in a closed loop of the first method's
   /// device; empty where truth is known in the probed frames alone.
   std::string truth_of_every_frame;
   double true_lmd_count_median = UNSET;   ///< Over the frames in contact whose truth is known.

@@ -3,7 +3,9 @@
 #pragma once
 
 #include <lmdbench/metrics/method_summary.h>
+#include <lmdbench/run/records.h>
 
+#include <span>
 #include <vector>
 
 /// What the run time of a method is: the one definition of every reported time.
@@ -19,5 +21,28 @@ std::vector<std::vector<double>> time_per_frame(const MethodRecord& record);
 /// are over the frames in contact and over the searches that start in one.
 /// @param in_contact  one a frame (contact.h)
 void summarise_times(MethodSummary& summary, const MethodRecord& record, const std::vector<bool>& in_contact);
+
+/// Times beyond those of a run's summary (metrics/times.h): what all of a second costs, and what an update costs
+/// per LMD that it carries.
+
+/// NaN for what was not measured. Over the frames that count, and the searches that start in one; a frame or search has
+/// the median of its measured repetitions.
+struct TimeNumbers {
+#define NUMBER(name, ...) double name = UNSET;
+#include <lmdbench/metrics/time_numbers.def>
+#undef NUMBER
+};
+
+using TimeNumber = Metric<TimeNumbers>;
+
+/// All numbers, in the order of reports.
+std::span<const TimeNumber> time_numbers();
+
+/// @param record of which the searches' frames, the frames' tracked counts and the repetitions are read
+/// @param counts one a frame
+TimeNumbers measure_times(const MethodRecord& record, const std::vector<bool>& counts, double frame_rate_hz);
+
+/// What reading the clock twice costs [s], the median of many: part of every time.
+double clock_overhead();
 
 }  // namespace lmdbench

@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/base/contract.h>
 #include <lmdbench/motion/generate.h>
 #include <lmdbench/motion/interpolate.h>
 #include <lmdbench/motion/majorant.h>
@@ -23,6 +24,8 @@ Pose pose_at(const PathScene& scene, const Vec3& direction_W, const Eigen::Quate
 
 double first_reach(const PathScene& scene, const Vec3& direction_W, const Eigen::Quaterniond& rotation,
                    double gap) {
+  LMDBENCH_EXPECTS(is_unit(direction_W) && gap > 0.0,
+                   "a direction that was not normalised, or a gap of another unit");
   if (scene.reach) return scene.reach(direction_W, rotation, gap);
   double reach = scene.moving_radius + scene.fixed_radius + gap;
   for (int step = 0; step < MAXIMUM_APPROACH_STEPS; ++step) {
@@ -35,6 +38,8 @@ double first_reach(const PathScene& scene, const Vec3& direction_W, const Eigen:
 }
 
 double wanted_gap(const std::vector<GapPoint>& gaps, double time) {
+  LMDBENCH_EXPECTS(!gaps.empty() && std::ranges::is_sorted(gaps, {}, &GapPoint::time),
+                   "a specification that was not checked (path_spec.h)");
   const auto next = std::upper_bound(gaps.begin(), gaps.end(), time,
                                      [](double t, const GapPoint& point) { return t < point.time; });
   if (next == gaps.begin()) return gaps.front().gap;
@@ -47,6 +52,8 @@ double wanted_gap(const std::vector<GapPoint>& gaps, double time) {
 
 Path generate_path(const PathSpec& spec, const PathScene& scene, const ProgressFunction& progress) {
   std::mt19937_64 generator(spec.seed);
+  LMDBENCH_EXPECTS(spec.frame_rate > 0.0 && spec.stored_rate > 0.0,
+                   "a specification that was not checked (path_spec.h)");
   const double time_step = 1.0 / spec.frame_rate;
   const auto frame_total =
       static_cast<std::size_t>(std::floor(spec.duration() * spec.frame_rate + LAST_FRAME_TOLERANCE)) + 1;
@@ -86,6 +93,7 @@ GapMeasure measure_gaps(const Path& frames, const DistanceFunction& distance,
     if (progress) progress(measure.gaps.size(), frames.size());
   }
   const auto nearest = std::min_element(measure.gaps.begin(), measure.gaps.end());
+  LMDBENCH_EXPECTS(nearest != measure.gaps.end(), "a path without frames");
   measure.nearest_frame = static_cast<std::size_t>(nearest - measure.gaps.begin());
   return measure;
 }

@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/base/contract.h>
 #include <lmdbench/base/error.h>
-#include <lmdbench/base/significant_digits.h>
+#include <lmdbench/base/statistics.h>
 #include <lmdbench/motion/grazing.h>
-#include <lmdbench/motion/grazing_choice.h>
 #include <lmdbench/motion/interpolate.h>
 
 #include <fmt/format.h>
@@ -75,6 +75,7 @@ std::optional<GrazingPath> path_of_seed(const PathScene& scene, double cutoff, d
 }  // namespace
 
 PathSpec grazing_spec(const PathScene& scene, double cutoff) {
+  LMDBENCH_EXPECTS(cutoff > 0.0 && scene.diagonal > 0.0, "a scene whose cutoff or mesh was not checked");
   PathSpec spec;
   spec.frame_rate = spec.stored_rate = GRAZING_RATE;
   spec.seed = 1;

@@ -7,6 +7,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 
 /// The path of a scene that has none: the moving mesh comes in, slides and turns well within the cutoff, and
 /// leaves again. `lmdbench init` writes its specification for editing.
@@ -41,5 +42,20 @@ struct GrazingPath {
 /// @throws InputError where no seed gives one: the meshes cannot be brought together from outside
 GrazingPath grazing_path(const PathScene& scene, double cutoff, double haptic_rate,
                          const ProgressFunction& progress = {});
+
+// Among paths that graze, one that shows what this program is about: several contacts at once.
+
+/// Paths that are looked at, in the order of their seeds.
+inline constexpr std::uint64_t RICH_SEEDS = 4;
+/// Contacts that are enough.
+inline constexpr double RICH_CONTACTS = 2.0;
+
+/// The first path of `grazing_path`'s seeds that has RICH_CONTACTS; of RICH_SEEDS that have fewer the one with the most.
+/// @param contacts  how many a path has, by the caller's measure; called once a path that grazes
+/// @param progress  over all RICH_SEEDS, never going back; it ends early where fewer are enough
+/// @throws InputError as `grazing_path`
+GrazingPath rich_grazing_path(const PathScene& scene, double cutoff, double haptic_rate,
+                              const std::function<double(const Path&)>& contacts,
+                              const ProgressFunction& progress = {});
 
 }  // namespace lmdbench

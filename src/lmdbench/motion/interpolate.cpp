@@ -108,9 +108,11 @@ void PathInterpolator::add_slopes(std::size_t first, std::size_t last) {
 }
 
 Pose PathInterpolator::at(double time) const {
+  LMDBENCH_EXPECTS(!std::isnan(time), "a time that was divided by no time");
   const auto next = std::upper_bound(path_.begin(), path_.end(), time,
                                      [](double t, const TimedPose& timed) { return t < timed.time; });
   if (next == path_.begin()) return path_.front().pose;
+  LMDBENCH_EXPECTS(held_.size() + 1 >= path_.size(), "an interpolator that was moved from");
   const auto index = static_cast<std::size_t>(next - path_.begin()) - 1;
   const TimedPose& a = path_[index];
   if (next == path_.end() || time == a.time || held_[index]) return a.pose;
@@ -162,6 +164,13 @@ Path resample(const PathInterpolator& interpolator, double rate, std::optional<s
     frames.push_back({time, pose});
   }
   return frames;
+}
+
+Pose extrapolated(const Pose& before, const Pose& now, double frames) {
+  LMDBENCH_EXPECTS(std::isfinite(frames), "a time that was divided by no time");
+  const Vec3 turn_W = rotation_vector_of(now.rotation * before.rotation.conjugate());
+  return {now.translation + frames * (now.translation - before.translation),
+          (rotation_of(frames * turn_W) * now.rotation).normalized()};
 }
 
 }  // namespace lmdbench

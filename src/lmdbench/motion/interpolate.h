@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <lmdbench/geometry/pose.h>
 #include <lmdbench/motion/path.h>
 
 #include <cstddef>
@@ -97,5 +98,10 @@ Path resample(const PathInterpolator& interpolator, double rate,
 /// @throws InputError for more frames than `Limit::FRAMES`
 void refuse_too_many_frames(const PathInterpolator& interpolator, double rate,
                             std::optional<std::size_t> most, const std::string& file);
+
+/// Pose that a body which moved from `before` to `now` in one frame reaches `frames` frames after `now` when it goes on at
+/// the same velocity and angular velocity, both in the world frame.
+/// @param frames any number of at least 0
+Pose extrapolated(const Pose& before, const Pose& now, double frames);
 
 }  // namespace lmdbench

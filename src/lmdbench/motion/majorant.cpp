@@ -103,6 +103,7 @@ std::vector<double> limit_speeding_up(const std::vector<double>& values, double 
 
 std::vector<double> bounded_majorant(const std::vector<double>& samples, double time_step,
                                      const MotionLimits& limits) {
+  LMDBENCH_EXPECTS(time_step > 0.0, "a rate in place of a period, or no rate");
   std::vector<double> sum(samples.size(), 0.0);
   if (samples.empty()) return sum;
   for (const Share& share : PASSES) {
@@ -116,6 +117,8 @@ std::vector<double> bounded_majorant(const std::vector<double>& samples, double 
   }
   // Adding passes rounds; a sample must not end an ulp above the result.
   for (std::size_t i = 0; i < samples.size(); ++i) sum[i] = std::max(sum[i], samples[i]);
+  LMDBENCH_ENSURES(std::ranges::none_of(sum, [](double value) { return std::isnan(value); }),
+                   "samples that are not numbers");
   return sum;
 }
 

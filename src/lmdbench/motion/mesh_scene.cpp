@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include <lmdbench/mesh/radius_about.h>
 #include <lmdbench/mesh/surface.h>
+#include <lmdbench/mesh/triangle_mesh.h>
 #include <lmdbench/motion/mesh_scene.h>
 #include <lmdbench/snch/first_approach.h>
 #include <lmdbench/snch/hierarchy.h>
-#include <lmdbench/snch/nearest_tracker.h>
+#include <lmdbench/snch/minimum_distance.h>
 
 #include <algorithm>
 #include <cmath>

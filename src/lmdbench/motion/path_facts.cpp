@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/base/contract.h>
 #include <lmdbench/motion/path_facts.h>
 #include <lmdbench/motion/rotation_vector.h>
 
@@ -27,6 +28,7 @@ std::vector<Vec3> differences(const std::vector<Vec3>& vectors, double rate) {
 
 PathFacts path_facts(const PathInterpolator& interpolator, double rate) {
   const Path frames = resample(interpolator, rate);
+  LMDBENCH_ENSURES(!frames.empty(), "a path without poses");
   PathFacts facts;
   facts.pose_count = interpolator.path().size();
   facts.frame_count = frames.size();

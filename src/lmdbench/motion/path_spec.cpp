@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/base/input_file.h>
 #include <lmdbench/base/json_document.h>
-#include <lmdbench/base/significant_digits.h>
+#include <lmdbench/base/statistics.h>
 #include <lmdbench/motion/path_spec.h>
 
 #include <fmt/format.h>

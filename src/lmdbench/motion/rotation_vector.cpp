@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/base/contract.h>
 #include <lmdbench/motion/rotation_vector.h>
 
 #include <cmath>
@@ -7,6 +8,8 @@
 namespace lmdbench {
 
 Vec3 rotation_vector_of(const Eigen::Quaterniond& rotation) {
+  LMDBENCH_EXPECTS(std::abs(rotation.squaredNorm() - 1.0) <= UNIT_TOLERANCE,
+                   "a quaternion that was not normalised");
   const double sine = rotation.vec().stableNorm();  // of half the angle, >= 0
   // The shorter arc has a cosine of half the angle >= 0: take the sign into the axis.
   const double sign = rotation.w() < 0.0 ? -1.0 : 1.0;

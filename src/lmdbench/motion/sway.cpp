@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include <lmdbench/base/uniform_number.h>
+#include <lmdbench/base/contract.h>
+#include <lmdbench/base/statistics.h>
 #include <lmdbench/motion/sway.h>
 
 #include <cmath>
@@ -23,6 +24,7 @@ Vec3 any_direction(std::mt19937_64& random) {
 
 SwayMotion::SwayMotion(const Sway& rule, std::uint64_t which, const Vec3& centre_M, double diagonal)
     : centre_M_(centre_M), period_s_(rule.period_s) {
+  LMDBENCH_EXPECTS(rule.period_s > 0.0 && diagonal >= 0.0, "a rule that was not checked (experiment schema)");
   std::mt19937_64 random(rule.seed ^ (0x9e3779b97f4a7c15U * (which + 1)));
   way_ = rule.way_diagonals * diagonal * any_direction(random);
   half_ = 0.5 * rule.turn_rad * any_direction(random);

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include <lmdbench/base/uniform_number.h>
+#include <lmdbench/base/contract.h>
+#include <lmdbench/base/statistics.h>
 #include <lmdbench/motion/rotation_vector.h>
 #include <lmdbench/motion/wander.h>
 
@@ -19,6 +20,7 @@ Eigen::Quaterniond uniform_rotation(std::mt19937_64& generator) {
 }
 
 Wander::Wander(double rate, std::mt19937_64& generator) {
+  LMDBENCH_EXPECTS(rate >= 0.0, "a rate that is negative or not a number");
   // Nine sines of amplitude A have the mean square 9 A^2 / 2.
   const double amplitude = rate * std::numbers::sqrt2 / 3.0;
   for (auto& axis : sines_)
@@ -40,6 +42,7 @@ Vec3 Wander::angular_velocity(double time) const {
 
 std::vector<Eigen::Quaterniond> Wander::rotations(const Eigen::Quaterniond& start, double time_step,
                                                   std::size_t count) const {
+  LMDBENCH_EXPECTS(time_step > 0.0, "a rate in place of a period, or no rate");
   std::vector<Eigen::Quaterniond> rotations;
   rotations.reserve(count);
   Eigen::Quaterniond rotation = start.normalized();

@@ -32,7 +32,7 @@ struct EnergyAccount {
 };
 
 /// Three equal, independent axes of a device (friction acts in joints, so each has its own), which start at rest. Units are those of
-/// translation: metres, kilograms, newtons. For turns read radians, kg m^2, N m (simulated_gimbal.h).
+/// translation: metres, kilograms, newtons. For turns read radians, kg m^2, N m (simulated_device.h).
 class AxisTriple {
  public:
   /// @param push    constant force, by axis

@@ -5,10 +5,12 @@
 #include <lmdbench/geometry/types.h>
 #include <lmdbench/phantom/axis_triple.h>
 
+#include <Eigen/Geometry>
+
 namespace lmdbench {
 
 /// The device's place, which hand, push and rendered force move between servo ticks: three equal, independent axes along the world's.
-/// How it turns, where it actuates torque, is simulated_gimbal.h's.
+/// How it turns, where it actuates torque, is simulated_device.h's.
 class SimulatedDevice {
  public:
   /// Starts at rest.
@@ -34,6 +36,56 @@ class SimulatedDevice {
  private:
   AxisTriple axes_;
   Vec3 path_position_W_;
+  bool has_hand_;
+  double period_;
+  double resolution_;
+};
+
+/// The turning half of a device that actuates torque: hand, friction and rendered torque move its orientation between servo ticks.
+///
+/// Model, ours: a gimbal whose three joint coordinates are the components of the rotation vector y by which the device is turned
+/// from the meant path's orientation, R = exp(y) R_path, each an axis as in axis_model.h with an inertia for the mass. So the
+/// equations stay linear, their solution exact and the energies closed, as in translation. Against a rigid body of that inertia this is
+/// exact for turns about one axis; otherwise second order in y, which the hand's spring keeps small: without a hand, beyond half a turn from the start,
+/// it is a gimbal and no free body.
+///
+/// The rendered torque t drives the coordinates by what does the same work, J(y)^T t with the angular velocity w = J(y) y', so a contact
+/// that conserves energy in the world conserves it here at any y. The meant path turns between ticks at a constant rate.
+
+/// What a torque in the world is on the coordinates y: J(y)^T torque, J the left Jacobian of the rotation vector.
+Vec3 generalised_torque(const Vec3& rotation_vector, const Vec3& torque_W);
+
+class SimulatedGimbal {
+ public:
+  /// Starts at rest.
+  /// @param dynamics    inertia in the place of mass [kg m^2], damping [N m s], friction [N m], hand likewise
+  /// @param start       orientation R_WM, also of the meant path
+  /// @param push_W      constant torque on the coordinates [N m]
+  /// @param resolution  of the encoders [rad]; 0: exact
+  /// @param period      servo period [s]
+  SimulatedGimbal(const DeviceDynamics& dynamics, double period, const Eigen::Quaterniond& start,
+                  const Vec3& push_W, double resolution);
+
+  /// One servo period with this torque rendered all along, while the meant path turns to its next orientation.
+  /// Without a hand nothing is drawn along the path.
+  void advance(const Vec3& torque_W, const Eigen::Quaterniond& next_path_orientation);
+
+  Eigen::Quaterniond orientation() const;  ///< True R_WM.
+  /// What the encoders tell: the rotation vector from the start, each component rounded to the resolution.
+  Eigen::Quaterniond sensed_orientation() const;
+  Vec3 offset() const { return axes_.offset(); }  ///< y [rad]
+  Vec3 angular_velocity() const {
+    return axes_.velocity();
+  }  ///< Of the coordinates [rad/s]; the device's own up to first order in y.
+  EnergyAccount energy() const { return axes_.energy(); }
+
+  /// A blow: changes the angular velocity at once, as work of the push.
+  void strike(const Vec3& change_W) { axes_.strike(change_W); }
+
+ private:
+  AxisTriple axes_;
+  Eigen::Quaterniond start_;
+  Eigen::Quaterniond path_orientation_;
   bool has_hand_;
   double period_;
   double resolution_;

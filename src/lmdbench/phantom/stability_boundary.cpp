@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/base/error.h>
-#include <lmdbench/phantom/axis_flow.h>
+#include <lmdbench/phantom/exact_integrator.h>
 #include <lmdbench/phantom/stability_boundary.h>
 
 #include <Eigen/Eigenvalues>

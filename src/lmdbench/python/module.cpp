@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The compiled part of the Python module: meshes, searches, forces and agreement over numpy arrays. What users see, with
 // shapes and units, is package/__init__.py; this part trusts its types, not its values.
-#include <lmdbench/force/aggregate.h>
+#include <lmdbench/force/aggregation.h>
 #include <lmdbench/lmd/agreement.h>
 #include <lmdbench/lmdbench.h>
 #include <lmdbench/motion/tum_file.h>

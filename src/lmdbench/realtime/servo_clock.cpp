@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/realtime/servo_clock.h>
-#include <lmdbench/realtime/servo_watch.h>
 
 #include <cerrno>
 #include <cstddef>

@@ -63,4 +63,17 @@ struct TickTimes {
 /// Runs in the calling thread, whose policy it has. Ticks and skipped instants are `ticks` together.
 TickTimes run_empty_loop(std::int64_t period, std::int64_t ticks);
 
+/// Whether the calling thread is inside a servo tick, where nothing may be allocated, locked, faulted in or written. The loop
+/// sets it; tests that replace the allocator and the mutexes count what happens while it is set.
+inline thread_local bool in_servo_tick = false;
+
+/// Sets it for a scope.
+class ServoWatch {
+ public:
+  ServoWatch() { in_servo_tick = true; }
+  ~ServoWatch() { in_servo_tick = false; }
+  ServoWatch(const ServoWatch&) = delete;
+  ServoWatch& operator=(const ServoWatch&) = delete;
+};
+
 }  // namespace lmdbench

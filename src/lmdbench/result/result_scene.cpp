@@ -127,14 +127,7 @@ const MethodDescription& exact_description() {
 
 }  // namespace
 
-Scene scene_of_result(const ResultReader& result) {
-  Experiment experiment = experiment_of_result(result);
-  refuse_deformation(experiment);
-  refuse_movers(experiment);
-  return scene_of_experiment(std::move(experiment), result).rest;
-}
-
-ResultScene deforming_scene_of_result(const ResultReader& result) {
+ResultScene scene_of_result(const ResultReader& result) {
   return scene_of_experiment(experiment_of_result(result), result);
 }
 

@@ -5,7 +5,7 @@
 #include <lmdbench/lmd/method.h>
 #include <lmdbench/lmd/scene.h>
 #include <lmdbench/motion/path.h>
-#include <lmdbench/record/result_reader.h>
+#include <lmdbench/result_file/result_reader.h>
 #include <lmdbench/run/mover_play.h>
 #include <lmdbench/run/scene_deformation.h>
 
@@ -18,18 +18,15 @@
 namespace lmdbench {
 
 /// The meshes of a result as they stood in the scene, under the largest cutoff of its methods.
-/// @throws InputError where a mesh is not to be had any more or is no longer what was run; UsageError where the result's
-/// experiment is none, a mesh of it deforms, or several move
-Scene scene_of_result(const ResultReader& result);
-
-/// The same with how its bodies deform; null where none does.
 struct ResultScene {
   Scene rest;
-  std::shared_ptr<const SceneDeformation> deformation;
+  std::shared_ptr<const SceneDeformation> deformation;  ///< How its bodies deform; null where none does.
   std::shared_ptr<const MoverPlay> movers =
       nullptr;  ///< Where several meshes move: with the poses that the result has.
 };
-ResultScene deforming_scene_of_result(const ResultReader& result);
+/// @throws InputError where a mesh is not to be had any more or is no longer what was run; UsageError where the result's
+/// experiment is none
+ResultScene scene_of_result(const ResultReader& result);
 
 /// Poses that methods of a result went through.
 struct ResultTrack {

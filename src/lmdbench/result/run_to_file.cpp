@@ -4,12 +4,11 @@
 #include <lmdbench/base/error.h>
 #include <lmdbench/base/file_hash.h>
 #include <lmdbench/base/output_guard.h>
-#include <lmdbench/record/machine_info.h>
-#include <lmdbench/record/own_result.h>
-#include <lmdbench/record/provenance.h>
-#include <lmdbench/record/result_writer.h>
 #include <lmdbench/result/run_to_file.h>
 #include <lmdbench/result/write_result.h>
+#include <lmdbench/result_file/own_result.h>
+#include <lmdbench/result_file/provenance.h>
+#include <lmdbench/result_file/result_writer.h>
 
 #include <memory>
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/realtime/lateness.h>
-#include <lmdbench/result/write_realtime.h>
+#include <lmdbench/result/write_result.h>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>

@@ -3,16 +3,16 @@
 #include <lmdbench/force/aggregation.h>
 #include <lmdbench/methods/registry.h>
 #include <lmdbench/metrics/summary.h>
-#include <lmdbench/result/write_movers.h>
-#include <lmdbench/result/write_polylines.h>
-#include <lmdbench/result/write_realtime.h>
 #include <lmdbench/result/write_result.h>
 #include <lmdbench/run/columns.h>
+#include <lmdbench/run/write_column.h>
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstddef>
 #include <cstdint>
+#include <span>
 #include <string>
 #include <type_traits>
 #include <variant>
@@ -21,29 +21,61 @@
 namespace lmdbench {
 namespace {
 
-/// One column of a table of records; `project` gives a number or a Vec3 of a row.
-template <typename Row, typename Project>
-void write_column(ResultWriter& writer, const DatasetInfo& info, const std::vector<Row>& rows,
-                  Project project) {
-  using Value = std::decay_t<decltype(project(rows.front()))>;
-  if constexpr (std::is_same_v<Value, Vec3>) {
-    std::vector<double> values;
-    values.reserve(rows.size() * 3);
-    for (const Row& row : rows) {
-      const Vec3 value = project(row);
-      values.insert(values.end(), value.data(), value.data() + 3);
-    }
-    writer.write(info, std::span<const double>(values), {rows.size(), 3});
-  } else {
-    using Stored =
-        std::conditional_t<std::is_floating_point_v<Value>, double,
-                           std::conditional_t<std::is_same_v<Value, bool>, std::uint8_t, std::int64_t>>;
-    std::vector<Stored> values;
-    values.reserve(rows.size());
-    for (const Row& row : rows) values.push_back(static_cast<Stored>(project(row)));
-    writer.write(info, std::span<const Stored>(values), {rows.size()});
-  }
+void write_vectors(ResultWriter& writer, const DatasetInfo& info, const std::vector<double>& values,
+                   std::size_t movers) {
+  writer.write(info, std::span<const double>(values), {values.size() / (3 * movers), movers, 3});
 }
+
+}  // namespace
+
+void write_mover_poses(ResultWriter& writer, const MoverPlay& play) {
+  const std::size_t movers = play.count(), frames = play.poses.size();
+  std::vector<double> positions(3 * movers * frames), orientations(4 * movers * frames);
+  for (std::size_t frame = 0; frame < frames; ++frame)
+    for (std::size_t i = 0; i < movers; ++i) {
+      const std::size_t row = frame * movers + play.number[i];
+      const Pose& pose = play.poses[frame][i];
+      std::copy_n(pose.translation.data(), 3, positions.begin() + static_cast<std::ptrdiff_t>(3 * row));
+      std::copy_n(pose.rotation.coeffs().data(), 4,
+                  orientations.begin() + static_cast<std::ptrdiff_t>(4 * row));
+    }
+  write_vectors(writer, {"/path/movers/position", "m", "origin of each mover's frame, world frame"},
+                positions, movers);
+  writer.write({"/path/movers/orientation", "1", "unit quaternion x, y, z, w of each mover"},
+               std::span<const double>(orientations), {frames, movers, 4});
+}
+
+void write_mover_frames(ResultWriter& writer, const std::string& group, const MethodRecord& record,
+                        std::size_t movers, bool torque) {
+  const std::size_t frames = record.movers.size() / movers;
+  const auto vectors = [&](const char* name, const char* units, const char* long_name,
+                           Vec3 MoverFrame::*value) {
+    std::vector<double> values;
+    for (const MoverFrame& mover : record.movers)
+      values.insert(values.end(), (mover.*value).begin(), (mover.*value).end());
+    write_vectors(writer, {group + "/movers/" + name, units, long_name}, values, movers);
+  };
+  vectors("force", "N", "rendered force on each mover, world frame", &MoverFrame::force);
+  if (torque)
+    vectors("torque", "N m", "torque about each mover's centre, before the device clips it",
+            &MoverFrame::torque);
+  std::vector<std::uint8_t> clipped;
+  std::vector<std::int64_t> counts;
+  std::vector<double> distances;
+  for (const MoverFrame& mover : record.movers) {
+    clipped.push_back(mover.force_clipped ? 1 : 0);
+    counts.push_back(mover.lmd_count);
+    distances.push_back(mover.minimum_distance);
+  }
+  writer.write({group + "/movers/force_clipped", "1", "1 where the device clipped the mover's force"},
+               std::span<const std::uint8_t>(clipped), {frames, movers});
+  writer.write({group + "/movers/lmd_count", "1", "LMDs of the mover's pairs within the cutoff"},
+               std::span<const std::int64_t>(counts), {frames, movers});
+  writer.write({group + "/movers/minimum_distance", "m", "smallest LMD distance of the mover's pairs"},
+               std::span<const double>(distances), {frames, movers});
+}
+
+namespace {
 
 /// The columns of a table of records that the experiment keeps.
 template <typename Row>
@@ -92,33 +124,6 @@ void write_searches(ResultWriter& writer, const std::string& group, const Method
     write_times(writer, {group + "/" + time.name, "s", time.long_name}, record.repetitions, time.times);
 }
 
-void write_truth(ResultWriter& writer, const std::string& group, const std::vector<TruthFrame>& truth,
-                 const std::vector<TruthComparison>& rows) {
-  const auto column = [&](const std::string& name, const std::string& units, const std::string& long_name,
-                          auto project) {
-    write_column(writer, {group + "/" + name, units, long_name}, rows, project);
-  };
-  using Row = const TruthComparison&;
-  write_column(writer, {group + "/frame", "1", "frame that was compared with truth"}, truth,
-               [](const TruthFrame& t) { return t.frame; });
-  column("recall", "1", "share of true LMDs found, same features", [](Row r) { return r.same.recall(); });
-  column("precision", "1", "share of LMDs that are true, same features",
-         [](Row r) { return r.same.precision(); });
-  column("recall_adjacent", "1", "share of true LMDs found, adjacent features",
-         [](Row r) { return r.neighbours.recall(); });
-  column("precision_adjacent", "1", "share of LMDs that are true, adjacent features",
-         [](Row r) { return r.neighbours.precision(); });
-  column("minimum_distance_error", "m", "minimum distance minus the true one",
-         [](Row r) { return r.minimum_distance_error; });
-  column(
-      "force_error", "N",
-      "length of the difference to the true rendered force under the same law and the profile's aggregation",
-      [](Row r) { return r.force_error; });
-  column("force_angle_error", "rad", "angle to the true force", [](Row r) { return r.force_angle_error; });
-  column("force_jump", "N", "change of the method's force to the next frame",
-         [](Row r) { return r.force_jump; });
-}
-
 /// @param play of several movers; else null
 void write_lmd_lists(ResultWriter& writer, const std::string& group, const MethodRecord& record,
                      const MoverPlay* play) {
@@ -164,28 +169,6 @@ void write_lmd_lists(ResultWriter& writer, const std::string& group, const Metho
          [](const Lmd& l) { return std::int64_t{l.fixed_body}; });
 }
 
-void write_reference(ResultWriter& writer, const std::string& group, const std::vector<TruthFrame>& truth) {
-  const auto column = [&](const std::string& name, const std::string& units, const std::string& long_name,
-                          auto project) {
-    write_column(writer, {group + "/" + name, units, long_name}, truth, project);
-  };
-  constexpr auto LINEAR = static_cast<std::size_t>(ForceLaw::LINEAR);
-  constexpr auto EXPONENTIAL = static_cast<std::size_t>(ForceLaw::EXPONENTIAL);
-  column("frame", "1", "frame of the exhaustive set", [](const TruthFrame& t) { return t.frame; });
-  column("lmd_count", "1", "true LMDs within the cutoff",
-         [](const TruthFrame& t) { return static_cast<std::int64_t>(t.lmds.size()); });
-  column("minimum_distance", "m", "smallest true LMD distance",
-         [](const TruthFrame& t) { return minimum_distance(t.lmds); });
-  column("force_linear", "N", "rendered force of the true set, linear law",
-         [](const TruthFrame& t) { return t.force[LINEAR]; });
-  column("force_exponential", "N", "rendered force of the true set, exponential law",
-         [](const TruthFrame& t) { return t.force[EXPONENTIAL]; });
-  column("force_jump_linear", "N", "change of the true force to the next frame, linear law",
-         [](const TruthFrame& t) { return t.force_jump[LINEAR]; });
-  column("force_jump_exponential", "N", "change of the true force to the next frame, exponential law",
-         [](const TruthFrame& t) { return t.force_jump[EXPONENTIAL]; });
-}
-
 void write_poses(ResultWriter& writer, const std::string& group, const std::vector<Pose>& poses) {
   write_column(writer, {group + "/position", "m", "origin of the moving mesh's frame, world frame"}, poses,
                [](const Pose& p) { return p.translation; });
@@ -204,74 +187,33 @@ void write_in_contact(ResultWriter& writer, const std::string& group, const std:
                std::span<const std::uint8_t>(flags), {flags.size()});
 }
 
-/// Exceptions of several movers as files name their bodies.
-/// @param moving_bodies receives the mover of each
-std::vector<FclException> filed_exceptions(const FclCheck& check, const MoverPlay& play,
-                                           std::vector<std::int64_t>& moving_bodies) {
-  std::vector<FclException> exceptions = check.exceptions;
-  for (FclException& exception : exceptions) {
-    Lmd pair;
-    pair.fixed_body = exception.fixed_body;
-    pair.triangle_moving = exception.triangle_moving;
-    pair.triangle_fixed = exception.triangle_fixed;
-    const FiledLmd filed = as_filed(pair, play);
-    exception.fixed_body = filed.lmd.fixed_body;
-    exception.triangle_moving = filed.lmd.triangle_moving;
-    exception.triangle_fixed = filed.lmd.triangle_fixed;
-    moving_bodies.push_back(filed.moving_body);
-    const auto mover = std::ranges::find(play.number, static_cast<std::size_t>(filed.moving_body));
-    exception.pose = play.poses[static_cast<std::size_t>(exception.frame)]
-                               [static_cast<std::size_t>(mover - play.number.begin())];
+/// What the probes found along a track.
+/// @param group of the file: `RunResult::group_of`
+void write_findings(ResultWriter& writer, const std::string& group, const Experiment& experiment,
+                    const Track& track) {
+  for (const Probe& probe : probes()) {
+    const auto found = track.findings.find(probe.name);
+    if (found == track.findings.end()) continue;
+    for (const ProbeDataset& dataset : probe.datasets)
+      if (dataset.path.starts_with('/'))
+        dataset.write(writer, {group + dataset.path, dataset.units, dataset.long_name}, *found->second, 0);
+    if (probe.attributes.empty()) continue;
+    for (const auto& option : probe.options.items())
+      writer.attribute(group + probe.attributes, option.key(),
+                       experiment.probes.at(probe.name).options[option.key()].get<double>());
   }
-  return exceptions;
 }
 
-/// @param play of several movers; else null
-void write_fcl(ResultWriter& writer, const std::string& group, const FclCheck& check, double tolerance,
-               const MoverPlay* play) {
-  writer.attribute(group, "tolerance_relative", tolerance);
-  const auto column = [&](const std::string& name, const std::string& units, const std::string& long_name,
-                          auto project) {
-    write_column(writer, {group + "/" + name, units, long_name}, check.frames, project);
-  };
-  column("frame", "1", "frame that was cross-checked", [](const FclFrame& f) { return f.frame; });
-  column("distance", "m", "FCL's minimum distance", [](const FclFrame& f) { return f.distance; });
-  column("lmdbench_distance", "m", "exact minimum distance",
-         [](const FclFrame& f) { return f.lmdbench_distance; });
-  column("relative_difference", "1", "difference of the two, relative to the exact one",
-         [](const FclFrame& f) { return f.relative_difference; });
-  column("separated", "1", "1 where FCL finds no contact", [](const FclFrame& f) { return f.separated; });
-  column("agrees", "1", "1 where the two agree", [](const FclFrame& f) { return f.agrees; });
-
-  const std::string exceptions = group + "/exceptions";
-  std::vector<std::int64_t> moving_bodies;
-  const std::vector<FclException> filed =
-      play != nullptr ? filed_exceptions(check, *play, moving_bodies) : check.exceptions;
-  if (play != nullptr)
-    writer.write({exceptions + "/moving_body", "1", "mover of FCL's nearest pair"},
-                 std::span<const std::int64_t>(moving_bodies), {moving_bodies.size()});
-  const auto exception = [&](const std::string& name, const std::string& units, const std::string& long_name,
-                             auto project) {
-    write_column(writer, {exceptions + "/" + name, units, long_name}, filed, project);
-  };
-  std::vector<std::string> who;
-  std::vector<Pose> poses;
-  for (const FclException& entry : filed) {
-    who.push_back(entry.who);
-    poses.push_back(entry.pose);
-  }
-  writer.write({exceptions + "/who", "1", "label of the method, or lmdbench for the exact nearest pair"},
-               who);
-  write_poses(writer, exceptions, poses);
-  using Row = const FclException&;
-  exception("frame", "1", "frame out of tolerance", [](Row e) { return e.frame; });
-  exception("distance", "m", "their minimum distance", [](Row e) { return e.distance; });
-  exception("fcl_distance", "m", "FCL's minimum distance", [](Row e) { return e.fcl_distance; });
-  exception("lmdbench_distance", "m", "exact minimum distance", [](Row e) { return e.lmdbench_distance; });
-  exception("triangle_moving", "1", "triangle of FCL's nearest pair",
-            [](Row e) { return e.triangle_moving; });
-  exception("triangle_fixed", "1", "triangle of FCL's nearest pair", [](Row e) { return e.triangle_fixed; });
-  exception("fixed_body", "1", "fixed mesh of FCL's nearest pair", [](Row e) { return e.fixed_body; });
+/// What they found of one of its methods.
+void write_findings_of_method(ResultWriter& writer, const std::string& group, const RunResult& result,
+                              std::size_t method) {
+  const Track& track = result.track_of(method);
+  for (const Probe& probe : probes())
+    if (const auto found = track.findings.find(probe.name); found != track.findings.end())
+      for (const ProbeDataset& dataset : probe.datasets)
+        if (!dataset.path.starts_with('/'))
+          dataset.write(writer, {group + "/" + dataset.path, dataset.units, dataset.long_name},
+                        *found->second, result.place_of(method));
 }
 
 void write_method(ResultWriter& writer, const Experiment& experiment, const RunResult& result,
@@ -299,7 +241,7 @@ void write_method(ResultWriter& writer, const Experiment& experiment, const RunR
   if (movers != nullptr && experiment.record_frames)
     write_mover_frames(writer, group, record, movers->count(), experiment.record_torque);
   if (method.tracks_locally) write_searches(writer, group, method, record, experiment);
-  if (!track.truth.empty()) write_truth(writer, group + "/truth", track.truth, result.comparisons[index]);
+  write_findings_of_method(writer, group, result, index);
   if (experiment.loop.closed) {
     write_poses(writer, group + "/path", record.poses);
     write_columns(writer, group + "/loop", loop_columns(experiment.loop.rotation.has_value()), record.loop,
@@ -307,25 +249,9 @@ void write_method(ResultWriter& writer, const Experiment& experiment, const RunR
   }
   if (!result.one_track) {
     write_in_contact(writer, experiment.loop.closed ? group + "/loop" : group, track.in_contact);
-    if (!track.truth.empty()) write_reference(writer, group + "/reference", track.truth);
-    if (!track.truth.empty() && movers != nullptr)
-      write_mover_truth(writer, group + "/reference", track.truth, movers->count());
-    if (track.fcl)
-      write_fcl(writer, group + "/crosscheck/fcl", *track.fcl, experiment.fcl_tolerance_relative, movers);
-    if (experiment.polyline_stride_frames > 0) write_polylines(writer, group + "/polylines", track.polylines);
+    write_findings(writer, group, experiment, track);
   }
   if (experiment.record_lmds) write_lmd_lists(writer, group + "/lmds", record, movers);
-  if (track.fcl) {
-    const auto column = static_cast<std::size_t>(
-        std::find(track.methods.begin(), track.methods.end(), index) - track.methods.begin());
-    write_column(writer, {group + "/fcl/frame", "1", "frame that was compared with FCL"}, track.fcl->frames,
-                 [](const FclFrame& f) { return f.frame; });
-    write_column(
-        writer,
-        {group + "/fcl/minimum_distance_difference_relative", "1",
-         "a fresh search's minimum distance minus FCL's, divided by FCL's; infinite where it found no pair"},
-        track.fcl->frames, [&](const FclFrame& f) { return f.method_difference[column]; });
-  }
 }
 
 }  // namespace
@@ -351,16 +277,7 @@ void write_result(ResultWriter& writer, const Experiment& experiment, const RunR
     writer.attribute("/methods", "search_latency_frames", experiment.driver.search_latency_frames);
   }
   for (std::size_t i = 0; i < experiment.methods.size(); ++i) write_method(writer, experiment, result, i);
-  if (result.one_track) {
-    const Track& track = result.tracks.front();
-    const MoverPlay* movers = result.prepared.input.movers.get();
-    if (!track.truth.empty()) write_reference(writer, "/reference", track.truth);
-    if (!track.truth.empty() && movers != nullptr)
-      write_mover_truth(writer, "/reference", track.truth, movers->count());
-    if (track.fcl)
-      write_fcl(writer, "/crosscheck/fcl", *track.fcl, experiment.fcl_tolerance_relative, movers);
-    if (experiment.polyline_stride_frames > 0) write_polylines(writer, "/polylines", track.polylines);
-  }
+  if (result.one_track) write_findings(writer, "", experiment, result.tracks.front());
   write_realtime(writer, result.clocks);
   write_summary(writer, summarise(experiment, result));
 }

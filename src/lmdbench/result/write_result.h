@@ -2,10 +2,25 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <lmdbench/record/result_writer.h>
+#include <lmdbench/result_file/result_writer.h>
+#include <lmdbench/run/mover_play.h>
+#include <lmdbench/run/realtime_record.h>
 #include <lmdbench/run/run.h>
 
+#include <nlohmann/json_fwd.hpp>
+
+#include <string>
+#include <vector>
+
+/// What results have of several movers, one a column in the order of the file: the moving mesh, then the entries of `/movers`.
 namespace lmdbench {
+
+/// /path/movers: every pose of every mover.
+void write_mover_poses(ResultWriter& writer, const MoverPlay& play);
+
+/// movers/ of a method: what each felt in each frame.
+void write_mover_frames(ResultWriter& writer, const std::string& group, const MethodRecord& record,
+                        std::size_t movers, bool torque);
 
 /// Writes /path, /scene, /methods, /reference and /crosscheck of the result contract;
 /// provenance is not part of it. Does not commit.
@@ -20,5 +35,15 @@ void write_profile(ResultWriter& writer, const std::string& group, const Prepare
 
 /// The group /scene: first force profile, device, meshes and warnings.
 void write_scene(ResultWriter& writer, const RunResult& result);
+
+/// `/realtime` of the result file (results/README.md).
+void write_realtime(ResultWriter& writer, const std::vector<RealtimeRecord>& clocks);
+
+/// For people: rates, loads and lateness over the floor.
+std::string realtime_text(const std::vector<RealtimeRecord>& clocks);
+
+/// The same for programs: [{"label", "frames_skipped", "frames_lost", "floor_skipped", "stolen_s", "grants": [...], "lateness": {SERIES:
+/// [{"share", "value_s", "low_s", "high_s"}]}, "roles": [{"name", "core", "rate_hz", "load", ...}]}].
+nlohmann::ordered_json realtime_json(const std::vector<RealtimeRecord>& clocks);
 
 }  // namespace lmdbench

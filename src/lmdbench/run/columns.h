@@ -4,7 +4,7 @@
 
 #include <lmdbench/experiment/experiment.h>
 #include <lmdbench/lmd/method_description.h>
-#include <lmdbench/record/result_writer.h>
+#include <lmdbench/result_file/result_writer.h>
 #include <lmdbench/run/records.h>
 
 #include <cstdint>

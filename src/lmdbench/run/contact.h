@@ -4,13 +4,74 @@
 
 #include <lmdbench/geometry/pose.h>
 #include <lmdbench/lmd/scene.h>
+#include <lmdbench/mesh/triangle_mesh.h>
+#include <lmdbench/run/scene_deformation.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <limits>
+#include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
 namespace lmdbench {
+
+/// How far a point of the moving mesh can get between two poses.
+class MotionBound {
+ public:
+  /// Part of the lengths involved that rounding may take from a bound on a motion.
+  static constexpr double ROUNDING = 1e-12;
+
+  /// @param farther how far points may be from where the mesh has them, as it deforms [m]
+  explicit MotionBound(const TriangleMesh& mesh, double farther = 0.0)
+      : centre_(bounding_box_centre(mesh)), radius_(radius_about(mesh, centre_) + farther) {}
+
+  /// The way of the centre, and of the point farthest from it as the mesh turns: a chord.
+  double between(const Pose& a, const Pose& b) const {
+    const double way = (RigidTransform(b).point(centre_) - RigidTransform(a).point(centre_)).norm();
+    const double half_turn_sine = (a.rotation.conjugate() * b.rotation).vec().norm();
+    return way + 2.0 * radius_ * std::min(half_turn_sine, 1.0);
+  }
+  /// Rounding of that, at poses as far out as these.
+  double slack(const Pose& a, const Pose& b) const {
+    return ROUNDING * (radius_ + centre_.norm() + a.translation.norm() + b.translation.norm());
+  }
+
+ private:
+  Vec3 centre_;
+  double radius_;
+};
+
+/// The exact distance of meshes that deform, frame by frame: of a frame that was not looked at, what follows from one that was and
+/// bounds on motion and deformation since.
+class DeformingDistance {
+ public:
+  DeformingDistance(const Scene& rest, std::shared_ptr<const SceneDeformation> deformation);
+
+  /// The distance, however far; 0 where triangles touch or intersect [m].
+  double look(std::int64_t frame, const Pose& X_WM);
+
+  /// Between these it is.
+  struct Interval {
+    double least = 0.0, most = std::numeric_limits<double>::infinity();
+  };
+  Interval known(std::int64_t frame, const Pose& X_WM) const;
+
+ private:
+  DeformingScene bodies_;
+  std::shared_ptr<const SceneDeformation> deformation_;
+  MotionBound motion_;  ///< Of the moving mesh in all of its shapes.
+  std::optional<Pose> looked_at_;
+  std::int64_t frame_ = 0;  ///< That was looked at.
+  double distance_ = 0.0;   ///< There [m].
+};
+
+/// As contact.h, each frame at the shape that it has.
+/// @param forecast  whether frames whose contact is known are left out of the search: the answer is the same
+std::vector<bool> frames_in_contact(const Scene& rest,
+                                    const std::shared_ptr<const SceneDeformation>& deformation,
+                                    const std::vector<Pose>& poses, bool forecast = true);
 
 /// "In contact", the one definition: at each pose, whether the meshes are within the cutoff of each other, so
 /// that there is something to feel. A fact of the scene and the path alone: statistics over the frames in

@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/base/contract.h>
 #include <lmdbench/run/direction_memory.h>
 
 #include <limits>
@@ -7,6 +8,7 @@
 namespace lmdbench {
 
 std::int64_t DirectionMemory::complete(LmdSet& lmds) {
+  LMDBENCH_EXPECTS(cutoff_ > 0.0, "a cutoff that was not checked");
   std::int64_t without_direction = 0;
   const double reach = is_older_ ? cutoff_ : std::numeric_limits<double>::infinity();
   known_.clear();

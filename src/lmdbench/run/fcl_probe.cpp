@@ -1,11 +1,14 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/base/build_info.h>
 #include <lmdbench/crosscheck/fcl_crosscheck.h>
 #include <lmdbench/experiment/rules.h>
 #include <lmdbench/run/fcl_probe.h>
 #include <lmdbench/run/mover_probe.h>
-#include <lmdbench/snch/nearest_tracker.h>
-#include <lmdbench/world/nearest_instance.h>
+#include <lmdbench/snch/minimum_distance.h>
+#include <lmdbench/world/broad_phase.h>
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
@@ -186,9 +189,10 @@ class MoverFclMinimum {
 
 }  // namespace
 
-FclCheck probe_fcl(const Scene& scene, const LockstepInput& input, const std::vector<LockstepMethod>& methods,
-                   const std::vector<std::int64_t>& frames, double tolerance_relative,
-                   const Progress& progress, const ProbeShortcuts& shortcuts) {
+std::unique_ptr<FclCheck> probe_fcl(const Scene& scene, const LockstepInput& input,
+                                    const std::vector<LockstepMethod>& methods,
+                                    const std::vector<std::int64_t>& frames, double tolerance_relative,
+                                    const Progress& progress, const ProbeShortcuts& shortcuts) {
   DeformingScene bodies(scene, input.deformation);
   std::vector<std::unique_ptr<Method>> instances;
   for (const LockstepMethod& method : methods) instances.push_back(method.make_for(bodies));
@@ -197,7 +201,8 @@ FclCheck probe_fcl(const Scene& scene, const LockstepInput& input, const std::ve
   // OBBRSS, since RSS::operator+ takes one axis of the sum from an operand, so that its frame is not orthonormal (FCL 0.7.0).
   std::optional<FclMinimum> fcl;
   ExactMinimum exact(bodies.scene(), shortcuts.warm && !bodies.deforms());
-  FclCheck check;
+  auto made = std::make_unique<FclCheck>();
+  FclCheck& check = *made;
   WorkCounters ignored;
   LmdSet lmds;
   std::size_t noted = 0;  // exceptions before those of the last frame
@@ -230,19 +235,41 @@ FclCheck probe_fcl(const Scene& scene, const LockstepInput& input, const std::ve
     tell_progress(progress, check.frames.size(), frames.size());
   }
   sort_exceptions(check);
-  return check;
+  return made;
 }
 
-FclCheck probe_mover_fcl(const MoverPlay& play, double cutoff, const std::vector<LockstepMethod>& methods,
-                         const std::vector<std::int64_t>& frames, double tolerance_relative,
-                         const Progress& progress) {
+namespace {
+
+/// Names the bodies of an exception of several movers as files do.
+void file_exception(FclException& exception, const MoverPlay& play) {
+  Lmd pair;
+  pair.fixed_body = exception.fixed_body;
+  pair.triangle_moving = exception.triangle_moving;
+  pair.triangle_fixed = exception.triangle_fixed;
+  const FiledLmd filed = as_filed(pair, play);
+  exception.fixed_body = filed.lmd.fixed_body;
+  exception.triangle_moving = filed.lmd.triangle_moving;
+  exception.triangle_fixed = filed.lmd.triangle_fixed;
+  exception.moving_body = filed.moving_body;
+  const auto mover = std::ranges::find(play.number, static_cast<std::size_t>(filed.moving_body));
+  exception.pose = play.poses[static_cast<std::size_t>(exception.frame)]
+                             [static_cast<std::size_t>(mover - play.number.begin())];
+}
+
+/// As of one mover, the distances those of the nearest two objects.
+std::unique_ptr<FclCheck> probe_mover_fcl(const MoverPlay& play, double cutoff,
+                                          const std::vector<LockstepMethod>& methods,
+                                          const std::vector<std::int64_t>& frames, double tolerance_relative,
+                                          const Progress& progress) {
   const auto poses = std::make_shared<std::vector<Pose>>();
   std::vector<std::unique_ptr<Method>> instances;
   for (const LockstepMethod& method : methods)
     instances.push_back(method.make_among(play.scene(cutoff), poses));
   MoverFclMinimum fcl(play);
   MoverDistances exact(play);
-  FclCheck check;
+  auto made = std::make_unique<FclCheck>();
+  FclCheck& check = *made;
+  check.several_move = true;
   WorkCounters ignored;
   LmdSet lmds;
   for (const std::int64_t frame : frames) {
@@ -259,7 +286,114 @@ FclCheck probe_mover_fcl(const MoverPlay& play, double cutoff, const std::vector
     tell_progress(progress, check.frames.size(), frames.size());
   }
   sort_exceptions(check);
-  return check;
+  for (FclException& exception : check.exceptions) file_exception(exception, play);
+  return made;
+}
+
+std::unique_ptr<ProbeFindings> cross_check(const ProbedTrack& track) {
+  const double tolerance = track.choice.options["tolerance_relative"].get<double>();
+  std::unique_ptr<FclCheck> found =
+      track.input.movers ? probe_mover_fcl(*track.input.movers, track.profile.scene.cutoff, track.methods,
+                                           track.frames, tolerance, track.progress)
+                         : probe_fcl(track.profile.scene, track.input, track.methods, track.frames, tolerance,
+                                     track.progress,
+                                     {.warm = is_on(track.rules, Rule::WARM_CROSSCHECK),
+                                      .reuse_repeated = is_on(track.rules, Rule::REPEATED_POSE)});
+  found->tolerance_relative = tolerance;
+  return found;
+}
+
+std::vector<ProbeDataset> fcl_datasets() {
+  using Frame = const FclFrame&;
+  using Row = const FclException&;
+  std::vector<ProbeDataset> all;
+  const auto frames = [](const FclCheck& check, std::size_t) -> const auto& {
+    return check.frames;
+  };
+  const auto exceptions = [](const FclCheck& check, std::size_t) -> const auto& {
+    return check.exceptions;
+  };
+  ProbeTable<FclCheck, FclFrame>("/crosscheck/fcl", "C", frames)
+      .column("frame", "1", "frame that was cross-checked", [](Frame f) { return f.frame; })
+      .column("distance", "m", "FCL's minimum distance", [](Frame f) { return f.distance; })
+      .column("lmdbench_distance", "m", "exact minimum distance", [](Frame f) { return f.lmdbench_distance; })
+      .column("relative_difference", "1", "difference of the two, relative to the exact one",
+              [](Frame f) { return f.relative_difference; })
+      .column("separated", "1", "1 where FCL finds no contact", [](Frame f) { return f.separated; })
+      .column("agrees", "1", "1 where the two agree", [](Frame f) { return f.agrees; })
+      .into(all);
+  ProbeTable<FclCheck, FclException>("/crosscheck/fcl/exceptions", "E", exceptions,
+                                     [](const FclCheck& check) { return check.several_move; })
+      .column("moving_body", "1", "mover of FCL's nearest pair", [](Row e) { return e.moving_body; })
+      .into(all);
+  ProbeTable<FclCheck, FclException>("/crosscheck/fcl/exceptions", "E", exceptions)
+      .column("who", "1", "label of the method, or lmdbench for the exact nearest pair",
+              [](Row e) { return e.who; })
+      .column("position", "m", "origin of the moving mesh's frame, world frame",
+              [](Row e) { return e.pose.translation; })
+      .column("orientation", "1", "unit quaternion x, y, z, w of the moving mesh",
+              [](Row e) { return e.pose.rotation; })
+      .column("frame", "1", "frame out of tolerance", [](Row e) { return e.frame; })
+      .column("distance", "m", "their minimum distance", [](Row e) { return e.distance; })
+      .column("fcl_distance", "m", "FCL's minimum distance", [](Row e) { return e.fcl_distance; })
+      .column("lmdbench_distance", "m", "exact minimum distance", [](Row e) { return e.lmdbench_distance; })
+      .column("triangle_moving", "1", "triangle of FCL's nearest pair",
+              [](Row e) { return e.triangle_moving; })
+      .column("triangle_fixed", "1", "triangle of FCL's nearest pair", [](Row e) { return e.triangle_fixed; })
+      .column("fixed_body", "1", "fixed mesh of FCL's nearest pair", [](Row e) { return e.fixed_body; })
+      .into(all);
+  ProbeTable<FclCheck, FclFrame>("fcl", "C", frames)
+      .column("frame", "1", "frame that was compared with FCL", [](Frame f) { return f.frame; })
+      .column("minimum_distance_difference_relative", "1",
+              "a fresh search's minimum distance minus FCL's, divided by FCL's; infinite where it found no "
+              "pair",
+              [](Frame f, std::size_t method) { return f.method_difference[method]; })
+      .into(all);
+  return all;
+}
+
+}  // namespace
+
+std::vector<std::string> FclCheck::notes(const std::string& group) const {
+  std::map<std::string, std::int64_t> counts;
+  for (const FclException& exception : exceptions) ++counts[exception.who];
+  std::vector<std::string> notes;
+  for (const auto& [who, count] : counts)
+    notes.push_back(fmt::format(
+        "{}: minimum distance differs from FCL's in {} of {} frames, listed in {}/crosscheck/fcl/exceptions",
+        who, count, frames.size(), group));
+  return notes;
+}
+
+Probe fcl_probe() {
+  return {.name = "fcl",
+          .title = "FCL cross-check",
+          .parent = "/probes",
+          .stride_frames = 0,
+          .first_stride_frames = FclCrosscheck::is_built_in() ? 50 : 0,
+          .stride_text =
+              "minimum distances are compared with FCL every this many frames; 0 switches the "
+              "probe off",
+          .options = {{"tolerance_relative",
+                       {{"type", "number"},
+                        {"exclusiveMinimum", 0},
+                        {"default", 1e-6},
+                        {"description", "largest relative difference that counts as agreement"}}}},
+          .reads_lmds = false,
+          .attributes = "/crosscheck/fcl",
+          .datasets = fcl_datasets(),
+          .why =
+              [](const ProbeChoice& choice) {
+                return fmt::format("minimum distances every {} frames, relative tolerance {:g}",
+                                   choice.stride_frames, choice.options["tolerance_relative"].get<double>());
+              },
+          .left_out = "probes/fcl/stride_frames is 0: no FCL hierarchy is built",
+          .refuse =
+              [](const Experiment& /*experiment*/, const std::string& file, const std::string& place) {
+                if (!FclCrosscheck::is_built_in())
+                  throw missing_part(PART_FCL, file, place, "the cross-check");
+              },
+          .run = cross_check};
 }
 
 }  // namespace lmdbench

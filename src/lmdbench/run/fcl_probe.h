@@ -2,10 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <lmdbench/experiment/experiment.h>
 #include <lmdbench/lmd/scene.h>
-#include <lmdbench/run/lockstep.h>
-#include <lmdbench/run/records.h>
+#include <lmdbench/run/probed_track.h>
 
 #include <cstdint>
 #include <string>
@@ -43,11 +41,16 @@ struct FclException {
   std::int32_t triangle_moving = -1;  ///< FCL's nearest pair.
   std::int32_t triangle_fixed = -1;
   std::int32_t fixed_body = -1;
+  std::int64_t moving_body = 0;  ///< Of several movers: whose pose this is.
 };
 
-struct FclCheck {
+struct FclCheck : ProbeFindings {
   std::vector<FclFrame> frames;
   std::vector<FclException> exceptions;
+  double tolerance_relative = 0.0;
+  bool several_move = false;
+
+  std::vector<std::string> notes(const std::string& group) const override;
 };
 
 /// What leaves the answers as they are.
@@ -57,8 +60,9 @@ struct ProbeShortcuts {
 };
 
 /// @throws Interrupted when `progress` asks to stop
-FclCheck probe_fcl(const Scene& scene, const LockstepInput& input, const std::vector<LockstepMethod>& methods,
-                   const std::vector<std::int64_t>& frames, double tolerance_relative,
-                   const Progress& progress, const ProbeShortcuts& shortcuts = {});
+std::unique_ptr<FclCheck> probe_fcl(const Scene& scene, const LockstepInput& input,
+                                    const std::vector<LockstepMethod>& methods,
+                                    const std::vector<std::int64_t>& frames, double tolerance_relative,
+                                    const Progress& progress, const ProbeShortcuts& shortcuts = {});
 
 }  // namespace lmdbench

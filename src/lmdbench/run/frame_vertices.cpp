@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/base/contract.h>
 #include <lmdbench/base/error.h>
 #include <lmdbench/base/file_hash.h>
 #include <lmdbench/base/input_file.h>
-#include <lmdbench/base/number_lines.h>
 #include <lmdbench/catalogue/import.h>
 #include <lmdbench/mesh/surface_change.h>
 #include <lmdbench/run/frame_vertices.h>
@@ -101,6 +101,8 @@ void FrameVertices::read_files(const DeformingMesh& mesh) {
 }
 
 void FrameVertices::at(std::int64_t frame, std::vector<Vec3>& vertices) const {
+  LMDBENCH_EXPECTS(frame >= 0 && period_frames_ > 0.0,
+                   "a frame before the first, or a period of another unit");
   const double step = static_cast<double>(frame) / period_frames_;
   if (generator_) {
     generator_->at(step, vertices);

@@ -5,7 +5,6 @@
 #include <lmdbench/experiment/loop_choice.h>
 #include <lmdbench/geometry/pose.h>
 #include <lmdbench/phantom/simulated_device.h>
-#include <lmdbench/phantom/simulated_gimbal.h>
 #include <lmdbench/phantom/virtual_phantom.h>
 
 #include <optional>

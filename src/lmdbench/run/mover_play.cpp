@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include <lmdbench/force/aggregate.h>
+#include <lmdbench/base/contract.h>
+#include <lmdbench/force/aggregation.h>
 #include <lmdbench/mesh/triangle_mesh.h>
 #include <lmdbench/run/mover_play.h>
 
@@ -28,6 +29,8 @@ MoverPlay make_play(const std::vector<std::shared_ptr<const Body>>& bodies,
                     const std::vector<std::string>& names, std::vector<FixedBody> standing,
                     const std::vector<std::vector<Pose>>& poses) {
   MoverPlay play;
+  LMDBENCH_EXPECTS(bodies.size() == names.size() && bodies.size() == poses.size() && !poses.empty(),
+                   "parallel arrays of unlike lengths");
   play.number.resize(bodies.size());
   std::iota(play.number.begin(), play.number.end(), std::size_t{0});
   // Movers that are the same in all of this are one for whoever looks at them.
@@ -45,6 +48,9 @@ MoverPlay make_play(const std::vector<std::shared_ptr<const Body>>& bodies,
   }
   play.standing = std::move(standing);
   play.poses.resize(poses.front().size());
+  LMDBENCH_EXPECTS(
+      std::ranges::all_of(poses, [&](const auto& of) { return of.size() == poses.front().size(); }),
+      "movers whose paths were not cut to the same frames");
   for (std::size_t frame = 0; frame < play.poses.size(); ++frame)
     for (const std::size_t number : play.number) play.poses[frame].push_back(poses[number][frame]);
   return play;
@@ -64,6 +70,8 @@ void split_by_mover(const LmdSet& lmds, const MoverPlay& play, std::vector<LmdSe
   for (LmdSet& set : sets) set.clear();
   for (const Lmd& lmd : lmds) {
     const ObjectPair pair = ObjectPair::of(lmd.fixed_body, play.object_count());
+    LMDBENCH_EXPECTS(pair.mover < play.count() && pair.other < play.object_count(),
+                     "an LMD of another scene");
     sets[pair.mover].push_back(lmd);
     if (pair.other < play.count()) sets[pair.other].push_back(turned_round(lmd));
   }
@@ -91,6 +99,8 @@ std::vector<MoverFrame> render_movers(const std::vector<LmdSet>& sets, const Mov
                                       const std::vector<Pose>& poses, const ForceProfile& profile,
                                       const VirtualPhantom& device) {
   std::vector<MoverFrame> frames(play.count());
+  LMDBENCH_EXPECTS(sets.size() == play.count() && poses.size() == play.count(),
+                   "parallel arrays of unlike lengths");
   for (std::size_t i = 0; i < play.count(); ++i) {
     const Wrench wrench = sum_forces(sets[i], profile, RigidTransform(poses[i]).point(play.references_M[i]));
     const RenderedForce rendered = device.render(wrench, profile.largest_sum);

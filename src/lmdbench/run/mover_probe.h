@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <lmdbench/run/fcl_probe.h>
 #include <lmdbench/run/lockstep.h>
 #include <lmdbench/run/mover_play.h>
 #include <lmdbench/run/truth_probe.h>
@@ -56,11 +55,5 @@ std::vector<TruthFrame> probe_mover_truth(const MoverPlay& play, const LockstepI
 std::vector<TruthComparison> compare_with_truth(const std::vector<TruthFrame>& truth,
                                                 const MethodRecord& record, ForceLaw law,
                                                 const MoverPlay& play);
-
-/// As of one mover (fcl_probe.h), the distances those of the nearest two objects. `fixed_body` is the pair's number, the pose of an exception that
-/// of the pair's mover.
-FclCheck probe_mover_fcl(const MoverPlay& play, double cutoff, const std::vector<LockstepMethod>& methods,
-                         const std::vector<std::int64_t>& frames, double tolerance_relative,
-                         const Progress& progress);
 
 }  // namespace lmdbench

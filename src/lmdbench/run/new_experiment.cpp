@@ -210,8 +210,9 @@ NewExperiment new_experiment(const std::string& moving, const std::string& fixed
                     {"search_latency_frames", open.driver.search_latency_frames},
                     {"repetitions", open.driver.repetitions}};
   json["device"] = open.device;
-  json["probes"]["truth"] = {{"stride_frames", open.truth_stride_frames}};
-  json["probes"]["fcl"] = {{"stride_frames", open.fcl_stride_frames}};
+  for (const Probe& probe : probes())
+    if (probe.parent == "/probes")
+      json["probes"][probe.name] = {{"stride_frames", open.probe_stride(probe.name)}};
   if (chosen.contact) write_contact(result, json, scene, open, progress);
   result.experiment_text = json.dump(2) + "\n";
 

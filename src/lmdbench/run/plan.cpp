@@ -102,6 +102,10 @@ bool Plan::needs(Part part) const {
                      [&](const PlanItem& item) { return item.part == part && item.needed; });
 }
 
+bool Plan::needs(std::string_view name) const {
+  return std::ranges::any_of(items, [&](const PlanItem& item) { return item.name == name && item.needed; });
+}
+
 Plan make_plan(const Experiment& experiment) {
   std::vector<std::string> tracking;
   std::vector<std::string> searching;
@@ -155,16 +159,17 @@ Plan make_plan(const Experiment& experiment) {
                      : fmt::format("{}: summed, no saddles are found", join_labels(summed)));
   add(Part::SIMULATED_DEVICE, "simulated device", experiment.loop.closed, loop_text(experiment.loop),
       "loop/kind is open: poses come from the path");
-  add(Part::TRUTH_PROBE, "truth probe", experiment.truth_stride_frames > 0,
-      fmt::format("exhaustive LMD sets every {} frames, outside the timed frames",
-                  experiment.truth_stride_frames),
-      "probes/truth/stride_frames is 0: times of this run stand without an error");
-  add(Part::FCL, "FCL cross-check", experiment.fcl_stride_frames > 0,
-      fmt::format("minimum distances every {} frames, relative tolerance {:g}", experiment.fcl_stride_frames,
-                  experiment.fcl_tolerance_relative),
-      "probes/fcl/stride_frames is 0: no FCL hierarchy is built");
+  const auto add_probes = [&](std::string_view parent) {
+    for (const Probe& probe : probes()) {
+      if (probe.parent != parent) continue;
+      const auto chosen = experiment.probes.find(probe.name);
+      const bool needed = chosen != experiment.probes.end() && chosen->second.stride_frames > 0;
+      add(Part::PROBE, probe.title, needed, needed ? probe.why(chosen->second) : "", probe.left_out);
+    }
+  };
+  add_probes("/probes");
   add(Part::LMD_LISTS, "LMD lists in the result", experiment.record_lmds, "record/lmds is true",
-      experiment.truth_stride_frames > 0
+      experiment.probe_stride("truth") > 0
           ? "record/lmds is false: lists are kept in memory for probed frames only"
           : "record/lmds is false and nothing is probed");
   add(Part::TORQUE_RENDERING, "torque on the device", experiment.loop.rotation.has_value(),
@@ -177,9 +182,7 @@ Plan make_plan(const Experiment& experiment) {
                                : "",
       "the device actuates three degrees of freedom: torque is not rendered, and recorded where "
       "record/torque is true");
-  add(Part::INTERSECTIONS, "intersection polylines", experiment.polyline_stride_frames > 0,
-      fmt::format("every {} frames, outside the timed frames", experiment.polyline_stride_frames),
-      "record/polylines/stride_frames is 0");
+  add_probes("/record");
   add(Part::THREADS, "threads", experiment.realtime.has_value(),
       "the driver realtime: servo loop, recorder and, for methods that track locally, search and tracking, "
       "on the machine's "

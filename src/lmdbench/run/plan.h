@@ -22,11 +22,9 @@ enum class Part {
   CRITICAL_PAIRS,    ///< Saddles beside LMDs, for an aggregation that needs them.
   DEVICE,            ///< The virtual device.
   SIMULATED_DEVICE,  ///< Its motion, in a closed loop.
-  TRUTH_PROBE,       ///< Exhaustive LMD sets on a stride.
-  FCL,               ///< FCL's hierarchies and queries on a stride.
+  PROBE,             ///< A probe (experiment/probe.h); the item has its title.
   LMD_LISTS,         ///< Every frame's LMD list in the result.
   TORQUE_RENDERING,  ///< Torque on the device.
-  INTERSECTIONS,     ///< Intersection polylines.
   THREADS            ///< Real threads for the global and local parts.
 };
 
@@ -44,6 +42,8 @@ struct Plan {
   std::optional<SceneLook> scene;  ///< What the inputs are, where somebody has looked.
 
   bool needs(Part part) const;
+  /// Of the item with this name.
+  bool needs(std::string_view name) const;
 };
 
 Plan make_plan(const Experiment& experiment);

@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/base/contract.h>
 #include <lmdbench/run/pose_source.h>
 
 #include <algorithm>
@@ -20,6 +21,7 @@ DevicePoses::DevicePoses(const LoopChoice& loop, std::vector<Pose> path, double 
       pose_(mesh_.sensed_pose()) {}
 
 std::optional<LoopFrame> DevicePoses::render(const RenderedForce& rendered) {
+  LMDBENCH_EXPECTS(rendered.force.allFinite(), "a force that nobody clipped to the device");
   under_way_.push_back(rendered);
   const Pose true_pose = mesh_.pose();
   const LoopFrame frame{true_pose.translation, mesh_.velocity(),         under_way_.front(),

@@ -6,12 +6,11 @@
 #include <lmdbench/base/parallel.h>
 #include <lmdbench/base/statistics.h>
 #include <lmdbench/catalogue/manifest.h>
-#include <lmdbench/experiment/probed_frames.h>
 #include <lmdbench/lmd/method_description.h>
 #include <lmdbench/mesh/placement.h>
 #include <lmdbench/mesh/surface.h>
 #include <lmdbench/methods/registry.h>
-#include <lmdbench/motion/grazing_choice.h>
+#include <lmdbench/motion/grazing.h>
 #include <lmdbench/motion/interpolate.h>
 #include <lmdbench/motion/mesh_scene.h>
 #include <lmdbench/motion/tum_file.h>
@@ -22,9 +21,8 @@
 #include <lmdbench/run/prepare.h>
 #include <lmdbench/run/prepare_movers.h>
 #include <lmdbench/run/realtime_driver.h>
-#include <lmdbench/run/truth_probe.h>
 #include <lmdbench/snch/hierarchy.h>
-#include <lmdbench/world/nearest_instance.h>
+#include <lmdbench/world/broad_phase.h>
 
 #include <fmt/format.h>
 
@@ -383,11 +381,6 @@ PreparedRun prepare(const Experiment& experiment, const Progress& progress, Defo
         "until they "
         "have been apart");
   return prepared;
-}
-
-std::vector<std::int64_t> truth_frames(const Experiment& experiment, const PreparedRun& prepared) {
-  return probed_frames(static_cast<std::int64_t>(prepared.input.poses.size()), experiment.truth_stride_frames,
-                       experiment.driver.search_latency_frames);
 }
 
 std::vector<std::filesystem::path> input_files(const Experiment& experiment) {

@@ -7,7 +7,7 @@
 #include <lmdbench/mesh/flatten.h>
 #include <lmdbench/mesh/validity.h>
 #include <lmdbench/motion/grazing.h>
-#include <lmdbench/record/provenance.h>
+#include <lmdbench/result_file/provenance.h>
 #include <lmdbench/run/lockstep.h>
 #include <lmdbench/run/scene_deformation.h>
 
@@ -89,9 +89,6 @@ Scene load_scene(const Experiment& experiment, std::vector<MeshNote>& notes);
 ///         fit the mesh, and for meshes that deform where they are refused
 PreparedRun prepare(const Experiment& experiment, const Progress& progress = {},
                     Deforming deforming = Deforming::REFUSED);
-
-/// Frames that the truth probe looks at; empty where it is off.
-std::vector<std::int64_t> truth_frames(const Experiment& experiment, const PreparedRun& prepared);
 
 /// Files that the experiment will read, as far as its text tells: itself, path, manifest, meshes; some may be
 /// missing. For outputs, which must replace none of them.

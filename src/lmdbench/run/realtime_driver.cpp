@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/base/error.h>
 #include <lmdbench/lmd/method_description.h>
-#include <lmdbench/motion/extrapolate.h>
+#include <lmdbench/motion/interpolate.h>
 #include <lmdbench/run/realtime_driver.h>
 #include <lmdbench/run/realtime_recorder.h>
 #include <lmdbench/run/servo_caller.h>

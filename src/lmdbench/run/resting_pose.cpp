@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/base/error.h>
-#include <lmdbench/base/uniform_number.h>
-#include <lmdbench/force/aggregate.h>
+#include <lmdbench/base/statistics.h>
+#include <lmdbench/force/aggregation.h>
 #include <lmdbench/lmd/method_description.h>
 #include <lmdbench/methods/registry.h>
 #include <lmdbench/run/resting_pose.h>
@@ -46,9 +46,9 @@ Eigen::Quaterniond orientation(int i) {
 }
 
 /// Looks at the exact set's force.
-class Probe {
+class RestingWrenches {
  public:
-  Probe(const Scene& scene, const ForceProfile& profile)
+  RestingWrenches(const Scene& scene, const ForceProfile& profile)
       : profile_(profile), method_(make_method("certified", scene)) {}
 
   Wrench at(const Pose& X_WM) {
@@ -87,15 +87,15 @@ std::optional<Pose> approach(const Scene& scene, const Eigen::Quaterniond& R_WM,
 
 /// The pose as a place to rest; nothing where it has no force to rest on, or too few contacts to be better than `best`, whatever
 /// its six neighbours show: on flat parts each of them costs as much as the pose itself.
-std::optional<RestingPose> look_at_pose(Probe& probe, const Pose& X_WM, double gap,
+std::optional<RestingPose> look_at_pose(RestingWrenches& wrenches, const Pose& X_WM, double gap,
                                         const std::optional<RestingPose>& best) {
-  const Wrench wrench = probe.at(X_WM);
+  const Wrench wrench = wrenches.at(X_WM);
   RestingPose rest;
   rest.pose = X_WM;
-  rest.contacts = probe.lmds().size();
+  rest.contacts = wrenches.lmds().size();
   if (rest.contacts == 0 || !(wrench.stiffness > 0.0) || !(wrench.force.norm() > 0.0)) return std::nullopt;
   if (best && !best->slides() && rest.contacts < best->contacts) return std::nullopt;
-  rest.gap = minimum_distance(probe.lmds());
+  rest.gap = minimum_distance(wrenches.lmds());
   rest.force_W = wrench.force;
   rest.stiffness_n_per_m = wrench.stiffness;
   const double step = DIFFERENCE_SHARE * gap;
@@ -105,7 +105,7 @@ std::optional<RestingPose> look_at_pose(Probe& probe, const Pose& X_WM, double g
     Pose after = X_WM;
     before.translation[axis] -= step;
     after.translation[axis] += step;
-    stiffness_W.col(axis) = (probe.at(before).force - probe.at(after).force) / (2.0 * step);
+    stiffness_W.col(axis) = (wrenches.at(before).force - wrenches.at(after).force) / (2.0 * step);
   }
   const Mat3 symmetric_W = 0.5 * (stiffness_W + stiffness_W.transpose());
   rest.least_stiffness_share =
@@ -125,7 +125,7 @@ bool better(const RestingPose& a, const RestingPose& b) {
 RestingPose find_resting_pose(const Scene& scene, const ForceProfile& profile, const Progress& progress) {
   const double gap =
       profile.saturation_distance + REST_SHARE * (profile.cutoff - profile.saturation_distance);
-  Probe probe(scene, profile);
+  RestingWrenches wrenches(scene, profile);
   std::optional<RestingPose> best;
   int tried = 0;
   for (int turn = 0; turn < REST_ORIENTATIONS && (!best || best->slides()); ++turn) {
@@ -135,7 +135,7 @@ RestingPose find_resting_pose(const Scene& scene, const ForceProfile& profile, c
       const std::optional<Pose> pose =
           approach(scene, orientation(turn), lattice_direction(i, REST_DIRECTIONS), gap);
       if (!pose) continue;
-      const std::optional<RestingPose> rest = look_at_pose(probe, *pose, gap, best);
+      const std::optional<RestingPose> rest = look_at_pose(wrenches, *pose, gap, best);
       if (rest && (!best || better(*rest, *best))) best = rest;
     }
   }

@@ -1,8 +1,6 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include <lmdbench/experiment/probed_frames.h>
-#include <lmdbench/methods/registry.h>
-#include <lmdbench/run/deforming_distance.h>
+#include <lmdbench/run/contact.h>
 #include <lmdbench/run/mover_probe.h>
 #include <lmdbench/run/realtime_driver.h>
 #include <lmdbench/run/run.h>
@@ -52,17 +50,11 @@ void note_findings(const Experiment& experiment, RunResult& result) {
     for (std::string& warning : realtime_warnings(clock)) result.warnings.push_back(std::move(warning));
   if (experiment.driver.repetitions == 1 && !experiment.realtime)
     result.warnings.emplace_back("a single repetition: its times include the warm-up");
-  for (const Track& track : result.tracks) {
-    if (!track.fcl) continue;
-    std::map<std::string, std::int64_t> exceptions;
-    for (const FclException& exception : track.fcl->exceptions) ++exceptions[exception.who];
-    for (const auto& [who, count] : exceptions)
-      result.warnings.push_back(
-          fmt::format("{}: minimum distance differs from FCL's in {} of {} frames, listed in "
-                      "{}/crosscheck/fcl/exceptions",
-                      who, count, track.fcl->frames.size(),
-                      result.one_track ? "" : "/methods/" + result.records[track.methods.front()].label));
-  }
+  for (const Track& track : result.tracks)
+    for (const Probe& probe : probes())
+      if (const auto found = track.findings.find(probe.name); found != track.findings.end())
+        for (std::string& note : found->second->notes(result.group_of(track)))
+          result.warnings.push_back(std::move(note));
 }
 
 /// Which methods share poses and profile.
@@ -80,22 +72,37 @@ void make_tracks(const Experiment& experiment, RunResult& result) {
   result.one_track = shared && result.tracks.size() == 1;
 }
 
-/// The methods that promise the complete set and leave no doubt about it say what is true in every frame.
-void find_complete_truth(const Experiment& experiment, RunResult& result, Track& track) {
-  std::vector<ProbedRecord> candidates;
-  for (const std::size_t i : track.methods) {
-    const MethodDescription& method = method_description(experiment.methods[i].name);
-    if (method.promise != Promise::COMPLETE_SET || method.tracks_locally) continue;
-    candidates.push_back({&result.records[i], &result.comparisons[i]});
-    const auto wrong = std::count_if(result.comparisons[i].begin(), result.comparisons[i].end(),
-                                     [](const TruthComparison& row) { return !row.same.exact(); });
-    if (wrong > 0)
-      result.warnings.push_back(
-          fmt::format("{}: its set is not the exhaustive one in {} of {} probed frames, so it is not taken "
-                      "for the truth of the others",
-                      result.records[i].label, wrong, result.comparisons[i].size()));
+/// What the probes find along a track.
+/// @param input the run's, with the poses of the track
+void probe(const Experiment& experiment, const std::vector<LockstepMethod>& methods,
+           const LockstepInput& input, RunResult& result, Track& track,
+           const std::function<Progress(const std::string& phase)>& progress) {
+  for (const Probe& probe : probes()) {
+    if (!result.plan.needs(probe.title)) continue;
+    ProbedTrack probed{.choice = experiment.probes.at(probe.name),
+                       .profile = result.prepared.profiles[track.profile],
+                       .input = input,
+                       .in_contact = track.in_contact,
+                       .aggregation = experiment.profiles[track.profile].aggregation,
+                       .methods = {},
+                       .choices = {},
+                       .records = {},
+                       .rules = result.plan.rules,
+                       .frames = probed_frames(experiment, probe.name, input.poses.size()),
+                       .progress = progress(probe.name)};
+    for (const std::size_t i : track.methods) {
+      probed.methods.push_back(methods[i]);
+      probed.choices.push_back(&experiment.methods[i]);
+      probed.records.push_back(&result.records[i]);
+    }
+    // Frames whose sets nobody knows cannot be compared: a recorder on the clock may lose some.
+    if (probe.reads_lmds)
+      std::erase_if(probed.frames, [&](std::int64_t frame) {
+        return std::ranges::any_of(result.records,
+                                   [&](const MethodRecord& record) { return !record.lmds.contains(frame); });
+      });
+    if (auto found = probe.run(probed)) track.findings.emplace(probe.name, std::move(found));
   }
-  track.complete = complete_truth(std::move(candidates));
 }
 
 }  // namespace
@@ -112,7 +119,6 @@ RunResult run_experiment(const Experiment& experiment, const RunProgress& progre
                    {},
                    {},
                    {},
-                   {},
                    false,
                    {},
                    {},
@@ -123,13 +129,14 @@ RunResult run_experiment(const Experiment& experiment, const RunProgress& progre
   const auto frame_count = static_cast<std::int64_t>(prepared.input.poses.size());
   const std::vector<LockstepMethod> methods = lockstep_methods(experiment, prepared);
 
-  std::vector<std::int64_t> probed = truth_frames(experiment, prepared);
-  if (result.plan.needs(Part::LMD_LISTS)) {
-    prepared.input.keep_lmds = [](std::int64_t) { return true; };
-  } else {
-    const std::set<std::int64_t> kept(probed.begin(), probed.end());
-    prepared.input.keep_lmds = [kept](std::int64_t frame) { return kept.count(frame) > 0; };
-  }
+  std::set<std::int64_t> kept;
+  for (const Probe& probe : probes())
+    if (probe.reads_lmds)
+      for (const std::int64_t frame : probed_frames(experiment, probe.name, prepared.input.poses.size()))
+        kept.insert(frame);
+  prepared.input.keep_lmds = [kept, all = result.plan.needs(Part::LMD_LISTS)](std::int64_t frame) {
+    return all || kept.contains(frame);
+  };
   const std::unique_ptr<RunKeeper> keeper =
       make_keeper ? make_keeper(result, prepared.input.frames.value_or(frame_count)) : nullptr;
   const bool forecast = allowed(experiment.rules, Rule::CONTACT_FORECAST);
@@ -141,20 +148,13 @@ RunResult run_experiment(const Experiment& experiment, const RunProgress& progre
   result.in_contact = contact_along(prepared.scene(), prepared.input.poses);
   result.plan.scene = look_at(experiment, prepared, result.in_contact);
   for (const SceneWarning& warning : result.plan.scene->warnings) result.warnings.push_back(to_text(warning));
-  result.plan.rules = decide_rules({experiment, prepared.input.poses, result.in_contact, probed});
-  const ProbeShortcuts shortcuts{.warm = is_on(result.plan.rules, Rule::WARM_CROSSCHECK),
-                                 .reuse_repeated = is_on(result.plan.rules, Rule::REPEATED_POSE)};
+  result.plan.rules = decide_rules({experiment, prepared.input.poses, result.in_contact});
   if (experiment.realtime) {
     RealtimeRun run = run_realtime(methods, prepared.input,
                                    {*experiment.realtime, experiment.loop, experiment.driver.predict},
                                    phase("run"), keeper.get());
     result.records = std::move(run.records);
     result.clocks = std::move(run.clocks);
-    // Frames whose sets nobody knows cannot be compared.
-    std::erase_if(probed, [&](std::int64_t frame) {
-      return std::any_of(result.records.begin(), result.records.end(),
-                         [&](const MethodRecord& record) { return !record.lmds.contains(frame); });
-    });
   } else {
     result.records = run_lockstep(methods, prepared.input, experiment.driver, phase("run"), keeper.get());
   }
@@ -166,40 +166,21 @@ RunResult run_experiment(const Experiment& experiment, const RunProgress& progre
     input.make_poses = nullptr;
     if (experiment.loop.closed) input.poses = result.records[track.methods.front()].poses;
     track.in_contact = result.one_track ? result.in_contact : contact_along(profile.scene, input.poses);
-    const std::vector<bool>* empty_elsewhere =
-        is_on(result.plan.rules, Rule::TRUTH_IN_CONTACT) ? &track.in_contact : nullptr;
-    if (result.plan.needs(Part::TRUTH_PROBE))
-      track.truth =
-          movers ? probe_mover_truth(*movers, input, profile.force, probed, phase("truth"), empty_elsewhere)
-                 : probe_truth(profile.scene, input, profile.force,
-                               *experiment.profiles[track.profile].aggregation, probed, phase("truth"),
-                               empty_elsewhere, shortcuts.reuse_repeated);
-    if (result.plan.needs(Part::INTERSECTIONS))
-      track.polylines =
-          probe_polylines(profile.scene, input, probed_frames(frame_count, experiment.polyline_stride_frames),
-                          phase("polylines"));
-    if (result.plan.needs(Part::FCL)) {
-      std::vector<LockstepMethod> along;
-      for (const std::size_t i : track.methods) along.push_back(methods[i]);
-      const std::vector<std::int64_t> checked = probed_frames(frame_count, experiment.fcl_stride_frames);
-      track.fcl = movers ? probe_mover_fcl(*movers, profile.scene.cutoff, along, checked,
-                                           experiment.fcl_tolerance_relative, phase("fcl"))
-                         : probe_fcl(profile.scene, input, along, checked, experiment.fcl_tolerance_relative,
-                                     phase("fcl"), shortcuts);
-    }
-  }
-  if (result.plan.needs(Part::TRUTH_PROBE)) {
-    for (std::size_t i = 0; i < methods.size(); ++i) {
-      const Track& track = result.track_of(i);
-      const ForceLaw law = methods[i].profile.law;
-      result.comparisons.push_back(movers ? compare_with_truth(track.truth, result.records[i], law, *movers)
-                                          : compare_with_truth(track.truth, result.records[i], law,
-                                                               prepared.profiles[track.profile].scene));
-    }
-    for (Track& track : result.tracks) find_complete_truth(experiment, result, track);
+    probe(experiment, methods, input, result, track, phase);
   }
   note_findings(experiment, result);
   return result;
+}
+
+std::size_t RunResult::place_of(std::size_t method) const {
+  const std::vector<std::size_t>& methods = track_of(method).methods;
+  return static_cast<std::size_t>(std::ranges::find(methods, method) - methods.begin());
+}
+
+const std::vector<TruthComparison>& RunResult::comparisons(std::size_t method) const {
+  static const std::vector<TruthComparison> none;
+  const TruthFindings* truth = track_of(method).truth();
+  return truth == nullptr ? none : truth->comparisons[place_of(method)];
 }
 
 }  // namespace lmdbench

@@ -3,11 +3,9 @@
 #pragma once
 
 #include <lmdbench/experiment/experiment.h>
-#include <lmdbench/run/complete_truth.h>
 #include <lmdbench/run/fcl_probe.h>
 #include <lmdbench/run/lockstep.h>
 #include <lmdbench/run/plan.h>
-#include <lmdbench/run/polyline_probe.h>
 #include <lmdbench/run/prepare.h>
 #include <lmdbench/run/realtime_record.h>
 #include <lmdbench/run/records.h>
@@ -16,9 +14,10 @@
 
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <memory>
-#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace lmdbench {
@@ -26,13 +25,22 @@ namespace lmdbench {
 /// Poses under one force profile, with what is known of them beside any method's opinion. In an open loop the methods of a
 /// profile share one; in a closed one each has its own, since its device takes its own path.
 struct Track {
-  std::size_t profile = 0;                ///< Of the experiment.
-  std::vector<std::size_t> methods;       ///< Which of the experiment's methods went along it.
-  std::vector<bool> in_contact;           ///< One a frame (contact.h).
-  std::vector<TruthFrame> truth;          ///< Empty where the plan leaves the probe out.
-  std::optional<CompleteTruth> complete;  ///< Truth of every frame, where one of `methods` gives it.
-  std::optional<FclCheck> fcl;            ///< Its columns are those of `methods`.
-  std::vector<PolylineFrame> polylines;   ///< Empty where the plan leaves them out.
+  std::size_t profile = 0;           ///< Of the experiment.
+  std::vector<std::size_t> methods;  ///< Which of the experiment's methods went along it.
+  std::vector<bool> in_contact;      ///< One a frame (contact.h).
+  /// Of the probes that the plan has, by name.
+  std::map<std::string, std::unique_ptr<const ProbeFindings>, std::less<>> findings;
+
+  /// Null where the plan leaves the probe out, and where it looks at no frame.
+  const TruthFindings* truth() const { return found<TruthFindings>("truth"); }
+  const FclCheck* fcl() const { return found<FclCheck>("fcl"); }
+
+ private:
+  template <typename Findings>
+  const Findings* found(std::string_view probe) const {
+    const auto at = findings.find(probe);
+    return at == findings.end() ? nullptr : static_cast<const Findings*>(at->second.get());
+  }
 };
 
 /// Everything that a run produced, in memory.
@@ -42,7 +50,6 @@ struct RunResult {
   std::vector<MethodRecord> records;   ///< In the order of the experiment's methods, like the next two.
   std::vector<RealtimeRecord> clocks;  ///< Of the driver realtime; else empty.
   std::vector<std::size_t> track_of_method;
-  std::vector<std::vector<TruthComparison>> comparisons;  ///< One list a method, one entry a TruthFrame.
   std::vector<Track> tracks;
   bool one_track = false;             ///< All methods see the poses of the path under one profile.
   std::vector<bool> in_contact;       ///< One a frame of the path, under the first profile's cutoff.
@@ -51,6 +58,14 @@ struct RunResult {
       0;  ///< Whose times an interrupted run measured, over methods and repetitions.
 
   const Track& track_of(std::size_t method) const { return tracks[track_of_method[method]]; }
+  /// Which one of its track a method is.
+  std::size_t place_of(std::size_t method) const;
+  /// Of a method with truth; one entry a TruthFrame. Empty where the truth probe is off.
+  const std::vector<TruthComparison>& comparisons(std::size_t method) const;
+  /// Group of the file that a track's datasets stand in: empty where all methods share it, else the method's.
+  std::string group_of(const Track& track) const {
+    return one_track ? "" : "/methods/" + records[track.methods.front()].label;
+  }
 };
 
 /// What a run reports while it goes on: the phase ("run", "truth", "fcl", "polylines"), what is done and what there is to

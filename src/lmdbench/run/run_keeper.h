@@ -3,7 +3,7 @@
 #pragma once
 
 #include <lmdbench/experiment/experiment.h>
-#include <lmdbench/record/partial_result.h>
+#include <lmdbench/result_file/partial_result.h>
 #include <lmdbench/run/columns.h>
 #include <lmdbench/run/prepare.h>
 #include <lmdbench/run/records.h>

@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/base/contract.h>
 #include <lmdbench/base/error.h>
 #include <lmdbench/run/scene_deformation.h>
 
@@ -27,6 +28,7 @@ void follow(DeformingBody& body, const Body& rest, std::int64_t frames) {
   double squared_farthest = 0.0;
   for (std::int64_t frame = 0; frame < frames; ++frame) {
     body.vertices->at(frame, vertices);
+    LMDBENCH_EXPECTS(vertices.size() == at_rest.size(), "vertex files of another mesh");
     try {
       check_moved_vertices(rest.name(), surface.mesh, vertices);
     } catch (const InputError& error) {
@@ -64,6 +66,7 @@ const DeformingBody* SceneDeformation::find(std::size_t index) const {
 }
 
 double SceneDeformation::way(std::int64_t from, std::int64_t to) const {
+  LMDBENCH_EXPECTS(from >= 0 && to >= 0, "a frame before the first");
   const double steps =
       std::abs(ways_.at(static_cast<std::size_t>(to)) - ways_.at(static_cast<std::size_t>(from)));
   double at_most = 0.0;
@@ -98,6 +101,8 @@ void DeformingScene::prepare_to_deform() {
 
 double DeformingScene::to_frame(std::int64_t frame) {
   double seconds = 0.0;
+  LMDBENCH_EXPECTS(!deformation_ || own_.size() == deformation_->bodies().size(),
+                   "a scene that was moved from");
   for (std::size_t i = 0; i < own_.size(); ++i) {
     deformation_->bodies()[i].vertices->at(frame, vertices_);
     const auto begin = std::chrono::steady_clock::now();

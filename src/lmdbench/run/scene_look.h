@@ -3,6 +3,8 @@
 #pragma once
 
 #include <lmdbench/experiment/defaults.h>
+#include <lmdbench/experiment/experiment.h>
+#include <lmdbench/run/prepare.h>
 
 #include <nlohmann/json_fwd.hpp>
 
@@ -77,5 +79,12 @@ std::optional<SceneWarning> clipping_warning(const MethodRecord& record, const s
 std::string to_text(const SceneLook& look);
 /// Keys as the members above; "warnings": [{"what", "remedy"}].
 nlohmann::ordered_json to_json(const SceneLook& look);
+
+/// Frames of the path at which a search is timed.
+inline constexpr std::int64_t TIMED_FRAMES = 8;
+
+/// What a run will take, from searches at a few frames: each method's searches from scratch (tracking, coherence
+/// and FCL are not in it) and the truth probe. Good to a factor of a few.
+std::vector<ExpectedTime> expected_times(const Experiment& experiment, const PreparedRun& prepared);
 
 }  // namespace lmdbench

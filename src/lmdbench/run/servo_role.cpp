@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include <lmdbench/force/aggregate.h>
-#include <lmdbench/realtime/servo_watch.h>
+#include <lmdbench/force/aggregation.h>
+#include <lmdbench/realtime/servo_clock.h>
 #include <lmdbench/run/servo_role.h>
 
 #include <algorithm>

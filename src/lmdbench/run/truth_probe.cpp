@@ -1,12 +1,19 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/base/contract.h>
 #include <lmdbench/experiment/rules.h>
+#include <lmdbench/force/aggregation.h>
 #include <lmdbench/force/contact_finder.h>
 #include <lmdbench/geometry/cone.h>
 #include <lmdbench/methods/registry.h>
+#include <lmdbench/run/mover_probe.h>
 #include <lmdbench/run/truth_probe.h>
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <cstddef>
+#include <memory>
 #include <optional>
 #include <utility>
 
@@ -86,6 +93,198 @@ std::vector<TruthComparison> compare_with_truth(const std::vector<TruthFrame>& t
     comparisons.push_back(comparison);
   }
   return comparisons;
+}
+
+std::optional<CompleteTruth> complete_truth(std::vector<ProbedRecord> candidates) {
+  // By label, so that another order of methods in the experiment is no other truth.
+  std::sort(candidates.begin(), candidates.end(),
+            [](const ProbedRecord& a, const ProbedRecord& b) { return a.record->label < b.record->label; });
+  for (const auto& [record, probed] : candidates) {
+    const bool stands =
+        !probed->empty() && std::all_of(probed->begin(), probed->end(),
+                                        [](const TruthComparison& row) { return row.same.exact(); });
+    if (!stands || record->force_by_law.front().empty()) continue;
+    CompleteTruth truth{record->label, record->force_by_law, {}};
+    for (const FrameRecord& frame : record->frames) truth.lmd_count.push_back(frame.lmd_count);
+    return truth;
+  }
+  return std::nullopt;
+}
+
+namespace {
+
+std::unique_ptr<ProbeFindings> find_truth(const ProbedTrack& track) {
+  if (track.frames.empty()) return nullptr;
+  auto found = std::make_unique<TruthFindings>();
+  const MoverPlay* movers = track.input.movers.get();
+  const std::vector<bool>* empty_elsewhere =
+      is_on(track.rules, Rule::TRUTH_IN_CONTACT) ? &track.in_contact : nullptr;
+  const ForceProfile& force = track.profile.force;
+  found->frames =
+      movers != nullptr
+          ? probe_mover_truth(*movers, track.input, force, track.frames, track.progress, empty_elsewhere)
+          : probe_truth(track.profile.scene, track.input, force, *track.aggregation, track.frames,
+                        track.progress, empty_elsewhere, is_on(track.rules, Rule::REPEATED_POSE));
+  std::vector<ProbedRecord> candidates;
+  found->comparisons.reserve(track.methods.size());
+  for (std::size_t i = 0; i < track.methods.size(); ++i) {
+    const MethodRecord& record = *track.records[i];
+    LMDBENCH_EXPECTS(record.frames.size() == track.input.poses.size(),
+                     "a record of other frames than the track's");
+    const ForceLaw law = track.methods[i].profile.law;
+    const std::vector<TruthComparison>& rows = found->comparisons.emplace_back(
+        movers != nullptr ? compare_with_truth(found->frames, record, law, *movers)
+                          : compare_with_truth(found->frames, record, law, track.profile.scene));
+    // The methods that promise the complete set and leave no doubt about it say what is true in every frame.
+    const MethodDescription& method = method_description(track.choices[i]->name);
+    if (method.promise != Promise::COMPLETE_SET || method.tracks_locally) continue;
+    candidates.push_back({&record, &rows});
+    const auto wrong =
+        std::ranges::count_if(rows, [](const TruthComparison& row) { return !row.same.exact(); });
+    if (wrong > 0)
+      found->doubts.push_back(
+          fmt::format("{}: its set is not the exhaustive one in {} of {} probed frames, so it is not taken "
+                      "for the truth of the others",
+                      record.label, wrong, rows.size()));
+  }
+  found->complete = complete_truth(std::move(candidates));
+  return found;
+}
+
+std::vector<ProbeDataset> truth_datasets() {
+  using T = TruthFindings;
+  using Row = const TruthComparison&;
+  using Frame = const TruthFrame&;
+  std::vector<ProbeDataset> all;
+  const auto frames = [](const T& t, std::size_t) -> const auto& {
+    return t.frames;
+  };
+  ProbeTable<T, TruthFrame>("truth", "K", frames)
+      .column("frame", "1", "frame that was compared with truth", [](Frame t) { return t.frame; })
+      .into(all);
+  ProbeTable<T, TruthComparison>(
+      "truth", "K", [](const T& t, std::size_t method) -> const auto& { return t.comparisons[method]; })
+      .column("recall", "1", "share of true LMDs found, same features", [](Row r) { return r.same.recall(); })
+      .column("precision", "1", "share of LMDs that are true, same features",
+              [](Row r) { return r.same.precision(); })
+      .column("recall_adjacent", "1", "share of true LMDs found, adjacent features",
+              [](Row r) { return r.neighbours.recall(); })
+      .column("precision_adjacent", "1", "share of LMDs that are true, adjacent features",
+              [](Row r) { return r.neighbours.precision(); })
+      .column("minimum_distance_error", "m", "minimum distance minus the true one",
+              [](Row r) { return r.minimum_distance_error; })
+      .column("force_error", "N",
+              "length of the difference to the true rendered force under the same law and the profile's "
+              "aggregation",
+              [](Row r) { return r.force_error; })
+      .column("force_angle_error", "rad", "angle to the true force",
+              [](Row r) { return r.force_angle_error; })
+      .column("force_jump", "N", "change of the method's force to the next frame",
+              [](Row r) { return r.force_jump; })
+      .into(all);
+  constexpr auto LINEAR = static_cast<std::size_t>(ForceLaw::LINEAR);
+  constexpr auto EXPONENTIAL = static_cast<std::size_t>(ForceLaw::EXPONENTIAL);
+  ProbeTable<T, TruthFrame>("/reference", "K", frames)
+      .column("frame", "1", "frame of the exhaustive set", [](Frame t) { return t.frame; })
+      .column("lmd_count", "1", "true LMDs within the cutoff",
+              [](Frame t) { return static_cast<std::int64_t>(t.lmds.size()); })
+      .column("minimum_distance", "m", "smallest true LMD distance",
+              [](Frame t) { return minimum_distance(t.lmds); })
+      .column("force_linear", "N", "rendered force of the true set, linear law",
+              [](Frame t) { return t.force[LINEAR]; })
+      .column("force_exponential", "N", "rendered force of the true set, exponential law",
+              [](Frame t) { return t.force[EXPONENTIAL]; })
+      .column("force_jump_linear", "N", "change of the true force to the next frame, linear law",
+              [](Frame t) { return t.force_jump[LINEAR]; })
+      .column("force_jump_exponential", "N", "change of the true force to the next frame, exponential law",
+              [](Frame t) { return t.force_jump[EXPONENTIAL]; })
+      .into(all);
+  for (const ForceLaw law : force_laws())
+    all.push_back({fmt::format("/reference/movers/force_{}", to_string(law)), "K, B, 3", "N",
+                   fmt::format("rendered force of the true set on each mover, {} law", to_string(law)),
+                   [law](ResultWriter& writer, const DatasetInfo& info, const ProbeFindings& findings,
+                         std::size_t /*method*/) {
+                     const auto& truth = static_cast<const T&>(findings).frames;
+                     const std::size_t movers = truth.front().movers.front().size();
+                     if (movers == 0) return;
+                     std::vector<double> values;
+                     for (const TruthFrame& frame : truth)
+                       for (const Vec3& force : frame.movers[static_cast<std::size_t>(law)])
+                         values.insert(values.end(), force.begin(), force.end());
+                     writer.write(info, std::span<const double>(values), {truth.size(), movers, 3});
+                   }});
+  return all;
+}
+
+}  // namespace
+
+Probe truth_probe() {
+  return {.name = "truth",
+          .title = "truth probe",
+          .parent = "/probes",
+          .stride_frames = 100,
+          .first_stride_frames = 20,
+          .stride_text =
+              "the LMD sets are compared with exhaustive truth every this many frames; 0 switches "
+              "the probe off",
+          .options = nlohmann::json::object(),
+          .reads_lmds = true,
+          .attributes = "",
+          .datasets = truth_datasets(),
+          .why =
+              [](const ProbeChoice& choice) {
+                return fmt::format("exhaustive LMD sets every {} frames, outside the timed frames",
+                                   choice.stride_frames);
+              },
+          .left_out = "probes/truth/stride_frames is 0: times of this run stand without an error",
+          .refuse = nullptr,
+          .run = find_truth};
+}
+
+TrueSets true_sets(const PreparedRun& run, std::int64_t checks, const Progress& progress) {
+  const std::unique_ptr<Method> certified = make_method("certified", run.scene());
+  const std::unique_ptr<Method> exhaustive = make_method("exhaustive", run.scene());
+  const auto frames = static_cast<std::int64_t>(run.input.poses.size());
+  TrueSets truth;
+  WorkCounters ignored;
+  LmdSet other;
+  for (std::int64_t frame = 0; frame < frames; ++frame) {
+    const Pose& X_WM = run.input.poses[static_cast<std::size_t>(frame)];
+    LmdSet& set = truth.sets.emplace_back();
+    certified->search(X_WM, set, ignored);
+    // The frames at which an even spread of `checks` over `frames` steps on; the first one is among them.
+    if (frame * checks / frames != (frame - 1) * checks / frames || (frame == 0 && checks > 0)) {
+      other.clear();
+      exhaustive->search(X_WM, other, ignored);
+      ++truth.checked_frames;
+      if (!agreement(other, set, Match::SAME_FEATURES, run.scene()).exact()) ++truth.wrong_frames;
+    }
+    if (progress && !progress(frame + 1, frames)) throw Interrupted();
+  }
+  return truth;
+}
+
+std::vector<TruthFrame> truth_frames(const TrueSets& truth, const PreparedRun& run, std::int64_t first) {
+  const auto rendered = [&](std::size_t frame, ForceLaw law) {
+    ForceProfile profile = run.profiles.front().force;
+    profile.law = law;
+    const Vec3 reference_W = RigidTransform(run.input.poses[frame]).point(run.input.reference_M);
+    return run.input.device.render(sum_forces(truth.sets[frame], profile, reference_W), profile.largest_sum)
+        .force;
+  };
+  std::vector<TruthFrame> result;
+  for (auto frame = static_cast<std::size_t>(first); frame + 1 < truth.sets.size(); ++frame) {
+    TruthFrame here;
+    here.frame = static_cast<std::int64_t>(frame);
+    here.lmds = truth.sets[frame];
+    for (const ForceLaw law : {ForceLaw::LINEAR, ForceLaw::EXPONENTIAL}) {
+      const auto index = static_cast<std::size_t>(law);
+      here.force[index] = rendered(frame, law);
+      here.force_jump[index] = (rendered(frame + 1, law) - here.force[index]).norm();
+    }
+    result.push_back(std::move(here));
+  }
+  return result;
 }
 
 }  // namespace lmdbench

@@ -5,12 +5,14 @@
 #include <lmdbench/force/force_law.h>
 #include <lmdbench/lmd/agreement.h>
 #include <lmdbench/lmd/scene.h>
-#include <lmdbench/run/lockstep.h>
-#include <lmdbench/run/records.h>
+#include <lmdbench/run/prepare.h>
+#include <lmdbench/run/probed_track.h>
 
 #include <array>
 #include <cstdint>
 #include <functional>
+#include <optional>
+#include <string>
 #include <vector>
 
 /// The truth probe: on a stride of frames the exhaustive LMD set is computed at the frame and at the next
@@ -39,6 +41,37 @@ struct TruthComparison {
   double force_jump = UNSET;              ///< The method's own |force at the next frame - force| [N].
 };
 
+/// The truth of every frame, where a method that finds the complete set in every frame ran along: what changes from a frame to
+/// the next is rare, and a probe on a stride sees hardly any of it. The probe's exhaustive sets, which share no search code with
+/// the method, say whether its sets stand.
+struct CompleteTruth {
+  std::string label;  ///< Of the method.
+  ForcesByLaw force;  ///< Rendered, one a frame under each law [N].
+  std::vector<std::int64_t> lmd_count;
+};
+
+/// A method's record and what the probe found of it.
+struct ProbedRecord {
+  const MethodRecord* record = nullptr;
+  const std::vector<TruthComparison>* probed = nullptr;
+};
+
+/// The first by label of the methods that kept forces under both laws (MethodRecord::force_by_law), if the probe looked at some
+/// frames and its set was the exhaustive one in all of them.
+/// @param candidates methods that share poses and profile
+std::optional<CompleteTruth> complete_truth(std::vector<ProbedRecord> candidates);
+
+/// What the probe `truth` finds along a track.
+struct TruthFindings : ProbeFindings {
+  std::vector<TruthFrame> frames;
+  std::vector<std::vector<TruthComparison>>
+      comparisons;                        ///< One list a method of the track, one entry a frame.
+  std::optional<CompleteTruth> complete;  ///< Where a method of the track gives it.
+  std::vector<std::string> doubts;        ///< Of methods that promise the complete set.
+
+  std::vector<std::string> notes(const std::string& /*group*/) const override { return doubts; }
+};
+
 /// Angle between two forces [rad]; NaN where one of them vanishes.
 double force_angle(const Vec3& a, const Vec3& b);
 
@@ -64,5 +97,23 @@ std::vector<TruthFrame> probe_truth(const Scene& scene, const LockstepInput& inp
 /// @pre the record keeps the LMD sets of the truth's frames
 std::vector<TruthComparison> compare_with_truth(const std::vector<TruthFrame>& truth,
                                                 const MethodRecord& record, ForceLaw law, const Scene& scene);
+
+/// Truth in every frame. A probe on a stride sees every tenth event: rare jumps of the true force are missed and the
+/// methods look worse, or better, than they are. `certified` gives the true set in microseconds; `exhaustive`, which
+/// shares no search code with it, is asked at some frames whether that stands in this scene, too.
+
+struct TrueSets {
+  std::vector<LmdSet> sets;         ///< One a frame.
+  std::int64_t checked_frames = 0;  ///< Compared with the exhaustive set.
+  std::int64_t wrong_frames = 0;    ///< Of these, with another set of feature pairs.
+};
+
+/// @param checks   frames to compare with the exhaustive set, evenly spread; all where there are fewer
+/// @param progress may stop by returning false, which throws Interrupted
+TrueSets true_sets(const PreparedRun& run, std::int64_t checks, const Progress& progress);
+
+/// The true forces of the sets at the frames from `first` on that have a next one.
+/// @param run whose profile and device render
+std::vector<TruthFrame> truth_frames(const TrueSets& truth, const PreparedRun& run, std::int64_t first);
 
 }  // namespace lmdbench

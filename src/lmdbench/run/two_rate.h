@@ -7,7 +7,7 @@
 #include <lmdbench/geometry/pose.h>
 #include <lmdbench/lmd/method.h>
 #include <lmdbench/lmd/method_description.h>
-#include <lmdbench/motion/extrapolate.h>
+#include <lmdbench/motion/interpolate.h>
 
 #include <cstdint>
 #include <memory>

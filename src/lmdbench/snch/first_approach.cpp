@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/base/contract.h>
 #include <lmdbench/geometry/triangle_distance.h>
 #include <lmdbench/snch/first_approach.h>
 
@@ -118,6 +119,8 @@ class ApproachSearch {
 FirstApproach first_approach(const Surface& moving, const Hierarchy& moving_hierarchy, const Surface& fixed,
                              const Hierarchy& fixed_hierarchy, const Pose& X_WM, const Vec3& direction_W,
                              double gap, double tolerance, const FirstApproach& begin) {
+  LMDBENCH_EXPECTS(gap > 0.0 && tolerance > 0.0, "a gap that no step can reach");
+  LMDBENCH_EXPECTS(is_unit(direction_W), "a direction that was not normalised");
   return ApproachSearch(moving, moving_hierarchy, fixed, fixed_hierarchy, X_WM, direction_W, gap, tolerance)
       .run(begin);
 }

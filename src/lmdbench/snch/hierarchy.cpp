@@ -3,7 +3,6 @@
 #include <lmdbench/geometry/cone.h>
 #include <lmdbench/geometry/sphere.h>
 #include <lmdbench/snch/hierarchy.h>
-#include <lmdbench/snch/leaf_cones.h>
 
 #include <Eigen/Geometry>
 
@@ -14,7 +13,6 @@
 #include <utility>
 
 namespace lmdbench {
-
 namespace {
 
 /// Triangles whose normals the cone of a leaf covers, repeated where they are found twice.

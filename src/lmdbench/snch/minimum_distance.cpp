@@ -1,14 +1,15 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/base/contract.h>
 #include <lmdbench/snch/minimum_distance.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 namespace lmdbench {
-
 namespace {
 
 struct NearPair {
@@ -23,6 +24,7 @@ template <typename Visit>
 void descend(const Surface& moving, const Hierarchy& moving_hierarchy, const Surface& fixed,
              const Hierarchy& fixed_hierarchy, const Pose& X_WM, const double& best, const Visit& visit) {
   if (moving_hierarchy.nodes.empty() || fixed_hierarchy.nodes.empty()) return;
+  LMDBENCH_EXPECTS(!std::isnan(best), "a bound that is not a number would reject everything");
   const RigidTransform transform(X_WM);
 
   const auto candidate = [&](std::int32_t index_a, std::int32_t index_b) {
@@ -82,6 +84,59 @@ bool within_distance(const Surface& moving, const Hierarchy& moving_hierarchy, c
     return !found;
   });
   return found;
+}
+
+NearestPair NearestTracker::last_pair(const Pose& X_WM) const {
+  if (last_moving_ < 0) return {};
+  LMDBENCH_EXPECTS(static_cast<std::size_t>(last_moving_) < moving_.mesh.triangles.size() &&
+                       static_cast<std::size_t>(last_fixed_) < fixed_.mesh.triangles.size(),
+                   "a tracker that outlives its meshes");
+  const Triangle triangle_W = RigidTransform(X_WM).triangle(moving_.mesh.triangle(last_moving_));
+  const TrianglePairDistance pair = triangle_distance(triangle_W, fixed_.mesh.triangle(last_fixed_));
+  return {std::sqrt(pair.squared_distance), last_moving_, last_fixed_, pair};
+}
+
+NearestPair NearestTracker::nearest(const Pose& X_WM) {
+  const NearestPair last = last_pair(X_WM);
+  const double bound = last.triangle_moving < 0 ? std::numeric_limits<double>::infinity() : last.distance;
+  const NearestPair found = nearest_pair(moving_, moving_hierarchy_, fixed_, fixed_hierarchy_, X_WM, bound);
+  if (found.triangle_moving < 0) return last;  // nothing is nearer
+  last_moving_ = found.triangle_moving;
+  last_fixed_ = found.triangle_fixed;
+  return found;
+}
+
+NearestPoint nearest_point(const Surface& surface, const Hierarchy& hierarchy, const Vec3& p_M,
+                           double upper_bound) {
+  NearestPoint nearest;
+  if (hierarchy.nodes.empty()) return nearest;
+  LMDBENCH_EXPECTS(p_M.allFinite() && !std::isnan(upper_bound), "a point or bound that was never set");
+  double best = upper_bound;
+  const auto bound_of = [&](std::int32_t index) {
+    const HierarchyNode& node = hierarchy.nodes[static_cast<std::size_t>(index)];
+    return std::pair{(node.centre - p_M).norm() - node.radius, index};
+  };
+  // Depth first, the nearer child on top.
+  std::vector<std::pair<double, std::int32_t>> stack{bound_of(0)};
+  while (!stack.empty()) {
+    const auto [bound, index] = stack.back();
+    stack.pop_back();
+    if (bound > best) continue;
+    const HierarchyNode& node = hierarchy.nodes[static_cast<std::size_t>(index)];
+    if (!node.is_leaf()) {
+      auto left = bound_of(node.first_child), right = bound_of(node.first_child + 1);
+      if (left.first < right.first) std::swap(left, right);
+      if (left.first <= best) stack.push_back(left);
+      if (right.first <= best) stack.push_back(right);
+      continue;
+    }
+    const PointTriangleDistance found = point_triangle_distance(p_M, surface.mesh.triangle(node.triangle));
+    const double distance = std::sqrt(found.squared_distance);
+    if (!(distance < best || (distance <= best && nearest.triangle < 0))) continue;
+    best = distance;
+    nearest = {distance, node.triangle, found};
+  }
+  return nearest;
 }
 
 }  // namespace lmdbench

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <lmdbench/geometry/point_triangle.h>
 #include <lmdbench/geometry/pose.h>
 #include <lmdbench/geometry/triangle_distance.h>
 #include <lmdbench/mesh/surface.h>
@@ -29,5 +30,46 @@ NearestPair nearest_pair(const Surface& moving, const Hierarchy& moving_hierarch
 /// Whether the meshes are within `distance` [m] of each other: stops at the first triangle pair that is.
 bool within_distance(const Surface& moving, const Hierarchy& moving_hierarchy, const Surface& fixed,
                      const Hierarchy& fixed_hierarchy, const Pose& X_WM, double distance);
+
+/// Exact nearest pairs of two meshes along a path. Each search begins with the last one's triangles at the new pose
+/// as its bound, which changes nothing but the time: the least distance is the same bits as from scratch, of pairs
+/// at equal distance another one may be named. Remembers its last pair, so use it from one thread.
+class NearestTracker {
+ public:
+  /// The meshes and hierarchies must outlive this.
+  NearestTracker(const Surface& moving, const Hierarchy& moving_hierarchy, const Surface& fixed,
+                 const Hierarchy& fixed_hierarchy)
+      : moving_(moving),
+        fixed_(fixed),
+        moving_hierarchy_(moving_hierarchy),
+        fixed_hierarchy_(fixed_hierarchy) {}
+
+  /// As `nearest_pair` without a bound.
+  NearestPair nearest(const Pose& X_WM);
+
+  /// The last pair at another pose; triangle_moving is -1 before the first search.
+  NearestPair last_pair(const Pose& X_WM) const;
+
+ private:
+  const Surface& moving_;
+  const Surface& fixed_;
+  const Hierarchy& moving_hierarchy_;
+  const Hierarchy& fixed_hierarchy_;
+  std::int32_t last_moving_ = -1;
+  std::int32_t last_fixed_ = -1;
+};
+
+/// The place of a mesh that is nearest to a point.
+struct NearestPoint {
+  double distance = std::numeric_limits<double>::quiet_NaN();  ///< metres
+  std::int32_t triangle = -1;
+  PointTriangleDistance place;  ///< In the mesh's frame.
+};
+
+/// Exact, by branch and bound over the spheres of the hierarchy.
+/// @param p_M          in the mesh's frame
+/// @param upper_bound  places beyond it are not looked for; the result then has triangle == -1
+NearestPoint nearest_point(const Surface& surface, const Hierarchy& hierarchy, const Vec3& p_M,
+                           double upper_bound = std::numeric_limits<double>::infinity());
 
 }  // namespace lmdbench

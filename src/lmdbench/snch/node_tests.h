@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <lmdbench/base/contract.h>
 #include <lmdbench/geometry/pose.h>
 #include <lmdbench/geometry/types.h>
 #include <lmdbench/snch/hierarchy.h>
@@ -44,6 +45,7 @@ struct NodePair {
 
 /// G1: the spheres are farther apart than the cutoff.
 inline bool rejected_by_cutoff(const NodePair& pair, double cutoff) {
+  LMDBENCH_EXPECTS(cutoff >= 0.0, "a cutoff that is negative or not a number");
   const double reach = cutoff + pair.radii;
   return pair.squared_distance > reach * reach;
 }

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/base/error.h>
 #include <lmdbench/base/statistics.h>
-#include <lmdbench/base/uniform_number.h>
 #include <lmdbench/force/contact_finder.h>
 #include <lmdbench/lmd/method_description.h>
 #include <lmdbench/methods/registry.h>

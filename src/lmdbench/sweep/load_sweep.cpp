@@ -3,8 +3,7 @@
 #include <lmdbench/base/error.h>
 #include <lmdbench/base/input_file.h>
 #include <lmdbench/base/json_document.h>
-#include <lmdbench/sweep/problem.h>
-#include <lmdbench/sweep/schema_text.h>
+#include <lmdbench/sweep/point_key.h>
 #include <lmdbench/sweep/sweep.h>
 
 #include <fmt/format.h>
@@ -13,6 +12,10 @@
 #include <set>
 
 namespace lmdbench {
+
+/// experiments/schema/sweep.schema.json as it was when the program was built.
+const std::string& sweep_schema_text();
+
 namespace {
 
 using Json = nlohmann::json;

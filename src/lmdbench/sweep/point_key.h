@@ -3,7 +3,7 @@
 #pragma once
 
 #include <lmdbench/base/error.h>
-#include <lmdbench/record/provenance.h>
+#include <lmdbench/result_file/provenance.h>
 #include <lmdbench/run/prepare.h>
 #include <lmdbench/sweep/sweep.h>
 
@@ -42,5 +42,10 @@ std::string point_key(const Sweep& sweep, const SweepPoint& point, InputHashes& 
 
 /// The keys of all points, in their order.
 std::vector<std::string> point_keys(const Sweep& sweep, InputHashes& hashes);
+
+/// Fills in SweepPoint::problem. What a point is asked is its truth's experiment without what only a method or a schedule does
+/// (methods, driver, probes, recording): of the points of one scene the places in which that differs make problems apart,
+/// whether an axis, a series' `set` or its `truth` changed them.
+void name_problems(std::vector<SweepPoint>& points);
 
 }  // namespace lmdbench

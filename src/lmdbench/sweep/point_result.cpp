@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/metrics/method_summary.h>
 #include <lmdbench/metrics/step_numbers.h>
-#include <lmdbench/metrics/time_numbers.h>
 #include <lmdbench/metrics/times.h>
 #include <lmdbench/sweep/point_result.h>
 

@@ -3,7 +3,6 @@
 #include <lmdbench/base/error.h>
 #include <lmdbench/base/file_descriptor.h>
 #include <lmdbench/base/file_hash.h>
-#include <lmdbench/base/file_lock.h>
 #include <lmdbench/base/json_text.h>
 #include <lmdbench/base/output_guard.h>
 #include <lmdbench/sweep/point_key.h>

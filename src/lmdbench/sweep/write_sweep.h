@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <lmdbench/record/result_writer.h>
+#include <lmdbench/result_file/result_writer.h>
 #include <lmdbench/sweep/run_sweep.h>
 
 #include <nlohmann/json.hpp>

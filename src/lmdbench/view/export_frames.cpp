@@ -5,8 +5,8 @@
 #include <lmdbench/base/output_guard.h>
 #include <lmdbench/geometry/pose.h>
 #include <lmdbench/methods/query.h>
-#include <lmdbench/record/vtu_file.h>
 #include <lmdbench/result/result_scene.h>
+#include <lmdbench/result_file/vtu_file.h>
 #include <lmdbench/view/export_frames.h>
 
 #include <fmt/format.h>
@@ -265,7 +265,7 @@ void export_polylines(Exporter& exporter, const ResultReader& result, const std:
 
 std::vector<fs::path> export_frames(const ResultReader& result, const fs::path& folder,
                                     std::size_t most_frames) {
-  const ResultScene result_scene = deforming_scene_of_result(result);
+  const ResultScene result_scene = scene_of_result(result);
   const Scene& scene = result_scene.rest;
   Exporter exporter(result.file(), folder);
   const std::vector<ResultTrack> tracks = tracks_of_result(result, most_frames);

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <lmdbench/record/result_reader.h>
+#include <lmdbench/result_file/result_reader.h>
 
 #include <cstddef>
 #include <filesystem>

@@ -1,5 +1,7 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/base/contract.h>
+#include <lmdbench/snch/minimum_distance.h>
 #include <lmdbench/world/broad_phase.h>
 
 #include <algorithm>
@@ -7,7 +9,6 @@
 #include <tuple>
 
 namespace lmdbench {
-
 namespace {
 
 std::vector<Eigen::AlignedBox3d> boxes_of(const Scene& scene) {
@@ -30,6 +31,7 @@ bool has_less_room(const BroadPhase::Candidate& a, const BroadPhase::Candidate& 
 }  // namespace
 
 double farthest_motion(const MeshBounds& bounds, const Pose& from, const Pose& to) {
+  LMDBENCH_EXPECTS(bounds.radius >= 0.0, "bounds of a mesh that was never looked at");
   const double way =
       ((to.translation - from.translation) + (to.rotation * bounds.centre - from.rotation * bounds.centre))
           .norm();
@@ -61,10 +63,15 @@ BroadPhase::BroadPhase(const Scene& scene, double slack)
     poses_.push_back(fixed.X_WF);
   }
   reach_ = scene.cutoff + 2.0 * (moving_.known + known_fixed);
+  LMDBENCH_ENSURES(mesh_.size() == poses_.size() && bounds_.size() == meshes_.size(),
+                   "parallel arrays of unlike lengths");
+  LMDBENCH_EXPECTS(scene.cutoff >= 0.0 && slack_ >= 0.0,
+                   "a cutoff or slack that is negative or not a number");
 }
 
 double BroadPhase::room_of(std::uint32_t instance, const RigidTransform& X_WM,
                            const Eigen::AlignedBox3d& box) const {
+  LMDBENCH_EXPECTS(instance < mesh_.size(), "an instance of another scene");
   const MeshBounds& bounds = *bounds_[mesh_[instance]];
   const RigidTransform X_WF(poses_[instance]);
   const double between_spheres =
@@ -76,6 +83,7 @@ double BroadPhase::room_of(std::uint32_t instance, const RigidTransform& X_WM,
 }
 
 double BroadPhase::room_by_outline(std::uint32_t instance) const {
+  LMDBENCH_EXPECTS(has_asked_ && instance < mesh_.size(), "candidates of before the first question");
   const Pose& X_WF = poses_[instance];
   const std::size_t mesh = mesh_[instance];
   const RigidTransform X_FM(relative_pose(X_WF, asked_at_));
@@ -149,6 +157,27 @@ void BroadPhase::look_at_all(const Pose& X_WM, std::vector<std::uint32_t>& near)
                              bounds.radius + moving_.radius);
     if (distance - rounding <= reach_ + moving_.radius + bounds.radius) near.push_back(i);
   }
+}
+
+NearestInstance nearest_instance(const Scene& scene, const BroadPhase& phase, const Pose& X_WM,
+                                 double bound) {
+  NearestInstance nearest;
+  nearest.distance = bound;
+  phase.by_distance(X_WM, [&](std::uint32_t instance, double at_least) {
+    if (at_least > nearest.distance) return false;
+    const Body& fixed = *scene.fixed[instance];
+    const NearestPair pair = nearest_pair(scene.moving->surface(), scene.moving->prepared<Hierarchy>(),
+                                          fixed.surface(), fixed.prepared<Hierarchy>(),
+                                          relative_pose(phase.pose_of(instance), X_WM), nearest.distance);
+    if (pair.triangle_moving < 0 || !(pair.distance <= nearest.distance)) return true;
+    const auto index = static_cast<std::int32_t>(instance);
+    if (nearest.instance < 0 || pair.distance < nearest.distance || index < nearest.instance)
+      nearest.instance = index;
+    nearest.distance = pair.distance;
+    return true;
+  });
+  if (nearest.instance < 0) nearest.distance = std::numeric_limits<double>::infinity();
+  return nearest;
 }
 
 }  // namespace lmdbench

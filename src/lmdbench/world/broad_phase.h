@@ -5,11 +5,11 @@
 #include <lmdbench/lmd/scene.h>
 #include <lmdbench/world/instance_tree.h>
 #include <lmdbench/world/mesh_bounds.h>
-#include <lmdbench/world/mesh_outline.h>
 
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <memory>
 #include <vector>
 
@@ -29,7 +29,7 @@ inline constexpr double BROAD_PHASE_SLACK = 0.25;
 /// much they were farther away than the reach, as their boxes tell. As long as no point of the moving mesh is farther than the slack from
 /// where it was at the query, an instance that is no candidate is out of reach, and so is a candidate whose room is not used up
 /// (PROOF.md here, W2). A candidate whose room is used up for the first time gets a larger one, where the spheres of the outlines
-/// (mesh_outline.h) were farther apart at the query than the boxes. So a frame looks at the candidates whose room is used up and at no
+/// (mesh_bounds.h) were farther apart at the query than the boxes. So a frame looks at the candidates whose room is used up and at no
 /// other instance.
 class BroadPhase {
  public:
@@ -95,5 +95,18 @@ class BroadPhase {
   std::size_t near_count_ = 0;
   std::vector<std::uint32_t> found_;
 };
+
+/// The nearest of a world's instances.
+struct NearestInstance {
+  std::int32_t instance = -1;                                 ///< -1 where none is within the bound.
+  double distance = std::numeric_limits<double>::infinity();  ///< [m]; 0 where the meshes intersect.
+};
+
+/// Exact minimum distance to a scene's fixed meshes, each at its pose (snch/minimum_distance.h), nearest boxes first. Of instances that
+/// are equally near the first by index.
+/// @param phase of the same scene
+/// @param bound distances above this are not looked for [m]
+NearestInstance nearest_instance(const Scene& scene, const BroadPhase& phase, const Pose& X_WM,
+                                 double bound = std::numeric_limits<double>::infinity());
 
 }  // namespace lmdbench

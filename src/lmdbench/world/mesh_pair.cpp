@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/base/contract.h>
 #include <lmdbench/lmd/method_description.h>
 #include <lmdbench/world/mesh_bounds.h>
 #include <lmdbench/world/mesh_pair.h>
@@ -36,6 +37,7 @@ std::unique_ptr<Method> MeshPair::take(const Make& make) {
     ++made_;
     return make(frame_.scene());
   }
+  LMDBENCH_EXPECTS(idle_.back() != nullptr, "a method that was taken twice");
   std::unique_ptr<Method> method = std::move(idle_.back());
   idle_.pop_back();
   return method;

@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/base/contract.h>
 #include <lmdbench/base/error.h>
 #include <lmdbench/geometry/tolerance.h>
 #include <lmdbench/world/broad_phase.h>
@@ -66,6 +67,7 @@ void MoverGroup::begin() {
   double known = 0.0;
   for (Object& object : objects_) known = std::max(known, object.bounds->known);
   reach_ = cutoff_ + 4.0 * known;
+  LMDBENCH_EXPECTS(cutoff_ >= 0.0, "a cutoff that is negative or not a number");
   std::vector<Eigen::AlignedBox3d> boxes;
   for (std::size_t i = 0; i < objects_.size(); ++i) {
     Object& object = objects_[i];
@@ -94,6 +96,7 @@ double MoverGroup::rounding_of(const Object& a, const Object& b) const {
 }
 
 double MoverGroup::room_of(const Object& a, const Object& b) const {
+  LMDBENCH_EXPECTS(a.bounds != nullptr && b.bounds != nullptr, "an object that was never added");
   const double between_spheres =
       (RigidTransform(a.anchor).point(a.bounds->centre) - RigidTransform(b.anchor).point(b.bounds->centre))
           .norm() -
@@ -114,6 +117,7 @@ Eigen::AlignedBox3d MoverGroup::grown_box(const Object& mover, double more) cons
 }
 
 void MoverGroup::find_candidates(std::uint32_t mover, Work& work) {
+  LMDBENCH_EXPECTS(mover < mover_count_, "an object that stands asked as a mover");
   const Object& one = objects_[mover];
   const auto look_at = [&](std::uint32_t object) {
     const Object& other = objects_[object];

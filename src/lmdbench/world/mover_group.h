@@ -7,7 +7,6 @@
 #include <lmdbench/lmd/scene.h>
 #include <lmdbench/world/instance_tree.h>
 #include <lmdbench/world/mesh_bounds.h>
-#include <lmdbench/world/mesh_outline.h>
 #include <lmdbench/world/mesh_pair.h>
 
 #include <cstddef>

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/lmd/decide.h>
-#include <lmdbench/mesh/feature_corners.h>
+#include <lmdbench/mesh/surface.h>
 #include <lmdbench/methods/certified/certified.h>
 #include <lmdbench/methods/certified/filter.h>
 #include <lmdbench/methods/exhaustive/exhaustive.h>

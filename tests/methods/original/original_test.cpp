@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/geometry/triangle_distance.h>
 #include <lmdbench/methods/exhaustive/exhaustive.h>
-#include <lmdbench/methods/original/direction_verification.h>
 #include <lmdbench/methods/original/feature_points.h>
 #include <lmdbench/methods/original/original.h>
 

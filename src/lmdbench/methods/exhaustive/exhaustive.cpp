@@ -5,7 +5,7 @@
 #include <lmdbench/lmd/join_contacts.h>
 #include <lmdbench/lmd/search_counters.h>
 #include <lmdbench/lmd/well_formed.h>
-#include <lmdbench/mesh/feature_corners.h>
+#include <lmdbench/mesh/surface.h>
 #include <lmdbench/methods/exhaustive/exhaustive.h>
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include <lmdbench/mesh/feature_corners.h>
+#include <lmdbench/mesh/surface.h>
 #include <lmdbench/methods/exhaustive/feature_grid.h>
 
 #include <algorithm>

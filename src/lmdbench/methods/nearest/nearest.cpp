@@ -8,7 +8,6 @@
 #include <vector>
 
 namespace lmdbench {
-
 namespace {
 
 std::vector<const Surface*> fixed_surfaces(const Scene& scene) {

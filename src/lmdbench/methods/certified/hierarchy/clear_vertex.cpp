@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include <lmdbench/mesh/vertex_neighbours.h>
+#include <lmdbench/mesh/vertex_fan.h>
 #include <lmdbench/methods/certified/hierarchy/clear_vertex.h>
 #include <lmdbench/methods/certified/hierarchy/polar_extremes.h>
 

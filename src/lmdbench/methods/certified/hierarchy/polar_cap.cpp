@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/mesh/polar_cone.h>
-#include <lmdbench/mesh/vertex_neighbours.h>
+#include <lmdbench/mesh/vertex_fan.h>
 #include <lmdbench/methods/certified/hierarchy/polar_extremes.h>
 
 #include <algorithm>

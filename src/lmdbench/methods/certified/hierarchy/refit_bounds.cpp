@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include <lmdbench/mesh/feature_corners.h>
+#include <lmdbench/mesh/surface.h>
 #include <lmdbench/methods/certified/hierarchy/refit_bounds.h>
 #include <lmdbench/methods/certified/hierarchy/single_precision.h>
 #include <lmdbench/methods/certified/hierarchy/wide_lane.h>

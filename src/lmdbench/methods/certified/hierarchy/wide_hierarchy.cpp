@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/base/parallel.h>
-#include <lmdbench/mesh/feature_corners.h>
 #include <lmdbench/mesh/shape_complex.h>
+#include <lmdbench/mesh/surface.h>
 #include <lmdbench/methods/certified/hierarchy/single_precision.h>
 #include <lmdbench/methods/certified/hierarchy/wide_bounds.h>
 #include <lmdbench/methods/certified/hierarchy/wide_hierarchy.h>

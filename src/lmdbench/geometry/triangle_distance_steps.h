@@ -1,0 +1,66 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <lmdbench/geometry/triangle_distance.h>
+#include <lmdbench/geometry/triangle_feature.h>
+#include <lmdbench/geometry/types.h>
+
+#include <array>
+
+namespace lmdbench::kernel {
+
+/// The corners whose hull carries the current point of one triangle: a corner, an edge or the face.
+struct Carriers {
+  std::array<int, 3> corner{};
+  int count = 0;
+
+  static constexpr Carriers one(int k) { return {{k, 0, 0}, 1}; }
+  static constexpr Carriers two(int k, int l) { return {{k, l, 0}, 2}; }
+  static constexpr Carriers all() { return {{0, 1, 2}, 3}; }
+
+  void add(int k) { corner[count++] = k; }
+  void keep_only(int k) {
+    corner[0] = k;
+    count = 1;
+  }
+
+  TriangleFeature feature() const {
+    switch (count) {
+      case 1:
+        return vertex_feature(corner[0]);
+      case 2:
+        return edge_feature((4 - corner[0] - corner[1]) % 3);
+      default:
+        return TriangleFeature::FACE;
+    }
+  }
+};
+
+/// Which parts of two triangles seem to carry the nearest pair.
+struct FeatureGuess {
+  Carriers on_a, on_b;
+  bool exists = false;  ///< False where an edge clearly pierces a face, or the processor has no vectors.
+};
+
+/// The nearest of 9 edge pairs and 6 corner-face pairs, in single precision and textbook formulas, four
+/// candidates at a time. Right for nearly every pair in general position; whoever asks must prove it, because
+/// rounding may decide where candidates are nearly as near, and nothing at all is promised for coordinates
+/// that are not finite.
+/// @param scale brings the largest coordinate near 1
+FeatureGuess guess_features(const Triangle& a, const Triangle& b, double scale);
+
+/// Nearest pair of two triangles where it is unique by a clear margin, found from a guess of the
+/// features that carry it and proved by the signs of a few dot products. What it gives is bit for bit what
+/// the examination of all candidates gives.
+/// @param tolerance coincidence_length of the largest coordinate, which is in [2^-100, 2^100] or not finite
+/// @returns false, with `result` untouched, where nothing was proved: contact, parallel features, exact ties,
+///   degenerate triangles, coordinates that are not finite
+bool prove_by_features(const Triangle& a, const Triangle& b, double tolerance, TrianglePairDistance& result);
+
+/// triangle_distance by examining every pair of features: for every finite input, and six
+/// times slower than prove_by_features.
+/// @param tolerance coincidence_length of the largest coordinate, which is 0 or in [2^-100, 2^100]
+TrianglePairDistance distance_by_all_candidates(const Triangle& a, const Triangle& b, double tolerance);
+
+}  // namespace lmdbench::kernel
