@@ -234,6 +234,41 @@ TEST(Certified, FindsTheTruthOnBrokenMeshes) {
   expect_truth_at_random_poses(make_scene(broken, broken, 0.0), 10, 13);
 }
 
+/// Some vertices moved along an edge until `left` of its length is left.
+TriangleMesh with_short_edges(TriangleMesh mesh, double left, std::mt19937_64& random) {
+  for (int i = 0; i < 3; ++i) {
+    const auto& corners = mesh.triangles[random() % mesh.triangles.size()];
+    Vec3& p = mesh.vertices[static_cast<std::size_t>(corners[0])];
+    p += (1.0 - left) * (mesh.vertices[static_cast<std::size_t>(corners[1])] - p);
+  }
+  return mesh;
+}
+
+TEST(Certified, FindsTheTruthBesideEdgesAsShortAsRounding) {
+  // What the definition grants a direction against a wing is rounding over the wing's length: more than the slack of a cap.
+  std::mt19937_64 random(14);
+  const auto power_of_ten = [&](double low, double high) {
+    return std::pow(10.0, low + (high - low) * testing::uniform(random));
+  };
+  KernelComparison comparison;
+  for (int i = 0; i < 80; ++i) {
+    const TriangleMesh shapes[] = {make_box({1.0, 1.0, power_of_ten(-12.0, -5.0)}, {3, 3, 1}),
+                                   make_box({1.0, 0.8, 0.6}, 2), make_blob(0.5, 0.2, 1),
+                                   make_torus(0.35, 0.15, 8, 5)};
+    const TriangleMesh moving = with_short_edges(shapes[i % 4], power_of_ten(-15.0, -5.0), random);
+    const Scene scene = make_scene(moving, i % 8 < 4 ? moving : make_box({1.0, 1.2, 0.7}, 2), 0.0);
+    for (int k = 0; k < 10; ++k) {
+      Pose pose = grazing_pose(scene, 0.01 * (1.0 - testing::uniform(random)), random);
+      if (k % 3 != 0)  // Side by side, nearly as both are made.
+        pose = {(1.0 + 0.01 * testing::uniform(random)) * Vec3::UnitX(),
+                Eigen::Quaterniond(
+                    Eigen::AngleAxisd(power_of_ten(-6.0, -0.5), testing::random_direction(random)))};
+      comparison.check(scene, pose, 0.01);
+    }
+  }
+  EXPECT_GT(comparison.lmds(), 800u);
+}
+
 TEST(Certified, FindsTheTruthWithSeveralFixedBodies) {
   Scene scene = make_scene(make_blob(1.0, 0.3, 2), make_box({0.5, 2.0, 2.0}), 0.0);
   scene.fixed.push_back(make_body("other", translated(make_torus(1.0, 0.3, 20, 10), {0.0, 2.2, 0.4})));

@@ -43,10 +43,14 @@ double least_squared_determinant(const std::array<Vec3, 4>& w) {
 
 }  // namespace
 
-bool is_clear_saddle(const Surface& surface, std::int32_t vertex, const SaddleWitness& witness) {
+bool is_clear_saddle(const Surface& surface, std::int32_t vertex, const SaddleWitness& witness,
+                     double least_wing) {
   const Vec3& p = position(surface, vertex);
   std::array<Vec3, 4> wings;
-  for (std::size_t k = 0; k < 4; ++k) wings[k] = position(surface, witness[k]) - p;
+  for (std::size_t k = 0; k < 4; ++k) {
+    wings[k] = position(surface, witness[k]) - p;
+    if (wings[k].squaredNorm() <= least_wing * least_wing) return false;
+  }
   return least_squared_determinant(wings) >= LEAST_DETERMINANT * LEAST_DETERMINANT;
 }
 
@@ -75,7 +79,7 @@ SaddleWitness find_saddle_witness(const Surface& surface, std::int32_t vertex) {
   return best;
 }
 
-std::optional<PolarCap> clear_peak_cap(const Surface& surface, std::int32_t vertex) {
+std::optional<PolarCap> clear_peak_cap(const Surface& surface, std::int32_t vertex, double least_wing) {
   const auto v = static_cast<std::size_t>(vertex);
   if (surface.vertex_is_boundary[v] || surface.vertex_has_non_manifold_edge[v]) return std::nullopt;
   const auto triangles = surface.adjacency.vertex_triangles[vertex];
@@ -96,6 +100,7 @@ std::optional<PolarCap> clear_peak_cap(const Surface& surface, std::int32_t vert
     corner.previous = own[(k + 2) % 3];
     corner.wing = position(surface, corner.next) - p;
     corner.squared_length = corner.wing.squaredNorm();
+    if (corner.squared_length <= least_wing * least_wing) return std::nullopt;
   }
   polar::Scratch& work = polar::scratch();
   double least_half = 1.0;  // Of (1 + cosine) / 2 over the angles at the vertex.

@@ -21,7 +21,9 @@ inline constexpr SaddleWitness NO_WITNESS{-1, -1, -1, -1};
 /// wings and d_i the determinants of the other three, all of one sign and from m to D. Then sum d_i u_i = 0, and n . u_i <= s for all i
 /// means |n . u_i| <= 3 D s / m. The three wings whose determinant is D have duals no longer than 1 / D, so |n| <= 9 s / m, which is
 /// below 1 (m = LEAST_DETERMINANT, s = POLAR_SLACK).
-bool is_clear_saddle(const Surface& surface, std::int32_t vertex, const SaddleWitness& witness);
+/// @param least_wing  wings up to this long say nothing (LEAST_WING) [m]
+bool is_clear_saddle(const Surface& surface, std::int32_t vertex, const SaddleWitness& witness,
+                     double least_wing = 0.0);
 
 /// Four neighbours for which that is so; NO_WITNESS where there are none.
 /// @pre the vertex's wings are its neighbours (ShapeComplex)
@@ -30,6 +32,6 @@ SaddleWitness find_saddle_witness(const Surface& surface, std::int32_t vertex);
 /// The cap of a vertex all of whose triangles have all other neighbours clearly below them: its polar cone is that of their
 /// normals. Nothing where it is not so.
 /// @pre as above
-std::optional<PolarCap> clear_peak_cap(const Surface& surface, std::int32_t vertex);
+std::optional<PolarCap> clear_peak_cap(const Surface& surface, std::int32_t vertex, double least_wing = 0.0);
 
 }  // namespace lmdbench

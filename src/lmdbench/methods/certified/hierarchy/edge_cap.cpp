@@ -51,7 +51,7 @@ struct ClearEdge {
   bool is_convex = false;
   double size_per_height = 0.0;  ///< The larger of the two triangles'.
 
-  ClearEdge(const Surface& surface, std::int32_t edge) {
+  ClearEdge(const Surface& surface, std::int32_t edge, double least_wing) {
     const auto e = static_cast<std::size_t>(edge);
     if (surface.edge_is_boundary[e] || surface.edge_is_non_manifold[e]) return;
     const auto& ends = surface.adjacency.edges[e];
@@ -68,7 +68,7 @@ struct ClearEdge {
       squared_height = along.cross(to_corner).squaredNorm() / squared_length;
       const double squared_size = 2.0 * (squared_length + to_corner.squaredNorm());
       // Written so that a height or length of zero is flat.
-      if (!(FLAT * FLAT * squared_height > squared_size)) return;
+      if (!(FLAT * FLAT * squared_height > squared_size) || squared_height <= least_wing * least_wing) return;
       squared_flatness = std::max(squared_flatness, squared_size / squared_height);
     }
     is_clear = rise * rise > CLEAR_BEND * CLEAR_BEND * squared_height;
@@ -96,9 +96,9 @@ std::optional<PolarCap> cap_of_arc(const Vec3& along, Scratch& work) {
 
 }  // namespace
 
-std::optional<PolarCap> edge_cap(const Surface& surface, std::int32_t edge) {
+std::optional<PolarCap> edge_cap(const Surface& surface, std::int32_t edge, double least_wing) {
   Scratch& work = scratch();
-  const ClearEdge clear(surface, edge);
+  const ClearEdge clear(surface, edge, least_wing);
   if (clear.is_clear) {
     if (!clear.is_convex) return std::nullopt;
     for (const std::int32_t triangle : surface.adjacency.edge_triangles[edge])
@@ -121,7 +121,7 @@ std::optional<PolarCap> edge_cap(const Surface& surface, std::int32_t edge) {
       const Vec3 across = to_corner - along.dot(to_corner) * along;
       const double height = across.norm();
       const double size = length + to_corner.norm();
-      if (!(height > LEAST_HEIGHT * size)) continue;
+      if (!(height > LEAST_HEIGHT * size) || height <= least_wing) continue;
       const double slack = slack_of(size / height);
       if (slack < LARGEST_SLACK) work.constraints.push_back({across / height, slack});
     }
@@ -140,10 +140,10 @@ std::optional<PolarCap> chain_cap(const Surface& surface, const ShapeComplex& sh
                        surface.mesh.vertices[static_cast<std::size_t>(ends[0])];
   if (!(from_to.squaredNorm() > 0.0)) return std::nullopt;
   // Of a triangle without area the wing is rounding, in a direction that says nothing.
-  const double rounding = LEAST_HEIGHT * (from_to.norm() + shape.regions.extent);
+  const double least_wing = LEAST_WING * shape.regions.extent;
   shape.for_each_chain_wing(surface, chain, [&](const Vec3& wing) {
     const double depth = wing.norm();
-    if (depth > rounding) work.constraints.push_back({wing / depth, POLAR_SLACK});
+    if (depth > least_wing) work.constraints.push_back({wing / depth, POLAR_SLACK});
     return true;
   });
   const FeatureId lead{FeatureKind::EDGE, shape.lead_of_chain(chain)};

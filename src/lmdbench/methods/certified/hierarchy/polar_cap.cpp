@@ -113,9 +113,10 @@ bool find_crossings_of_many(Scratch& work) {
 std::optional<PolarCap> vertex_cap(const Surface& surface, std::int32_t vertex, const ShapeComplex* shape) {
   if (surface.adjacency.vertex_triangles[vertex].empty()) return std::nullopt;
   Scratch& work = polar::scratch();
+  const double least_wing = shape != nullptr ? LEAST_WING * shape->regions.extent : 0.0;
   const auto constrain = [&](const Vec3& wing) {
     const double length = wing.norm();
-    if (length > 0.0) work.constraints.push_back({wing / length, POLAR_SLACK});
+    if (length > least_wing) work.constraints.push_back({wing / length, POLAR_SLACK});
     return true;
   };
   if (shape != nullptr) {
@@ -162,7 +163,8 @@ std::optional<PolarCap> polar_cap(const Surface& surface, const FeatureId& featu
     case FeatureKind::EDGE:
       if (shape != nullptr && !shape->is_plain_chain(surface, shape->chain_of(feature.index)))
         return polar::chain_cap(surface, *shape, shape->chain_of(feature.index));
-      return polar::edge_cap(surface, feature.index);
+      return polar::edge_cap(surface, feature.index,
+                             shape != nullptr ? LEAST_WING * shape->regions.extent : 0.0);
     case FeatureKind::FACE:
       break;
   }

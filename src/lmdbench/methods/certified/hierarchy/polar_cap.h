@@ -22,8 +22,12 @@ struct PolarCap {
 
 /// Angle [rad] by which the caps are wider than the polar cones (PROOF.md, lemma 3). It covers what the definition allows a direction to leave its
 /// cone by (lmd/decide.h): rounding over the distance, which is at least RELATIVE_TOUCH of the coordinates
-/// (128 * 2.2e-16 / 2e-8 = 1.5e-6), and rounding over the shortest wing.
+/// (128 * 2.2e-16 / 2e-8 = 1.5e-6), and rounding over the shortest wing that is not left out.
 inline constexpr double POLAR_SLACK = 2e-6;
+
+/// Wings shorter than this part of the mesh's largest coordinate are left out: the definition grants a direction more than
+/// POLAR_SLACK against them (PROOF.md, lemma 3). Fewer constraints are a larger cap.
+inline constexpr double LEAST_WING = 1e-6;
 
 /// Cap of a feature (PROOF.md, lemmas 4 and 6), or nothing when the polar cone is empty even with the slack: such a feature (a reflex
 /// edge, a saddle vertex, a pit) carries no LMD. A face without area carries none either.

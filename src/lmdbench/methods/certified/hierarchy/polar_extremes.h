@@ -44,7 +44,8 @@ bool satisfies(const std::vector<Constraint>& constraints, const Vec3& direction
 std::optional<PolarCap> cap_around(const Extremes& extremes);
 
 /// Cap of an edge.
-std::optional<PolarCap> edge_cap(const Surface& surface, std::int32_t edge);
+/// @param least_wing  heights of triangles over the edge up to this say nothing [m]
+std::optional<PolarCap> edge_cap(const Surface& surface, std::int32_t edge, double least_wing);
 
 /// Cap of a chain of a shape, from its wings and its regions' normals.
 std::optional<PolarCap> chain_cap(const Surface& surface, const ShapeComplex& shape, std::int32_t chain);

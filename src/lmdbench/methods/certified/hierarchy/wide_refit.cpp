@@ -129,9 +129,10 @@ void WideRefit::insert(WideHierarchy& hierarchy, const Surface& surface, const F
 std::optional<WideItem> WideRefit::vertex_item(const Surface& surface, const ShapeComplex& shape,
                                                std::int32_t vertex) {
   SaddleWitness& witness = witnesses_[static_cast<std::size_t>(vertex)];
-  if (witness != NO_WITNESS && is_clear_saddle(surface, vertex, witness)) return std::nullopt;
+  const double least_wing = LEAST_WING * shape.regions.extent;
+  if (witness != NO_WITNESS && is_clear_saddle(surface, vertex, witness, least_wing)) return std::nullopt;
   const FeatureId feature{FeatureKind::VERTEX, vertex};
-  if (const std::optional<PolarCap> cap = clear_peak_cap(surface, vertex))
+  if (const std::optional<PolarCap> cap = clear_peak_cap(surface, vertex, least_wing))
     return WideItem{*cap, WideRef::feature(feature), true};
   std::optional<WideItem> item = make_wide_item(surface, &shape, nullptr, feature);
   if (!item) witness = find_saddle_witness(surface, vertex);
