@@ -51,24 +51,26 @@ struct ProbeChoice {
 };
 
 struct Probe {
-  std::string name;            ///< Of its options in the file and of its phase of a run.
-  std::string title;           ///< In the plan.
-  std::string parent;          ///< JSON pointer of what its options are in: "/probes" or "/record".
-  std::int64_t stride_frames;  ///< Default.
-  std::int64_t
-      first_stride_frames;  ///< Default of a file without path and probes: a first look at two meshes.
+  std::string name;                ///< Of its options in the file and of its phase of a run.
+  std::string title;               ///< In the plan.
+  std::string parent;              ///< JSON pointer of what its options are in: "/probes" or "/record".
+  std::int64_t stride_frames = 0;  ///< Default.
+  /// Default of a file without path and probes: a first look at two meshes.
+  std::int64_t first_stride_frames = 0;
   std::string stride_text;  ///< Describes the option `stride_frames`.
-  nlohmann::json options;   ///< The others, as "properties" of a draft-07 JSON Schema, each with a default.
-  bool reads_lmds;          ///< Whether it needs the sets that the methods had in its frames.
-  std::string attributes;   ///< Group of a track whose attributes the options, numbers, are; empty for none.
+  /// The others, as "properties" of a draft-07 JSON Schema, each with a default.
+  nlohmann::json options = nlohmann::json::object();
+  bool reads_lmds = false;  ///< Whether it needs the sets that the methods had in its frames.
+  std::string attributes =
+      {};  ///< Group of a track whose attributes the options, numbers, are; empty for none.
   std::vector<ProbeDataset> datasets;
 
   std::string (*why)(const ProbeChoice& choice);  ///< What it does, for the plan.
   std::string left_out;                           ///< What its absence means.
   /// @throws UsageError at `place` for a scene that it cannot look at, EnvironmentError for a build that lacks what it needs
-  void (*refuse)(const Experiment& experiment, const std::string& file, const std::string& place);
+  void (*refuse)(const Experiment& experiment, const std::string& file, const std::string& place) = nullptr;
   /// Null where there is no frame to look at and so nothing to say.
-  std::unique_ptr<ProbeFindings> (*run)(const ProbedTrack& track);
+  std::unique_ptr<ProbeFindings> (*run)(const ProbedTrack& track) = nullptr;
 };
 
 /// In the order of plans and runs. They stand in run/, whose library defines this.

@@ -369,7 +369,6 @@ Probe fcl_probe() {
   return {.name = "fcl",
           .title = "FCL cross-check",
           .parent = "/probes",
-          .stride_frames = 0,
           .first_stride_frames = FclCrosscheck::is_built_in() ? 50 : 0,
           .stride_text =
               "minimum distances are compared with FCL every this many frames; 0 switches the "
@@ -379,7 +378,6 @@ Probe fcl_probe() {
                         {"exclusiveMinimum", 0},
                         {"default", 1e-6},
                         {"description", "largest relative difference that counts as agreement"}}}},
-          .reads_lmds = false,
           .attributes = "/crosscheck/fcl",
           .datasets = fcl_datasets(),
           .why =

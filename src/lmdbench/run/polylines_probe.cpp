@@ -99,12 +99,7 @@ Probe polylines_probe() {
       .name = "polylines",
       .title = "intersection polylines",
       .parent = "/record",
-      .stride_frames = 0,
-      .first_stride_frames = 0,
       .stride_text = "the curves in which the meshes intersect are written every this many frames; 0: none",
-      .options = nlohmann::json::object(),
-      .reads_lmds = false,
-      .attributes = "",
       .datasets = polyline_datasets(),
       .why =
           [](const ProbeChoice& choice) {

@@ -227,9 +227,7 @@ Probe truth_probe() {
           .stride_text =
               "the LMD sets are compared with exhaustive truth every this many frames; 0 switches "
               "the probe off",
-          .options = nlohmann::json::object(),
           .reads_lmds = true,
-          .attributes = "",
           .datasets = truth_datasets(),
           .why =
               [](const ProbeChoice& choice) {
@@ -237,7 +235,6 @@ Probe truth_probe() {
                                    choice.stride_frames);
               },
           .left_out = "probes/truth/stride_frames is 0: times of this run stand without an error",
-          .refuse = nullptr,
           .run = find_truth};
 }
 
