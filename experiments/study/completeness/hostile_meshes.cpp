@@ -156,9 +156,12 @@ constexpr std::array<Mishap, 16> MISHAPS = {{
      }},
     {"with short edges",
      [](TriangleMesh& mesh, Random& random) {
-       const auto& corners = mesh.triangles[some_triangle(mesh, random)];
-       Vec3& p = point(mesh, corners[0]);
-       p += (1.0 - power_of_ten(-14.0, -2.0, random)) * (point(mesh, corners[1]) - p);
+       const double left = power_of_ten(-15.0, -2.0, random);
+       for (int i = between(1, 4, random); i > 0; --i) {
+         const auto& corners = mesh.triangles[some_triangle(mesh, random)];
+         Vec3& p = point(mesh, corners[0]);
+         p += (1.0 - left) * (point(mesh, corners[1]) - p);
+       }
      }},
     {"taken apart",
      [](TriangleMesh& mesh, Random& random) {

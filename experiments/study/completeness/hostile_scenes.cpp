@@ -44,11 +44,17 @@ Vec3 some_direction(Random& random) {
   return random.direction();
 }
 
-/// Two meshes of about the size 1 amid their frames, and where one comes to be relative to the other.
+/// Two meshes amid their frames, and where one comes to be relative to the other.
 class Start {
  public:
-  Start(const TriangleMesh& moving, const TriangleMesh& fixed, double cutoff)
-      : moving_("moving", build_surface(moving)), fixed_("fixed", build_surface(fixed)), cutoff_(cutoff) {}
+  /// @param size  of the smaller one, the moving one [m]
+  Start(const TriangleMesh& moving, const TriangleMesh& fixed, double size, double cutoff)
+      : moving_("moving", build_surface(moving)),
+        fixed_("fixed", build_surface(fixed)),
+        size_(size),
+        cutoff_(cutoff) {}
+
+  double size() const { return size_; }
 
   Pose operator()(Random& random) const {
     Pose pose;
@@ -57,7 +63,7 @@ class Start {
     if (kind < 0.15) {  // On the same place.
       pose.translation = chance(0.4, random)
                              ? Vec3::Zero()
-                             : Vec3(power_of_ten(-16.0, -1.0, random) * some_direction(random));
+                             : Vec3(size_ * power_of_ten(-16.0, -1.0, random) * some_direction(random));
       return pose;
     }
     if (kind < 0.25) {  // Anywhere.
@@ -82,7 +88,7 @@ class Start {
 
  private:
   Body moving_, fixed_;
-  double cutoff_;
+  double size_, cutoff_;
 };
 
 Pose turned(Pose pose, double angle, const Vec3& axis) {
@@ -94,8 +100,8 @@ Pose turned(Pose pose, double angle, const Vec3& axis) {
 /// Appends `count` frames of one motion; the first where the last one was, if there is one.
 void append_frames(Motion motion, std::size_t count, const Start& start, Random& random,
                    std::vector<Pose>& poses) {
-  const double step = power_of_ten(-9.0, -1.5, random), spin = chance(0.5, random) ? 0.0 : step;
-  const double tremor = power_of_ten(-17.0, -2.0, random);
+  const double turn = power_of_ten(-9.0, -1.5, random), spin = chance(0.5, random) ? 0.0 : turn;
+  const double tremor = power_of_ten(-17.0, -2.0, random), step = start.size() * turn;
   const Vec3 way = some_direction(random), axis = random.direction();
   const std::size_t between_jumps = 2 + random.index(20);
   const bool comes_back = chance(0.5, random);
@@ -112,7 +118,7 @@ void append_frames(Motion motion, std::size_t count, const Start& start, Random&
         break;
       case Motion::TREMBLE:
         next = turned(first, spin == 0.0 ? 0.0 : tremor * random.uniform(), random.direction());
-        next.translation += tremor * random.uniform() * random.direction();
+        next.translation += start.size() * tremor * random.uniform() * random.direction();
         break;
       case Motion::JUMPS:
         if (i % between_jumps == between_jumps - 1) {
@@ -128,8 +134,8 @@ void append_frames(Motion motion, std::size_t count, const Start& start, Random&
         break;
       case Motion::THROUGH:
         next = turned(next, 0.1 * spin, axis);
-        next.translation =
-            first.translation + 3.0 * std::sqrt(step) * std::sin(0.2 * static_cast<double>(i)) * way;
+        next.translation = first.translation + 3.0 * start.size() * std::sqrt(turn) *
+                                                   std::sin(0.2 * static_cast<double>(i)) * way;
         break;
     }
     poses.push_back(next);
@@ -192,9 +198,12 @@ HostileScene make_hostile_scene(Motion motion, std::uint64_t seed, std::size_t i
                 index);
   const HostileMesh fixed = make_hostile_mesh(random);
   const bool is_copy = chance(0.2, random);
-  const HostileMesh moving = is_copy ? fixed : make_hostile_mesh(random);
-  const double cutoff = power_of_ten(-3.0, -0.3, random);
-  const Start start(moving.mesh, fixed.mesh, cutoff);
+  HostileMesh moving = is_copy ? fixed : make_hostile_mesh(random);
+  const double ratio = chance(0.8, random) ? 1.0 : power_of_ten(-6.0, 0.0, random);
+  for (Vec3& p : moving.mesh.vertices) p *= ratio;
+  moving.mesh.planar_tolerance *= ratio;
+  const double cutoff = ratio * power_of_ten(-3.0, -0.3, random);
+  const Start start(moving.mesh, fixed.mesh, ratio, cutoff);
   const std::vector<Pose> poses = motion_of(motion, start, random);
 
   const double size = chance(0.7, random) ? 1.0 : power_of_ten(-9.0, 9.0, random);
@@ -204,9 +213,10 @@ HostileScene make_hostile_scene(Motion motion, std::uint64_t seed, std::size_t i
   };
   const Vec3 offset_M = offset(), offset_W = offset();
   HostileScene result;
-  result.label = fmt::format("scene {} of seed {}, motion {}: {} on {}, size {:.3g}, {:.3g} and {:.3g} away",
-                             index, seed, name_of(motion), is_copy ? "copy" : moving.history, fixed.history,
-                             size, offset_M.norm(), offset_W.norm());
+  result.label =
+      fmt::format("scene {} of seed {}, motion {}: {} on {}, sizes {:.3g} and {:.3g}, {:.3g} and {:.3g} away",
+                  index, seed, name_of(motion), is_copy ? "copy" : moving.history, fixed.history,
+                  ratio * size, size, offset_M.norm(), offset_W.norm());
   result.scene = {placed_body("moving", moving.mesh, size, offset_M),
                   {placed_body("fixed", fixed.mesh, size, offset_W)},
                   cutoff * size};

@@ -40,8 +40,9 @@ struct HostileScene {
   std::vector<Pose> poses;  ///< World pose of the moving mesh.
 };
 
-/// Scene number `index` of a motion: two hostile meshes (hostile_meshes.h), or one and its copy, of any size and distance from
-/// their frames' origins, from far apart over touch to deep in each other. The scene depends on its arguments alone.
+/// Scene number `index` of a motion: two hostile meshes (hostile_meshes.h), or one and its copy, of any size, the moving one
+/// also far smaller than the other, at any distance from their frames' origins, from far apart over touch to deep in each other.
+/// The scene depends on its arguments alone.
 HostileScene make_hostile_scene(Motion motion, std::uint64_t seed, std::size_t index);
 
 /// Judges every variant at `poses` poses of a motion, rounded up to whole scenes; in the order of `variants()`.

@@ -50,15 +50,15 @@ TEST(HostileScenes, DependOnTheirArgumentsAlone) {
 }
 
 TEST(HostileScenes, AreSearchedWithoutLoss) {
+  std::size_t lmds = 0;
   for (const Motion motion : ALL_MOTIONS) {
     std::string wrong;
-    std::size_t lmds = 0;
     for (const Judgement& judgement :
          judge_hostile_scenes(motion, 7, 300, [&](const std::string& what) { wrong += what + "\n"; }))
       lmds += judgement.same.true_lmds;
     EXPECT_EQ(wrong, "") << name_of(motion);
-    EXPECT_GT(lmds, 500u) << name_of(motion);
   }
+  EXPECT_GT(lmds, 7000u);
 }
 
 }  // namespace
