@@ -98,8 +98,8 @@ TEST(Aggregation, SignedIsTheSlopeOfItsPotential) {
 }
 
 TEST(Aggregation, NothingBeyondTheCutoffPushes) {
-  const CriticalSet set{critical(0.9999999, {0, 0, 1}, 1), critical(1.5, {0, 1, 0}, 1),
-                        critical(1.2, {1, 0, 0}, -1)};
+  const CriticalSet set{critical(0.9999999, {0, 0, 1}, 1), critical(1.2, {0, 1, 0}, 1),
+                        critical(1.5, {1, 0, 0}, -1)};
   for (const Aggregation& law : aggregations())
     EXPECT_LT(force_of(law, set, {{2, 0, 1}}).norm(), 1e-6) << law.name;
 }

@@ -12,7 +12,7 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <record/result_reading.h>
+#include <result_file/result_reading.h>
 #include <support/committed.h>
 #include <support/message_of.h>
 #include <support/source_directory.h>

@@ -9,7 +9,7 @@
 #include <lmdbench/run/run.h>
 
 #include <gtest/gtest.h>
-#include <record/result_reading.h>
+#include <result_file/result_reading.h>
 #include <support/committed.h>
 #include <support/source_directory.h>
 

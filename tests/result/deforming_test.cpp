@@ -13,8 +13,8 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <record/result_reading.h>
 #include <result/deterministic_datasets.h>
+#include <result_file/result_reading.h>
 #include <support/committed.h>
 #include <support/message_of.h>
 

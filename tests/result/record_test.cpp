@@ -4,8 +4,8 @@
 #include <lmdbench/run/run.h>
 
 #include <gtest/gtest.h>
-#include <record/result_reading.h>
 #include <result/deterministic_datasets.h>
+#include <result_file/result_reading.h>
 #include <support/source_directory.h>
 
 #include <string>

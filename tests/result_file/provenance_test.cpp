@@ -6,7 +6,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <record/result_reading.h>
+#include <result_file/result_reading.h>
 
 #include <ctime>
 #include <map>

@@ -7,7 +7,7 @@
 #include <fcntl.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <record/result_reading.h>
+#include <result_file/result_reading.h>
 #include <sys/resource.h>
 
 #include <chrono>

@@ -4,7 +4,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <record/result_reading.h>
+#include <result_file/result_reading.h>
 
 #include <cmath>
 #include <fstream>

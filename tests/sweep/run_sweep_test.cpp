@@ -7,7 +7,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
-#include <record/result_reading.h>
+#include <result_file/result_reading.h>
 #include <support/source_directory.h>
 
 #include <cmath>
