@@ -1,6 +1,5 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include <lmdbench/catalogue/rounded_circle.h>
 #include <lmdbench/catalogue/shapes.h>
 
 #include <support/parts/chances.h>

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <lmdbench/catalogue/rounded_circle.h>
 #include <lmdbench/catalogue/shapes.h>
 #include <lmdbench/catalogue/sleeve.h>
 #include <lmdbench/lmd/body.h>
