@@ -4,7 +4,7 @@
 #include <lmdbench/experiment/experiment.h>
 #include <lmdbench/result/run_to_file.h>
 
-#include "record/result_reading.h"
+#include "result_file/result_reading.h"
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <judge/ledger.h>
