@@ -134,8 +134,8 @@ struct Experiment {
   RuleSwitches rules{};
   Acceptance acceptance;
   /// Frames between two looks of a probe; 0: it is left out.
-  std::int64_t probe_stride(std::string_view name) const {
-    const auto found = probes.find(name);
+  std::int64_t probe_stride(std::string_view probe) const {
+    const auto found = probes.find(probe);
     return found == probes.end() ? 0 : found->second.stride_frames;
   }
   /// Whether fixed meshes are instances (lmd/scene.h).
