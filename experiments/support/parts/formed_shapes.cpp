@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/catalogue/shapes.h>
+
 #include <support/parts/chances.h>
 #include <support/parts/formed_shapes.h>
 #include <support/parts/prism_complex.h>
