@@ -153,6 +153,10 @@ TEST_F(IntersectionsTest, RoundingDoesNotNameASymmetricContact) {
     ASSERT_EQ(set.size(), 1u);
     EXPECT_EQ(set[0].feature_moving.index, 0) << rounding;
   }
+  // By less than a kernel's crossing may be off no piece is nearer than another one.
+  const LmdSet set = contacts({faces(0, 0, {-1e-13, 0, 0}, 1.0), faces(1, 0, {1e-13, 0, 0}, 2.0)});
+  ASSERT_EQ(set.size(), 1u);
+  EXPECT_EQ(set[0].feature_moving.index, 0);
 }
 
 }  // namespace

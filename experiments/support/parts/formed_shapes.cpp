@@ -173,7 +173,7 @@ TriangleMesh random_slit_block(Random& random) {
   Outline line = {{-0.5, 0.0}};
   double z = 0.0;
   const double pitch = sixty_fourths(8, 20, random);
-  for (double x = -0.5 + 0.5 * pitch; x < 0.5; x += pitch) {
+  for (double x = -0.5 + 0.5 * pitch; x + 0.5 * pitch <= 0.5; x += pitch) {
     const double half =
         chance(0.3, random) ? 0.25 * pitch : std::min(0.3 * pitch, power_of_ten(-9.0, -1.0, random));
     const double tip =

@@ -3,6 +3,7 @@
 #include <lmdbench/base/contract.h>
 #include <lmdbench/lmd/corner_groups.h>
 #include <lmdbench/lmd/intersections.h>
+#include <lmdbench/mesh/shape_complex.h>
 #include <lmdbench/mesh/surface.h>
 
 #include <algorithm>
@@ -56,6 +57,13 @@ void sort_by_features(std::vector<Intersection>& intersections) {
   intersections.swap(sorted);
 }
 
+/// Of the largest coordinate of both meshes: what a kernel's crossing may be off by (methods/certified/PROOF.md, lemma 11).
+constexpr double CROSSING_ERROR = 1e-11;
+
+double extent_of(const Body& body) {
+  return body.prepared<ShapeComplex>().regions.extent;
+}
+
 struct CrossingContact {
   int dimension = 0;
   double measure = 0.0;  ///< Of the pieces of that dimension; of points, their number.
@@ -70,12 +78,13 @@ struct CrossingContact {
     measure += weight_of(piece);
     centroid += weight_of(piece) * piece.point;
   }
-  /// The nearest to the centroid, beyond rounding: that must not choose the name of a symmetric contact.
-  void name(const Intersection& piece) {
-    constexpr double EQUALLY_NEAR = 1e-9, ROUNDING = 1e-14;  // of the distance and of the coordinates
+  /// The nearest to the centroid, beyond what the kernels may differ by: that must not choose the name of a symmetric contact.
+  /// @param crossing_error  of a piece's point [m]
+  void name(const Intersection& piece, double crossing_error) {
+    constexpr double EQUALLY_NEAR = 1e-9;  // of the distance
     if (piece.dimension < dimension) return;
     const double own = (piece.point - centroid).norm();
-    if (!(own < distance * (1.0 - EQUALLY_NEAR) - ROUNDING * centroid.cwiseAbs().maxCoeff())) return;
+    if (!(own < distance * (1.0 - EQUALLY_NEAR) - crossing_error)) return;
     distance = own;
     nearest = &piece;
   }
@@ -112,7 +121,14 @@ void append_contacts(const Scene& scene, std::vector<Intersection>& intersection
   LMDBENCH_ENSURES(
       std::ranges::all_of(contacts, [](const CrossingContact& c) { return c.centroid.allFinite(); }),
       "pieces without a measure");
-  for (std::size_t i = 0; i < intersections.size(); ++i) contacts[contact_of[i]].name(intersections[i]);
+  double crossing_error = 0.0;
+  for (std::size_t i = 0; i < intersections.size(); ++i) {
+    const std::int32_t body = intersections[i].fixed_body;
+    if (i == 0 || body != intersections[i - 1].fixed_body)
+      crossing_error = CROSSING_ERROR *
+                       (extent_of(*scene.moving) + extent_of(*scene.fixed[static_cast<std::size_t>(body)]));
+    contacts[contact_of[i]].name(intersections[i], crossing_error);
+  }
 
   for (const CrossingContact& contact : contacts) {
     const Intersection& piece = *contact.nearest;
