@@ -373,7 +373,7 @@ class Results(Files):
 
     def test_files_of_every_format_version(self):
         for version in (1, 2):
-            result = lmdbench.open_result(os.path.join(ROOT, "tests", "record", "formats", f"format-{version}.h5"))
+            result = lmdbench.open_result(os.path.join(ROOT, "tests", "result_file", "formats", f"format-{version}.h5"))
             self.assertEqual(result.methods, ["original", "improved"])
             self.assertEqual(len(result.frames("improved")), 20)
             if version == 1:
