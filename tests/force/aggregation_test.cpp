@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/base/error.h>
 #include <lmdbench/force/aggregation.h>
+#include <lmdbench/force/contact_finder.h>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -52,12 +53,31 @@ TEST(Aggregation, OfSeparatedMinimaAllAreTheSum) {
   const CriticalSet set{critical(0.2, {0, 0, -1}, 1), critical(0.5, {0, 1, -1}, 1),
                         critical(0.9, {1, 1, 1}, 1)};
   for (const Aggregation& law : aggregations()) {
+    if (law.needs == AggregationNeeds::MINIMA) continue;  // Free to be something else.
     const Wrench own = law.combine({set, {}}, PROFILE_OF_ONE, Vec3::Zero()),
                  sum = sum_forces(minima_of(set), PROFILE_OF_ONE, Vec3::Zero());
     expect_near(own.force, sum.force);
     expect_near(own.torque, sum.torque);
     EXPECT_NEAR(own.stiffness, sum.stiffness, 1e-14) << law.name;
   }
+}
+
+TEST(Aggregation, ALawOfTheLmdsAloneIsAsked) {
+  const Aggregation mean{
+      .name = "mean",
+      .summary = "",
+      .needs = AggregationNeeds::MINIMA,
+      .combine = [](const ForceInput& input, const ForceProfile& profile, const Vec3& about) {
+        Wrench wrench = sum_forces(minima_of(input.critical), profile, about);
+        wrench.force /= static_cast<double>(input.critical.size());
+        return wrench;
+      }};
+  const LmdSet lmds = minima_of({critical(0.2, {0, 0, -1}, 1), critical(0.5, {0, 1, -1}, 1)});
+  const Wrench sum = ContactFinder(sum_law(), Scene{}).combine(lmds, PROFILE_OF_ONE, Vec3::Zero());
+  expect_near(sum.force, sum_forces(lmds, PROFILE_OF_ONE, Vec3::Zero()).force);
+  EXPECT_GT(sum.force.norm(), 0.1);
+  expect_near(ContactFinder(mean, Scene{}).combine(lmds, PROFILE_OF_ONE, Vec3::Zero()).force,
+              0.5 * sum.force);
 }
 
 TEST(Aggregation, AMinimumAndItsSaddleVanishTogether) {

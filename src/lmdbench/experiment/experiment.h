@@ -175,9 +175,9 @@ void refuse_movers(const Experiment& experiment);
 /// @throws UsageError naming the place
 void check_movers(const Experiment& experiment);
 
-/// @throws UsageError naming the profile, where one has an aggregation that needs critical pairs
-void refuse_critical_pairs(const Experiment& experiment, const std::string& file, const std::string& problem,
-                           const std::string& remedy);
+/// @throws UsageError naming the profile, where one has another aggregation than sum
+void refuse_all_but_sum(const Experiment& experiment, const std::string& file, const std::string& problem,
+                        const std::string& remedy);
 
 /// The JSON Schema (draft 07) of experiment files: experiments/schema/experiment.schema.json, with the names
 /// and options of the methods of this build.

@@ -237,9 +237,9 @@ Experiment from_json(Json document, const std::filesystem::path& path) {
         "one thread searches: let the latency be at most search_every_frames");
   if (driver["kind"] == "realtime") {
     experiment.realtime = realtime_choice(driver["realtime"]);
-    refuse_critical_pairs(experiment, file,
-                          "threads of the driver realtime hand each other LMDs, no critical pairs",
-                          "take sum, or the driver lockstep");
+    refuse_all_but_sum(experiment, file,
+                       "threads of the driver realtime hand each other LMDs, no critical pairs",
+                       "take sum, or the driver lockstep");
     // No second traversal is like the first, and when a search starts its thread decides.
     experiment.driver.repetitions = experiment.driver.search_every_frames = 1;
     experiment.driver.search_latency_frames = 0;
@@ -299,15 +299,14 @@ void check_movers(const Experiment& experiment) {
     throw UsageError(file, experiment.movers.front().place,
                      "movers do not go together with meshes that deform",
                      "leave the deformations out, or movers");
-  refuse_critical_pairs(experiment, file, "forces of several movers are sums",
-                        "take sum, or leave movers out");
+  refuse_all_but_sum(experiment, file, "forces of several movers are sums", "take sum, or leave movers out");
 }
 
-void refuse_critical_pairs(const Experiment& experiment, const std::string& file, const std::string& problem,
-                           const std::string& remedy) {
+void refuse_all_but_sum(const Experiment& experiment, const std::string& file, const std::string& problem,
+                        const std::string& remedy) {
   for (std::size_t i = 0; i < experiment.profiles.size(); ++i) {
     const ForceChoice& profile = experiment.profiles[i];
-    if (profile.aggregation->needs == AggregationNeeds::MINIMA) continue;
+    if (profile.aggregation->name == sum_law().name) continue;
     throw UsageError(file,
                      profile.name.empty() ? "/force/aggregation" : fmt::format("/force/{}/aggregation", i),
                      fmt::format("aggregation \"{}\": {}", profile.aggregation->name, problem), remedy);

@@ -43,7 +43,11 @@ void ContactFinder::search(Method& method, const Pose& X_WM, LmdSet& lmds, WorkC
 }
 
 Wrench ContactFinder::combine(const LmdSet& lmds, const ForceProfile& profile, const Vec3& reference_W) {
-  if (aggregation_.needs == AggregationNeeds::MINIMA) return sum_forces(lmds, profile, reference_W);
+  if (aggregation_.name == sum_law().name) return sum_forces(lmds, profile, reference_W);
+  if (aggregation_.needs == AggregationNeeds::MINIMA) {
+    critical_.clear();
+    for (const Lmd& lmd : lmds) critical_.push_back({lmd, 1, true, true, true});
+  }
   auto lmd = lmds.begin();
   for (CriticalPair& critical : critical_)
     if (critical.is_minimum && lmd != lmds.end()) critical.pair = *lmd++;

@@ -32,7 +32,7 @@ class ContactFinder {
   void search(Method& method, const Pose& X_WM, LmdSet& lmds, WorkCounters& counters);
 
   /// @param lmds  Sorted by `lmd_less`: of the last search, less those beyond the profile's cutoff, with directions that may have
-  ///              been remembered (E12). An aggregation that needs minima alone takes any set.
+  ///              been remembered (E12). `sum` takes any set.
   Wrench combine(const LmdSet& lmds, const ForceProfile& profile, const Vec3& reference_W);
 
   /// Search and combination in one.
