@@ -132,11 +132,16 @@ def labelled_decades(low, high):
     return [10.0**power for power in powers if power % step == 0]
 
 
+MOST_NOTED = 4  # failures at the foot of a figure
+
+
 def note_failures(figure, failures):
     """At the foot: whose mark stands in the lane of failures, and why. @param failures {name: reason}"""
     if failures:
-        figure.text(0.012, 0.004, "failed: " + "; ".join(f"{name}, {reason}" for name, reason in failures.items()), fontsize=5.5,
-                    color="#444444", wrap=True, va="bottom")
+        note = "failed: " + "; ".join(f"{name}, {reason}" for name, reason in failures.items())
+        if len(failures) > MOST_NOTED:  # They would cover what is drawn.
+            note = f"{len(failures)} failed: see the table"
+        figure.text(0.012, 0.004, note, fontsize=5.5, color="#444444", wrap=True, va="bottom")
 
 
 def save(figure, directory, name):
