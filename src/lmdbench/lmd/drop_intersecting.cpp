@@ -38,6 +38,7 @@ bool is_over(const ShapePair& pair, const ContactPlaces& places, const Contact& 
                                                                          : 0.0);
   return places.box_of(contact, reach).contains(crossing.point);
 }
+
 }  // namespace
 
 void drop_intersecting(const ShapePair& pair, std::int32_t fixed_body, const ContactPlaces& places,

@@ -190,10 +190,7 @@ void Certified::enumerate_from_scratch(Frame& frame) {
 void Certified::enumerate_coherently(Frame& frame, FixedBody& body) {
   TraversalFront& front = body.front;
   if (frame.longest != body.reach) front.clear();
-  const bool has_deformed =
-      body.seen_moving != frame.moving.changes.now || body.seen_fixed != frame.fixed.changes.now;
-  if (has_deformed && !front.empty())
-    front.follow(frame.moving, body.seen_moving, frame.fixed, body.seen_fixed, motion_);
+  front.follow(frame.moving, body.seen_moving, frame.fixed, body.seen_fixed, motion_);
   body.reach = frame.longest;
   body.seen_moving = frame.moving.changes.now;
   body.seen_fixed = frame.fixed.changes.now;

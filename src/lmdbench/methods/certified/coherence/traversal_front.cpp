@@ -111,6 +111,7 @@ void TraversalFront::drop_record(std::uint32_t record) {
 
 void TraversalFront::follow(const WideHierarchy& a, std::uint32_t seen_a, const WideHierarchy& b,
                             std::uint32_t seen_b, const MotionForecast& motion) {
+  if (a.changes.now == seen_a && b.changes.now == seen_b) return;
   for (std::uint32_t i = 0; i < records_.size(); ++i) {
     Record& record = records_[i];
     if (!record.in_use) continue;

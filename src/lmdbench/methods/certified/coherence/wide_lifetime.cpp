@@ -228,8 +228,7 @@ void make_batch(const WideHierarchy& a, const WideHierarchy& b, const WideQuery&
       const std::uint32_t slot = open_a ? pair.slot_b : pair.slot_a;
       result = test_lifetime<VectorLanes>(
           node, probe, query.limits, forecast, lifetime,
-          make_width_test(widths_of(open_a ? a : b, pair.node), widths_of(open_a ? b : a, slot / WIDE_WIDTH),
-                          slot % WIDE_WIDTH, X_lanes));
+          make_width_test(open_a ? a : b, pair.node, open_a ? b : a, slot, X_lanes));
     } else {
       result = test_lifetime<VectorLanes>(node, probe, query.limits, forecast, lifetime, NoWidths());
     }

@@ -156,6 +156,12 @@ inline const WideWidths& widths_of(const WideHierarchy& hierarchy, std::size_t n
   return hierarchy.widths.empty() ? NONE : hierarchy.widths[node];
 }
 
+/// Node `node` of `opened` against the probe in `slot` of `other`.
+inline WideWidthTest make_width_test(const WideHierarchy& opened, std::size_t node,
+                                     const WideHierarchy& other, std::uint32_t slot, const WideTransform& X) {
+  return make_width_test(widths_of(opened, node), widths_of(other, slot / WIDE_WIDTH), slot % WIDE_WIDTH, X);
+}
+
 /// The test, lane by lane: the reference that the vector form is checked against, bit for bit.
 /// @param widths  null: NoWidths
 WideMasks test_lanes_scalar(const WideNode& node, const WideProbe& probe, const WideLimits& limits,

@@ -139,14 +139,12 @@ void descend(const WideHierarchy& a, const WideHierarchy& b, const WideQuery& qu
     const WideProbe probe = make_probe(open_a ? WideChild(home_b, lane_b) : WideChild(home_a, lane_a), X);
     const WideRef probe_ref = open_a ? ref_b : ref_a;
     const WideNode& node = (open_a ? nodes_a : nodes_b)[opening.node];
+    const std::uint32_t probe_slot = open_a ? slot_b : slot_a;
 
     WideMasks masks;
     if constexpr (std::is_same_v<Widths, WideWidthTest>) {
-      const std::uint32_t probe_slot = open_a ? slot_b : slot_a;
-      masks = test(
-          node, probe, query.limits,
-          make_width_test(widths_of(open_a ? a : b, opening.node),
-                          widths_of(open_a ? b : a, probe_slot / WIDE_WIDTH), probe_slot % WIDE_WIDTH, X));
+      masks = test(node, probe, query.limits,
+                   make_width_test(open_a ? a : b, opening.node, open_a ? b : a, probe_slot, X));
     } else {
       masks = test(node, probe, query.limits, NoWidths());
     }
@@ -167,7 +165,6 @@ void descend(const WideHierarchy& a, const WideHierarchy& b, const WideQuery& qu
     // Eight entries are written, as many as survive are kept.
     std::uint32_t* const of_opened = (open_a ? queue_a : queue_b) + end;
     std::uint32_t* const of_probe = (open_a ? queue_b : queue_a) + end;
-    const std::uint32_t probe_slot = open_a ? slot_b : slot_a;
     for (std::size_t first = 0; first < WIDE_WIDTH; first += hn::Lanes(u)) {
       const auto list =
           hn::PromoteTo(u, hn::LoadU(hn::Rebind<std::uint8_t, decltype(u)>(), lanes.lane.data() + first));
