@@ -12,6 +12,7 @@ import unittest
 ROOT = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "..")
 sys.path.insert(0, os.path.join(ROOT, "scripts"))
 from reference_ages import ADDED, FOLDER, age, git, rows, unmarked  # noqa: E402
+from reference_write import documents, part_of, with_tables_of  # noqa: E402
 
 STUDIES = os.path.join(ROOT, "experiments", "study", "main.cpp")
 
@@ -63,6 +64,40 @@ class Register(unittest.TestCase):
     def test_what_is_older_than_its_code_says_so(self):
         self.whole_history()
         self.assertEqual(unmarked([(row, age(row)) for row in rows()]), [], "remedy: scripts/reference_ages.py --mark, or make them again")
+
+
+PAGE = """# Costs
+
+Old words.
+
+| mesh | us |
+|---|---|
+| bunny | 7 |
+More words.
+
+| mesh | LMDs |
+|---|---|
+| bunny | 3 |
+"""
+
+
+class Writing(unittest.TestCase):
+    def test_a_table_takes_the_place_of_the_one_with_its_header(self):
+        text, kept = with_tables_of(PAGE, "| mesh  | us |\n|---|---|\n| bunny | 5 |\n| torus | 9 |\nof other things\n")
+        self.assertEqual(text, PAGE.replace("| bunny | 7 |", "| bunny | 5 |\n| torus | 9 |").replace("| mesh | us |", "| mesh  | us |"))
+        self.assertEqual(kept, 1)
+
+    def test_tables_of_one_header_are_taken_in_their_order(self):
+        page = "| a |\n|---|\n| 1 |\nthen\n| a |\n|---|\n| 2 |\n"
+        self.assertEqual(with_tables_of(page, page.replace("1", "5").replace("2", "6")), (page.replace("1", "5").replace("2", "6"), 0))
+        self.assertEqual(with_tables_of(page, "| a |\n|---|\n| 5 |\n"), (page.replace("1", "5"), 1))
+
+    def test_an_output_may_hold_several_pages(self):
+        self.assertEqual(documents("noise\n# One\nx\n## part\n# Two\n"), {"# One": "# One\nx\n## part\n", "# Two": "# Two\n"})
+
+    def test_a_page_is_of_the_longest_part_that_it_is_called_after(self):
+        self.assertEqual([part_of(name) for name in ("stability-map.md", "stability.md", "recall-bunny-bunny.md", "README.md")],
+                         ["stability-map", "stability", "recall", ""])
 
 
 if __name__ == "__main__":

@@ -1,0 +1,109 @@
+#!/usr/bin/env python3
+# SPDX-FileCopyrightText: The lmdbench authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Puts what scripts/reference.sh left in a folder into results/reference. A file of the same name is copied; a text that begins with
+a page's title becomes that page; else each table of PART.txt takes the place of the one with the same header in the page PART.md
+or PART-*.md. What stands round the tables is written by hand: the pages that were touched are named, to be read. In the register a
+row whose pages were renewed as a whole names the new commit, any other keeps its commits and names it beside them."""
+
+import argparse
+import os
+import re
+import shutil
+import subprocess
+
+import reference_ages
+
+
+def blocks(text):
+    """The text as runs of lines, each a table or none."""
+    return re.findall(r"(?:^\|.*\n)+|(?:^(?!\|).*\n)+", text if text.endswith("\n") else text + "\n", re.MULTILINE)
+
+
+def header(block):
+    """What a table is known by; None of a text."""
+    return " ".join(block.split("\n", 1)[0].split()) if block.startswith("|") else None
+
+
+def with_tables_of(page, output):
+    """The page with the tables of an output, and how many of its own were not renewed. Of several with one header the first is the first."""
+    fresh = {}
+    for block in blocks(output):
+        fresh.setdefault(header(block), []).append(block)
+    written = blocks(page)
+    kept = 0
+    for i, block in enumerate(written):
+        name = header(block)
+        if name is None:
+            continue
+        if fresh.get(name):
+            written[i] = fresh[name].pop(0)
+        else:
+            kept += 1
+    return "".join(written), kept
+
+
+def documents(output):
+    """Parts of an output that begin with a title, by title."""
+    return {part.split("\n", 1)[0]: part for part in re.split(r"^(?=# )", output, flags=re.MULTILINE) if part.startswith("# ")}
+
+
+def part_of(name):
+    """The part of scripts/reference.sh that a page is of."""
+    command = [os.path.join(reference_ages.ROOT, "scripts", "reference.sh"), "--list"]
+    parts = subprocess.run(command, capture_output=True, text=True, check=True).stdout.split()
+    return max((part for part in parts if name.startswith(part)), key=len, default="")
+
+
+def renew(path, run):
+    """Renews one file of results/reference. Returns how many of its tables stay old, or None where nothing of it was made again."""
+    name = os.path.basename(path)
+    if os.path.exists(os.path.join(run, name)):
+        shutil.copyfile(os.path.join(run, name), path)
+        return 0
+    made = os.path.join(run, part_of(name) + ".txt")
+    if not name.endswith(".md") or not os.path.exists(made):
+        return None
+    with open(made, encoding="utf-8") as stream:
+        output = stream.read()
+    with open(path, encoding="utf-8") as stream:
+        page = stream.read()
+    whole = documents(output).get(page.split("\n", 1)[0])
+    text, kept = (whole, 0) if whole else with_tables_of(page, output)
+    if text == page and kept:
+        return None
+    with open(path, "w", encoding="utf-8") as stream:
+        stream.write(text)
+    return kept
+
+
+def name_commit(files, kept, commit):
+    """Names the commit in the register's row of these files."""
+    with open(reference_ages.REGISTER, encoding="utf-8") as stream:
+        lines = stream.read().split("\n")
+    for i, line in enumerate(lines):
+        if not line.startswith("| `") or reference_ages.Row(line).files != files:
+            continue
+        cells = line.split("|")
+        cells[3] = f" {commit} " if kept == 0 else f"{cells[3].rstrip()}, {commit} "
+        lines[i] = "|".join(cells)
+    with open(reference_ages.REGISTER, "w", encoding="utf-8") as stream:
+        stream.write("\n".join(lines))
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("run", help="results/reference-runs/COMMIT")
+    arguments = parser.parse_args()
+    commit = os.path.basename(os.path.normpath(arguments.run))
+    for row in reference_ages.rows():
+        old = [renew(os.path.join(reference_ages.FOLDER, file), arguments.run) for file in row.files]
+        if all(kept is None for kept in old):
+            continue
+        kept = sum(1 if kept is None else kept for kept in old)
+        name_commit(row.files, kept, commit)
+        print(f"{', '.join(row.files)}: " + (f"{kept} tables or files are of before" if kept else "all of it") + "; read what stands round the tables")
+
+
+if __name__ == "__main__":
+    main()
