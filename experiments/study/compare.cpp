@@ -12,6 +12,7 @@
 #include <support/program.h>
 #include <support/timing.h>
 
+#include <functional>
 #include <memory>
 
 /// Times every implementation of the task "global search" on the same poses, interleaved
@@ -34,6 +35,22 @@ struct Row {
   double median_ms = 0.0, p99_ms = 0.0, ratio_to_fcl = 0.0;
 };
 
+/// What a run finds in the caches: what the task before it left, its own data of another pose, or others' data.
+struct Caches {
+  const char* name;
+  std::function<void(GlobalSearch&, std::size_t pose)> prepare;
+};
+
+std::vector<Caches> caches_of(const SearchImplementation& implementation, const std::vector<Pose>& poses) {
+  std::vector<Caches> all{{"", {}}};
+  if (implementation.name != "certified-from-scratch") return all;
+  all.push_back({", own caches", [&poses](GlobalSearch& search, std::size_t pose) {
+                   search.run(poses[(pose + 1) % poses.size()]);
+                 }});
+  all.push_back({", cold caches", [](GlobalSearch&, std::size_t) { fill_caches(); }});
+  return all;
+}
+
 std::vector<Row> measure(const Scene& scene, const std::vector<Pose>& poses, const ComparisonChoice& choice) {
   const Truth truth = exhaustive_truth(scene, poses);
   std::vector<Row> rows;
@@ -43,8 +60,15 @@ std::vector<Row> measure(const Scene& scene, const std::vector<Pose>& poses, con
     if (implementation.slow && !choice.slow) continue;
     searches.push_back(implementation.make(scene));
     GlobalSearch* search = searches.back().get();
-    rows.push_back({implementation.name, check_search(implementation, *search, scene, poses, truth)});
-    tasks.push_back({implementation.name, [search, &poses](std::size_t pose) { search->run(poses[pose]); }});
+    const LmdError error = check_search(implementation, *search, scene, poses, truth);
+    for (const Caches& caches : caches_of(implementation, poses)) {
+      rows.push_back({implementation.name + caches.name, error});
+      TimedTask& task = tasks.emplace_back();
+      task.name = rows.back().name;
+      task.run = [search, &poses](std::size_t pose) { search->run(poses[pose]); };
+      if (caches.prepare)
+        task.prepare = [search, prepare = caches.prepare](std::size_t pose) { prepare(*search, pose); };
+    }
   }
   const auto seconds = time_interleaved(tasks, poses.size(), choice.repetitions);
   double fcl_ms = 0.0;

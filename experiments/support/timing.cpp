@@ -27,6 +27,15 @@ double process_seconds() {
   return seconds_of(CLOCK_PROCESS_CPUTIME_ID);
 }
 
+void fill_caches() {
+  constexpr std::size_t BYTES = std::size_t{64} << 20, LINE = 64;
+  static std::vector<unsigned char> others(BYTES);
+  for (std::size_t i = 0; i < BYTES; i += LINE) {
+    volatile unsigned char& byte = others[i];
+    byte = static_cast<unsigned char>(byte + 1);
+  }
+}
+
 double log_slope(const std::vector<double>& counts, const std::vector<double>& values) {
   double n = 0.0, x = 0.0, y = 0.0, xx = 0.0, xy = 0.0;
   for (std::size_t i = 0; i < counts.size(); ++i) {

@@ -23,6 +23,9 @@ double thread_seconds();
 /// Processor time [s] of all threads of the program.
 double process_seconds();
 
+/// Writes 64 MB that nobody reads, so that what comes next finds the caches full of others' data.
+void fill_caches();
+
 /// Exponent of the power law that fits best: the slope of log(values) over log(counts) by least squares.
 /// @pre as many of the one as of the other, all above 0, two counts that differ
 double log_slope(const std::vector<double>& counts, const std::vector<double>& values);
