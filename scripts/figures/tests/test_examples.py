@@ -2,22 +2,16 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Every recipe of results/examples runs on a result and prints what it says; README names them all."""
 
-import os
-import subprocess
 import sys
-import tempfile
-import unittest
 
-HERE = os.path.dirname(os.path.abspath(__file__))
-sys.path[:0] = [HERE, os.path.join(HERE, "..")]
+import h5py
+import numpy as np
 
-import h5py  # noqa: E402
-import numpy as np  # noqa: E402
+from cases import ROOT, Scratch, call, text_of
+from synthetic import write_result
+from test_sweep import ROWS, write_sweep
 
-from synthetic import write_result  # noqa: E402
-from test_sweep import ROWS, write_sweep  # noqa: E402
-
-EXAMPLES = os.path.join(HERE, "..", "..", "..", "results", "examples")
+EXAMPLES = ROOT / "results" / "examples"
 
 
 def add_lmds(file):
@@ -48,37 +42,28 @@ def add_curves_and_inputs(file):
             method.attrs["result_hash"] = "beef"
 
 
-class Examples(unittest.TestCase):
+class Examples(Scratch):
     EXPECTED = {"two_runs.py": "improved frames_late [1]: ", "polylines.py": "0.005 s: 2 curves, 2 mm, 0 closed",
                 "provenance.py": "mesh:a: a.off, SHA-256 feed\n",
                 "forces.py": "original: mean", "worst_frames.py": " N at ", "lmds_of_a_frame.py": "original, frame 7:\n  0.5000 mm",
                 "times.py": "improved: median", "front.py": "hard: certified {}: 30 ms/s, 0 % of F_max"}
 
     def test_each_prints_its_answer(self):
-        with tempfile.TemporaryDirectory() as folder:
-            run, sweep = os.path.join(folder, "run.h5"), os.path.join(folder, "sweep.h5")
-            write_result(run)
-            add_lmds(run)
-            add_curves_and_inputs(run)
-            write_sweep(sweep, [{**row, "on_front": float(row["series"] == "certified")} for row in ROWS])
-            for name, expected in self.EXPECTED.items():
-                files = {"front.py": [sweep], "two_runs.py": [run, run]}.get(name, [run])
-                outcome = subprocess.run([sys.executable, os.path.join(EXAMPLES, name), *files],
-                                         capture_output=True, text=True, check=False)
-                self.assertEqual(outcome.returncode, 0, outcome.stderr)
-                self.assertIn(expected, outcome.stdout, name)
+        run, sweep = self.path("run.h5"), self.path("sweep.h5")
+        write_result(run)
+        add_lmds(run)
+        add_curves_and_inputs(run)
+        write_sweep(sweep, [{**row, "on_front": float(row["series"] == "certified")} for row in ROWS])
+        for name, expected in self.EXPECTED.items():
+            outcome = call(sys.executable, EXAMPLES / name, *{"front.py": [sweep], "two_runs.py": [run, run]}.get(name, [run]))
+            self.assertEqual(outcome.returncode, 0, outcome.stderr)
+            self.assertIn(expected, outcome.stdout, name)
 
     def test_readme_names_every_recipe_and_each_is_short(self):
-        with open(os.path.join(EXAMPLES, "README.md"), encoding="utf-8") as stream:
-            readme = stream.read()
-        recipes = sorted(name for name in os.listdir(EXAMPLES) if name.endswith(".py"))
+        readme = text_of(EXAMPLES, "README.md")
+        recipes = sorted(file.name for file in EXAMPLES.glob("*.py"))
         self.assertEqual(recipes, sorted(self.EXPECTED))
         for name in recipes:
             self.assertIn(f"`{name}`", readme)
-            with open(os.path.join(EXAMPLES, name), encoding="utf-8") as stream:
-                lines = [line for line in stream if line.strip() and not line.startswith(("#", "import"))]
+            lines = [line for line in text_of(EXAMPLES, name).splitlines() if line.strip() and not line.startswith(("#", "import"))]
             self.assertLessEqual(len(lines), 10, name)
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -4,57 +4,35 @@
 
 import json
 import os
-import stat
-import sys
-import tempfile
-import unittest
 
-HERE = os.path.dirname(os.path.abspath(__file__))
-sys.path[:0] = [HERE, os.path.join(HERE, "..")]
+import numpy as np
 
-import numpy as np  # noqa: E402
-
-import figure1  # noqa: E402
-from lmdbench_results import ResultError  # noqa: E402
+from cases import Scratch
+import figure1
+from lmdbench_results import ResultError
 
 CUBE = np.array([[x, y, z] for x in (0.0, 1.0) for y in (0.0, 1.0) for z in (0.0, 1.0)])
 FACES = np.array([[0, 1, 3], [0, 3, 2], [4, 6, 7], [4, 7, 5], [0, 4, 5], [0, 5, 1], [2, 3, 7], [2, 7, 6], [0, 2, 6], [0, 6, 4], [1, 5, 7], [1, 7, 3]])
 LMD = {"distance": 0.1, "point_moving": [1.0, 0.5, 0.5], "point_fixed": [1.1, 0.5, 0.5]}
 
 
-class Figure1(unittest.TestCase):
-    def setUp(self):
-        self.folder = tempfile.TemporaryDirectory()
-        self.addCleanup(self.folder.cleanup)
-
-    def file(self, name, text="", executable=False):
-        file = os.path.join(self.folder.name, name)
-        os.makedirs(os.path.dirname(file), exist_ok=True)
-        with open(file, "w", encoding="utf-8") as stream:
-            stream.write(text)
-        if executable:
-            os.chmod(file, os.stat(file).st_mode | stat.S_IXUSR)
-        return file
-
+class Figure1(Scratch):
     def experiment(self, lmds):
-        figure1.write_off(self.file("meshes/cube.off"), CUBE, FACES)
-        self.file("paths/p.tum", "# a path\n0 0 0 0 0 0 0 1\n2 1 0 0 0 0 0.7071067811865476 0.7071067811865476\n")
+        figure1.write_off(self.write("meshes/cube.off", ""), CUBE, FACES)
+        self.write("paths/p.tum", "# a path\n0 0 0 0 0 0 0 1\n2 1 0 0 0 0 0.7071067811865476 0.7071067811865476\n")
         answer = json.dumps({"time": 0, "lmds": lmds})
-        program = self.file("program", f"#!/bin/sh\necho \"$@\" > {self.folder.name}/asked\ncat > {self.folder.name}/pose\necho '{answer}'\n", True)
-        experiment = self.file("experiments/e.json", json.dumps({
+        program = self.write("program", f"#!/bin/sh\necho \"$@\" > {self.folder}/asked\ncat > {self.folder}/pose\necho '{answer}'\n")
+        os.chmod(program, 0o755)
+        experiment = self.write("experiments/e.json", json.dumps({
             "name": "e", "moving": {"mesh": "cube", "diagonal_m": 2.0}, "fixed": [{"mesh": "cube"}], "path": {"file": "../paths/p.tum"},
             "force": {"cutoff_diagonal": 0.1}}))
-        return ["--program", program, "--out", os.path.join(self.folder.name, "out"), "--time", "1.9", experiment]
-
-    def read(self, name):
-        with open(os.path.join(self.folder.name, name), encoding="utf-8") as stream:
-            return stream.read()
+        return ["--program", program, "--out", self.path("out"), "--time", "1.9", experiment]
 
     def test_asks_for_the_pose_and_cutoff_of_the_experiment_and_leaves_two_figures(self):
         self.assertEqual(figure1.main(self.experiment([LMD])), 0)
         self.assertIn("--cutoff 0.2", self.read("asked"), "a tenth of the scaled mesh's diagonal")
         self.assertTrue(self.read("pose").startswith("2.0 1.0"), "the pose nearest to the time")
-        self.assertEqual(sorted(os.listdir(os.path.join(self.folder.name, "out"))), ["figure1.png", "figure1.svg"])
+        self.assertEqual(sorted(os.listdir(self.path("out"))), ["figure1.png", "figure1.svg"])
 
     def test_without_a_time_the_pose_with_lmds_nearest_the_middle_is_shown(self):
         times = [0.0, 1.0, 2.0, 3.0, 4.0]
@@ -68,7 +46,7 @@ class Figure1(unittest.TestCase):
             figure1.main(self.experiment([]))
 
     def test_off_files_come_back_as_they_went(self):
-        file = self.file("a.off")
+        file = self.path("a.off")
         figure1.write_off(file, CUBE / 3.0, FACES)
         points, faces = figure1.read_off(file)
         np.testing.assert_array_equal(points, CUBE / 3.0)
@@ -82,7 +60,3 @@ class Figure1(unittest.TestCase):
             np.testing.assert_allclose(view @ view.T, np.eye(3), atol=1e-12)
             self.assertAlmostEqual(float(np.linalg.det(view)), 1.0)
             self.assertGreater(float((view @ direction)[0]), 0.0, "the fixed mesh stands on the right")
-
-
-if __name__ == "__main__":
-    unittest.main()

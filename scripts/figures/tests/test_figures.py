@@ -2,56 +2,38 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Tests of the scripts on synthetic results with known contents. Run: python3 -m unittest discover scripts/figures/tests"""
 
-import contextlib
 import hashlib
-import io
 import json
-import os
 import pathlib
 import re
-import subprocess
 import sys
-import tempfile
-import unittest
 
 import h5py
 import numpy as np
 
-HERE = os.path.dirname(os.path.abspath(__file__))
-SCRIPTS = os.path.dirname(HERE)
-sys.path[:0] = [HERE, SCRIPTS]
-
-import check_format  # noqa: E402
-import claim_rules  # noqa: E402
-import claims  # noqa: E402
-import figure7  # noqa: E402
-import figure_style  # noqa: E402
-import lmdbench_results  # noqa: E402
-import summary  # noqa: E402
-import work_precision  # noqa: E402
-from claim_verdicts import read_verdicts  # noqa: E402
-from lmdbench_results import Result, ResultError, truth_of  # noqa: E402
-from synthetic import misses, write_result  # noqa: E402
-
+from cases import FIGURES, Scratch, SharedScratch, call, text_of
+import check_format
+import claim_rules
+import claims
+import figure7
+import figure_style
+import lmdbench_results
+import summary
+import work_precision
+from claim_verdicts import read_verdicts
+from lmdbench_results import Result, ResultError, truth_of
+from synthetic import misses, write_result
 
 VERDICTS = {"K2": {"verdict": "holds where", "reason": "cutoff small"}}
 
 
-class ScriptsTest(unittest.TestCase):
+class ScriptsTest(SharedScratch):
     @classmethod
     def setUpClass(cls):
-        cls.directory = tempfile.TemporaryDirectory()
-        cls.hard = write_result(cls.path("hard.h5"), "hard")
-        cls.soft = write_result(cls.path("soft.h5"), "soft", methods=("original", "improved", "certified"), seed=2)
-        cls.bare = write_result(cls.path("bare.h5"), "bare", truth_stride=0)
-
-    @classmethod
-    def tearDownClass(cls):
-        cls.directory.cleanup()
-
-    @classmethod
-    def path(cls, name):
-        return os.path.join(cls.directory.name, name)
+        super().setUpClass()
+        cls.hard = write_result(f"{cls.folder}/hard.h5", "hard")
+        cls.soft = write_result(f"{cls.folder}/soft.h5", "soft", methods=("original", "improved", "certified"), seed=2)
+        cls.bare = write_result(f"{cls.folder}/bare.h5", "bare", truth_stride=0)
 
     def edited(self, name, change, **options):
         """A result on which `change(h5)` was applied."""
@@ -60,11 +42,12 @@ class ScriptsTest(unittest.TestCase):
             change(h5)
         return file
 
-    def printed(self, main, *arguments):
-        stream = io.StringIO()
-        with contextlib.redirect_stdout(stream):
-            self.assertEqual(main(list(arguments)), 0)
-        return stream.getvalue()
+    def refused(self, code, script, *arguments):
+        """What it says, in words for people, when it leaves with this exit code."""
+        done = call(sys.executable, FIGURES / script, *arguments)
+        self.assertEqual(done.returncode, code, done.stderr)
+        self.assertNotIn("Traceback", done.stderr)
+        return done.stderr
 
 
 class ReadingTest(ScriptsTest):
@@ -100,33 +83,23 @@ class ReadingTest(ScriptsTest):
         self.assertIsNone(truth_of(Result(self.bare).method("original")))
 
     def test_other_files_are_refused(self):
-        with open(self.path("text.h5"), "w", encoding="utf-8") as stream:
-            stream.write("text")
+        self.write("text.h5", "text")
         with h5py.File(self.path("other.h5"), "w") as h5:
             h5["a"] = 1
-        newer = self.edited("newer.h5", lambda h5: h5.attrs.__setitem__("format_version", 3))
+        self.edited("newer.h5", lambda h5: h5.attrs.__setitem__("format_version", 3))
         for name, message in (("gone.h5", "cannot be read"), ("text.h5", "cannot be read"), ("other.h5", "not a result"),
                               ("newer.h5", "version 3")):
             with self.assertRaisesRegex(ResultError, f"{name}.*{message}.*remedy"):
                 Result(self.path(name))
-        self.assertTrue(os.path.exists(newer))
 
     def test_scripts_leave_with_the_exit_code_of_wrong_data(self):
         for script in ("figure7.py", "claims.py"):
-            done = subprocess.run([sys.executable, os.path.join(SCRIPTS, script), self.path("gone.h5"), self.hard, "--out",
-                                   self.path("out")], capture_output=True, text=True, check=False)
-            self.assertEqual(done.returncode, lmdbench_results.EXIT_INPUT_DATA, done.stderr)
-            self.assertIn("gone.h5", done.stderr)
-            self.assertNotIn("Traceback", done.stderr)
+            said = self.refused(lmdbench_results.EXIT_INPUT_DATA, script, self.path("gone.h5"), self.hard, "--out", self.path("out"))
+            self.assertIn("gone.h5", said)
 
     def test_scripts_leave_with_the_exit_code_of_the_environment(self):
-        with open(self.path("occupied"), "w", encoding="utf-8") as stream:
-            stream.write("a file where a directory should be")
-        done = subprocess.run([sys.executable, os.path.join(SCRIPTS, "figure7.py"), self.hard, self.soft, "--out",
-                               self.path("occupied")], capture_output=True, text=True, check=False)
-        self.assertEqual(done.returncode, lmdbench_results.EXIT_ENVIRONMENT, done.stderr)
-        self.assertIn("occupied", done.stderr)
-        self.assertNotIn("Traceback", done.stderr)
+        occupied = self.write("occupied", "a file where a directory should be")
+        self.assertIn("occupied", self.refused(lmdbench_results.EXIT_ENVIRONMENT, "figure7.py", self.hard, self.soft, "--out", occupied))
 
     def test_an_unfinished_run_is_told_how_to_finish(self):
         file = self.edited("cut.h5.part", lambda h5: h5.attrs.__setitem__("format", "lmdbench-part"))
@@ -148,20 +121,18 @@ class ReadingTest(ScriptsTest):
         self.assertEqual(result.repetitions(), result.method("improved").read("local_update_time").shape[0])
 
     def test_flipped_bytes_are_seen(self):
-        file = self.path("sealed.h5")
+        file = pathlib.Path(self.path("sealed.h5"))
         with h5py.File(file, "w") as h5:
             h5.attrs["content_sha256"] = np.bytes_("x" * 64)
             h5["numbers"] = [1.0, 2.0]
-        with open(file, "rb") as stream:
-            content = stream.read().replace(b"x" * 64, b"0" * 64)
+        content = file.read_bytes().replace(b"x" * 64, b"0" * 64)
         digits = hashlib.sha256(content).hexdigest().encode()
         content = content.replace(b"0" * 64, digits)
         for place, seen in ((None, False), (len(content) - 4, True)):
             changed = bytearray(content)
             if place is not None:
                 changed[place] ^= 4
-            with open(file, "wb") as stream:
-                stream.write(changed)
+            file.write_bytes(changed)
             with h5py.File(file) as h5:
                 if seen:
                     with self.assertRaisesRegex(ResultError, "sealed.h5: attribute content_sha256: its bytes are not those"):
@@ -177,8 +148,7 @@ class ReadingTest(ScriptsTest):
 
 class FormatTest(ScriptsTest):
     def rows(self):
-        with open(check_format.README, encoding="utf-8") as stream:
-            return check_format.described(stream.read())
+        return check_format.described(text_of(check_format.README))
 
     def test_the_description_is_read_in_full(self):
         rows = self.rows()
@@ -454,26 +424,19 @@ class ClaimsTest(ScriptsTest):
         self.assertIn("10,000 triangles", self.verdicts(small, self.soft)["K9"].because)
 
     def test_ledger_is_written_as_text_and_data(self):
-        out = self.path("ledger")
-        text = self.printed(claims.main, self.hard, self.soft, "--out", out)
+        text = self.printed(claims.main, self.hard, self.soft, "--out", self.path("ledger"))
         ledger = read_verdicts()
         self.assertIn(f"K2: {ledger['K2']['verdict']}: {ledger['K2']['reason']}", text)
-        with open(os.path.join(out, "claims.json"), encoding="utf-8") as stream:
-            rows = json.load(stream)
-        self.assertEqual([row["id"] for row in rows], [f"K{i}" for i in range(1, 11)])
-        with open(os.path.join(out, "claims.md"), encoding="utf-8") as stream:
-            table = [line for line in stream if line.startswith("| K")]
-        self.assertEqual(len(table), 10)
+        self.assertEqual([row["id"] for row in json.loads(self.read("ledger", "claims.json"))], [f"K{i}" for i in range(1, 11)])
+        self.assertEqual(self.read("ledger", "claims.md").count("\n| K"), 10)
 
 
-class OneLedgerTest(unittest.TestCase):
+class OneLedgerTest(Scratch):
     """What the project shows: one verdict and one reason a claim, wherever it stands."""
 
-    FOLDER = os.path.join(HERE, "..", "..", "..", "results", "reference")
-
     def rows(self, name, pattern):
-        with open(os.path.join(self.FOLDER, name), encoding="utf-8") as stream:
-            return {found.group(1): line.strip().strip("|").split(" | ") for line in stream if (found := re.match(pattern, line))}
+        return {found.group(1): line.strip().strip("|").split(" | ") for line in text_of("results", "reference", name).splitlines()
+                if (found := re.match(pattern, line))}
 
     def test_every_table_has_the_ledgers_verdict_and_reason(self):
         ledger = read_verdicts()
@@ -488,13 +451,5 @@ class OneLedgerTest(unittest.TestCase):
             self.assertEqual(cells[-1].strip(), f"**{ledger[name]['verdict']}**: {ledger[name]['reason']}", name)
 
     def test_a_ledger_that_is_none_is_refused(self):
-        with tempfile.TemporaryDirectory() as folder:
-            file = os.path.join(folder, "claims.json")
-            with open(file, "w", encoding="utf-8") as stream:
-                stream.write('[{"id": "K1"}]')
-            with self.assertRaisesRegex(ResultError, "no ledger of verdicts"):
-                read_verdicts(file)
-
-
-if __name__ == "__main__":
-    unittest.main()
+        with self.assertRaisesRegex(ResultError, "no ledger of verdicts"):
+            read_verdicts(self.write("claims.json", '[{"id": "K1"}]'))

@@ -5,16 +5,11 @@ there are. And the links of the other READMEs."""
 
 import os
 import re
-import subprocess
-import sys
 import unittest
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), ".."))
+from cases import ROOT, call, text_of
+from claim_verdicts import read_verdicts
 
-from claim_verdicts import read_verdicts  # noqa: E402
-
-ROOT = os.path.normpath(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", ".."))
-REFERENCE = os.path.join(ROOT, "results", "reference")
 MOST_LINES = 80
 # Its row of the sweep where the page's table says no other.
 POINTS = {"original": "original, a search every 20 frames", "improved": "improved, a search every 20 frames", "certified": "certified", "nearest": "nearest"}
@@ -22,11 +17,6 @@ POINTS = {"original": "original, a search every 20 frames", "improved": "improve
 COLUMNS = {"recall, exact feature (or a neighbouring one) [%]": ("recall [%]", "with neighbours [%]"),
            "force error, RMS [% of F_max]": ("force error, RMS [% of F_max]",),
            "time a frame, searches spread evenly: median, 99 % [us]": ("frame, median [us]", "99 % [us]")}
-
-
-def text_of(*names):
-    with open(os.path.join(ROOT, *names), encoding="utf-8") as stream:
-        return stream.read()
 
 
 def table_after(text, heading):
@@ -82,8 +72,8 @@ class FrontPage(unittest.TestCase):
             self.assertRegex(rows[name]["reason"], rf"^{settings['holds']} of {sum(settings.values())} settings: .{{20}}")
 
     def test_links_of_all_readmes_lead_somewhere(self):
-        pages = subprocess.run(["git", "-C", ROOT, "ls-files", "--cached", "--others", "--exclude-standard", "README.md", "*/README.md", "CONTRIBUTING.md"],
-                               capture_output=True, text=True, check=False).stdout.split() or ["README.md"]
+        pages = call("git", "-C", ROOT, "ls-files", "--cached", "--others", "--exclude-standard", "README.md", "*/README.md",
+                     "CONTRIBUTING.md").stdout.split() or ["README.md"]
         for page in pages:
             folder = os.path.dirname(os.path.join(ROOT, page))
             for target in re.findall(r"\]\(([^)\s]+)\)", text_of(page)):
@@ -93,13 +83,9 @@ class FrontPage(unittest.TestCase):
                 path = os.path.join(folder, file) if file else os.path.join(ROOT, page)
                 self.assertTrue(os.path.exists(path), (page, target))
                 if anchor:
-                    self.assertIn(anchor, anchors(text_of(os.path.relpath(path, ROOT))), (page, target))
+                    self.assertIn(anchor, anchors(text_of(path)), (page, target))
 
     def test_scripts_that_it_names_are_there(self):
         for page in ("README.md", os.path.join("scripts", "README.md"), os.path.join("src", "lmdbench", "README.md"), os.path.join("experiments", "README.md")):
             for file in re.findall(r"(?<![\w/])(?:\./)?((?:scripts|experiments|tests)/[\w/.-]+\.(?:sh|py|json))", text_of(page)):
                 self.assertTrue(os.path.exists(os.path.join(ROOT, file)), (page, file))
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -3,14 +3,12 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Attribution of force jumps on sets made by hand."""
 
-import os
-import sys
 import unittest
 
 import numpy as np
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), ".."))
-import jumps  # noqa: E402
+import cases  # noqa: F401
+import jumps
 
 STEP = 1e-5
 CUTOFF = 1e-3
@@ -73,7 +71,3 @@ class Travel(unittest.TestCase):
         turned = [np.sin(half), 0.0, 0.0, np.cos(half)]
         way = jumps.travel(np.array([[0.0, 0, 0], [0.003, 0.004, 0]]), np.array([[0.0, 0, 0, 1], turned]), 2.0)
         self.assertAlmostEqual(way[0], 0.005 + 0.01 * 2.0)
-
-
-if __name__ == "__main__":
-    unittest.main()

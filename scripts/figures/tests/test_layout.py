@@ -3,22 +3,14 @@
 """Figures of results as users have them: any number of methods, long names, one result to four. No text may be cut off by the page or lie on
 another one. Run: python3 -m unittest discover scripts/figures/tests"""
 
-import os
-import sys
-import tempfile
-import unittest
-
 import h5py
 
-HERE = os.path.dirname(os.path.abspath(__file__))
-SCRIPTS = os.path.dirname(HERE)
-sys.path[:0] = [HERE, SCRIPTS]
-
-import figure7  # noqa: E402
-import figure_style  # noqa: E402
-import work_precision  # noqa: E402
-from lmdbench_results import Result  # noqa: E402
-from synthetic import write_result  # noqa: E402
+from cases import SharedScratch
+import figure7
+import figure_style
+import work_precision
+from lmdbench_results import Result
+from synthetic import write_result
 
 METHODS = ("original", "improved", "certified", "exhaustive")
 FURTHER = {5: ("my-own-variant-with-a-long-label",), 6: ("my-own-variant-with-a-long-label", "second")}
@@ -58,16 +50,9 @@ def faults_of(figure):
     return wrong
 
 
-class LayoutTest(unittest.TestCase):
-    @classmethod
-    def setUpClass(cls):
-        scratch = tempfile.TemporaryDirectory()
-        cls.addClassCleanup(scratch.cleanup)
-        cls.folder = scratch.name
-
+class LayoutTest(SharedScratch):
     def result(self, name, methods=4, seed=1):
-        file = write_result(os.path.join(self.folder, f"{name[:20]}-{methods}-{seed}.h5"), name, frames=600, repetitions=3,
-                            methods=METHODS[:methods], seed=seed)
+        file = write_result(self.path(f"{name[:20]}-{methods}-{seed}.h5"), name, frames=600, repetitions=3, methods=METHODS[:methods], seed=seed)
         with h5py.File(file, "r+") as h5:
             for label in FURTHER.get(methods, ()):
                 h5.copy("methods/improved", f"methods/{label}")
@@ -100,7 +85,7 @@ class LayoutTest(unittest.TestCase):
         self.assertEqual(figure7.count_ticks(300.0), [0.0, 1.0, 10.0, 100.0])
 
     def test_updates_of_the_fastest_method_are_within_the_axis(self):
-        file = write_result(os.path.join(self.folder, "fast.h5"), frames=600)
+        file = write_result(self.path("fast.h5"), frames=600)
         with h5py.File(file, "r+") as h5:
             h5["methods/original/local_update_time"][...] = 3e-8
         figure = figure7.draw(Result(file))
@@ -121,7 +106,3 @@ class LayoutTest(unittest.TestCase):
         axes.text(0.9, 0.2, "beyond the edge of the page", transform=axes.transAxes)
         self.assertEqual(len(faults_of(figure)), 2)
         figure_style.plt.close(figure)
-
-
-if __name__ == "__main__":
-    unittest.main()

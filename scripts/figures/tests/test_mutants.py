@@ -2,16 +2,15 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Every planted defect of scripts/mutants.txt fits the code as it is: scripts/mutants.sh, which takes hours, can plant it."""
 
-import os
 import re
 import unittest
 
-ROOT = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "..")
+from cases import text_of
 
 
 def mutants():
-    with open(os.path.join(ROOT, "scripts", "mutants.txt"), encoding="utf-8") as stream:
-        entries = [dict(re.findall(r"^(name|file|from|to|test|only|equivalent): (.*)$", entry, re.M)) for entry in stream.read().split("\n\n")]
+    entries = [dict(re.findall(r"^(name|file|from|to|test|only|equivalent): (.*)$", entry, re.M))
+               for entry in text_of("scripts", "mutants.txt").split("\n\n")]
     return [entry for entry in entries if "name" in entry]
 
 
@@ -24,11 +23,6 @@ class Mutants(unittest.TestCase):
     def test_each_fits_the_code(self):
         for mutant in mutants():
             with self.subTest(mutant["name"]):
-                with open(os.path.join(ROOT, mutant["file"]), encoding="utf-8") as stream:
-                    lines = [line for line in stream if mutant["from"] in line]
+                lines = [line for line in text_of(mutant["file"]).splitlines() if mutant["from"] in line]
                 self.assertEqual(len(lines), 1, (mutant["file"], mutant["from"]))
                 self.assertNotEqual(mutant["from"], mutant.get("to", ""))
-
-
-if __name__ == "__main__":
-    unittest.main()

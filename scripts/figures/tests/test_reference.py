@@ -5,16 +5,11 @@ its code where it is."""
 
 import os
 import re
-import subprocess
-import sys
 import unittest
 
-ROOT = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "..")
-sys.path.insert(0, os.path.join(ROOT, "scripts"))
-from reference_ages import ADDED, FOLDER, age, git, rows, unmarked  # noqa: E402
-from reference_write import documents, part_of, with_tables_of  # noqa: E402
-
-STUDIES = os.path.join(ROOT, "experiments", "study", "main.cpp")
+from cases import ROOT, SCRIPTS, call, text_of
+from reference_ages import ADDED, FOLDER, age, git, rows, unmarked
+from reference_write import documents, part_of, with_tables_of
 
 
 class Register(unittest.TestCase):
@@ -24,8 +19,7 @@ class Register(unittest.TestCase):
                          "remedy: a row in results/reference/README.md with command and commit")
 
     def test_every_command_is_there(self):
-        with open(STUDIES, encoding="utf-8") as stream:
-            studies = stream.read()
+        studies = text_of("experiments", "study", "main.cpp")
         for row in rows():
             for file in re.findall(r"(?:scripts|tests)/[\w/]+\.(?:py|sh)", row.command):
                 self.assertTrue(os.path.exists(os.path.join(ROOT, file)), (row.files, file))
@@ -34,7 +28,8 @@ class Register(unittest.TestCase):
             self.assertRegex(row.command, r"lmdbench|scripts/|tests/", row.files)
 
     def test_one_command_makes_every_table(self):
-        parts = subprocess.run([os.path.join(ROOT, "scripts", "reference.sh"), "--list"], capture_output=True, text=True, check=True).stdout.split()
+        parts = call(SCRIPTS / "reference.sh", "--list").stdout.split()
+        self.assertIn("figures", parts)
         tables = [file for row in rows() for file in row.files if file.endswith(".md") and file != "verdicts.md"]
         for table in tables:
             self.assertTrue(any(table.startswith(part) for part in parts), (table, "remedy: a part in scripts/reference.sh"))
@@ -98,7 +93,3 @@ class Writing(unittest.TestCase):
     def test_a_page_is_of_the_longest_part_that_it_is_called_after(self):
         self.assertEqual([part_of(name) for name in ("stability-map.md", "stability.md", "recall-bunny-bunny.md", "README.md")],
                          ["stability-map", "stability", "recall", ""])
-
-
-if __name__ == "__main__":
-    unittest.main()

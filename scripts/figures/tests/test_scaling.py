@@ -2,21 +2,14 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Tests of the scaling figure on synthetic studies whose times follow known power laws."""
 
-import contextlib
-import io
 import json
 import os
-import sys
-import tempfile
-import unittest
 
 import numpy as np
 
-HERE = os.path.dirname(os.path.abspath(__file__))
-sys.path[:0] = [os.path.dirname(HERE)]
-
-import scaling  # noqa: E402
-from lmdbench_results import ResultError  # noqa: E402
+from cases import Scratch
+import scaling
+from lmdbench_results import ResultError
 
 POSES = 30
 # Exponent of time over triangles.
@@ -46,19 +39,9 @@ def standard_studies(factor=1):
             study("cutoff", [point(16000, cutoff) for cutoff in (0.0025, 0.005, 0.02)])]
 
 
-class ScalingTest(unittest.TestCase):
-    def setUp(self):
-        self.directory = tempfile.TemporaryDirectory()
-        self.addCleanup(self.directory.cleanup)
-
-    def path(self, name):
-        return os.path.join(self.directory.name, name)
-
-    def write(self, name, studies, **changes):
-        report = {"format": scaling.FORMAT, "format_version": scaling.FORMAT_VERSION, "studies": studies, **changes}
-        with open(self.path(name), "w", encoding="utf-8") as stream:
-            json.dump(report, stream)
-        return self.path(name)
+class ScalingTest(Scratch):
+    def report(self, name, studies, **changes):
+        return self.write(name, json.dumps({"format": scaling.FORMAT, "format_version": scaling.FORMAT_VERSION, "studies": studies, **changes}))
 
     def test_a_power_law_has_its_exponent_as_slope(self):
         points = [point(n) for n in (1000, 4000, 16000)]
@@ -82,41 +65,32 @@ class ScalingTest(unittest.TestCase):
         self.assertAlmostEqual(values[0, 0], 100.0)
 
     def test_a_later_file_replaces_a_study(self):
-        first = self.write("first.json", standard_studies())
-        second = self.write("second.json", [study("bunny", [point(7)])])
+        first = self.report("first.json", standard_studies())
+        second = self.report("second.json", [study("bunny", [point(7)])])
         studies = scaling.load([first, second])
         self.assertEqual([p["moving_triangles"] for p in studies["bunny"]], [7])
         self.assertEqual(len(studies["cutoff"]), 3)
 
     def test_other_files_are_refused(self):
-        with open(self.path("broken.json"), "w", encoding="utf-8") as stream:
-            stream.write("{")
-        self.write("other.json", [], format="something-else")
-        self.write("newer.json", [], format_version=scaling.FORMAT_VERSION + 1)
+        self.write("broken.json", "{")
+        self.report("other.json", [], format="something-else")
+        self.report("newer.json", [], format_version=scaling.FORMAT_VERSION + 1)
         for name in ("gone.json", "broken.json", "other.json", "newer.json"):
             with self.assertRaisesRegex(ResultError, f"{name}.*remedy"):
                 scaling.load([self.path(name)])
 
     def test_a_missing_study_is_named(self):
-        file = self.write("few.json", standard_studies()[:1])
+        file = self.report("few.json", standard_studies()[:1])
         with self.assertRaisesRegex(ResultError, "'cutoff' is missing.*remedy"):
             scaling.main([file, "--out", self.path("out")])
 
     def test_the_figure_is_the_same_in_every_run_and_the_slopes_are_printed(self):
-        file = self.write("scaling.json", standard_studies())
-        images = []
+        file = self.report("scaling.json", standard_studies())
         for folder in ("a", "b"):
-            stream = io.StringIO()
-            with contextlib.redirect_stdout(stream):
-                self.assertEqual(scaling.main([file, "--out", self.path(folder)]), 0)
-            self.assertIn("| bunny, decimated | 1000 to 16000 | original | 0.500 | 0.500 to 0.500 |", stream.getvalue())
-            with open(os.path.join(self.path(folder), "scaling.svg"), "rb") as image:
-                images.append(image.read())
-            self.assertGreater(os.path.getsize(os.path.join(self.path(folder), "scaling.png")), 10_000)
-        self.assertEqual(images[0], images[1])
-        for label in (b"Time over cutoff", b"Work counters of certified"):
-            self.assertIn(label, images[0])
-
-
-if __name__ == "__main__":
-    unittest.main()
+            text = self.printed(scaling.main, file, "--out", self.path(folder))
+            self.assertIn("| bunny, decimated | 1000 to 16000 | original | 0.500 | 0.500 to 0.500 |", text)
+            self.assertGreater(os.path.getsize(self.path(folder, "scaling.png")), 10_000)
+        image = self.read("a", "scaling.svg")
+        self.assertEqual(image, self.read("b", "scaling.svg"))
+        for label in ("Time over cutoff", "Work counters of certified"):
+            self.assertIn(label, image)

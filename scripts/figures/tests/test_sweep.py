@@ -5,25 +5,21 @@
 import json
 import math
 import os
-import sys
-import tempfile
 import unittest
 import unittest.mock
 
-HERE = os.path.dirname(os.path.abspath(__file__))
-sys.path[:0] = [HERE, os.path.join(HERE, "..")]
+import h5py
+import numpy as np
 
-import h5py  # noqa: E402
-import numpy as np  # noqa: E402
-
-import claim_regions  # noqa: E402
-import region_rules  # noqa: E402
-import intervals  # noqa: E402
-import region_cost  # noqa: E402
-import region_sets  # noqa: E402
-import sweep  # noqa: E402
-import sweep_results  # noqa: E402
-from lmdbench_results import ResultError  # noqa: E402
+from cases import Scratch
+import claim_regions
+import region_rules
+import intervals
+import region_cost
+import region_sets
+import sweep
+import sweep_results
+from lmdbench_results import ResultError
 
 NUMBERS = ("recall", "recall_adjacent", "precision", "force_error_rms_n", "force_error_p99_n", "force_error_maximum_n",
            "force_angle_error_median_rad", "torque_error_rms_n_m", "minimum_distance_error_maximum_m", "false_jumps", "missed_jumps",
@@ -65,39 +61,40 @@ ROWS = [row("improved", 1, cost=1.0, error=0.01), row("improved", 10, cost=0.1, 
         row("certified", cost=0.03, error=0.0, recall=1.0), row("improved-other", failure="mesh is missing")]
 
 
-class SweepFile(unittest.TestCase):
+class SweepScratch(Scratch):
     def setUp(self):
-        self.folder = tempfile.TemporaryDirectory()
-        self.addCleanup(self.folder.cleanup)
-        self.file = os.path.join(self.folder.name, "test.h5")
+        super().setUp()
+        self.file = self.path("test.h5")
 
-    def read(self, rows=None, name="test"):
-        write_sweep(self.file, rows or ROWS, name)
+    def sweep(self, rows, name="test"):
+        """As it is read again."""
+        write_sweep(self.file, rows, name)
         return sweep_results.Sweep(self.file)
 
+
+class SweepFile(SweepScratch):
+
     def test_front_holds_what_nothing_beats_in_both(self):
-        best = sweep_results.front(self.read().of(scene="hard"), sweep.cost, sweep.error)
+        best = sweep_results.front(self.sweep(ROWS).of(scene="hard"), sweep.cost, sweep.error)
         self.assertEqual([point.text() for point in best], ["improved, a search every 100 frames", "certified"])
 
     def test_a_point_without_any_true_lmd_is_a_failure_however_small_its_error(self):
-        point = self.read().points[4]
+        point = self.sweep(ROWS).points[4]
         self.assertEqual(point.trouble, sweep_results.MISSES_ALL)
-        self.assertEqual(self.read().points[6].trouble, "mesh is missing")
+        self.assertEqual(self.sweep(ROWS).points[6].trouble, "mesh is missing")
 
     def test_crossing_is_interpolated_between_the_points_on_both_sides(self):
-        points = self.read().of(series="improved")
+        points = self.sweep(ROWS).of(series="improved")
         # cost is 1 / period: it falls below 0.03 s/s at a period of 1 / 0.03
         self.assertAlmostEqual(sweep_results.crossing(points, 0.03, lambda p: p.number("processor_share")), 1 / 0.03, places=6)
         self.assertTrue(math.isnan(sweep_results.crossing(points, 1e-9, lambda p: p.number("processor_share"))))
 
     def test_figure_and_tables_become_files_and_failures_stay_in_them(self):
         write_sweep(self.file, ROWS)
-        out = os.path.join(self.folder.name, "out")
-        self.assertEqual(sweep.main([self.file, "--out", out]), 0)
+        self.printed(sweep.main, self.file, "--out", self.path("out"))
         for suffix in ("svg", "png"):
-            self.assertGreater(os.path.getsize(os.path.join(out, f"test.{suffix}")), 10_000)
-        with open(os.path.join(out, "test.md"), encoding="utf-8") as stream:
-            text = stream.read()
+            self.assertGreater(os.path.getsize(self.path("out", f"test.{suffix}")), 10_000)
+        text = self.read("out", "test.md")
         self.assertIn("failed, mesh is missing", text)
         self.assertIn("**certified**", text)
         self.assertIn("| hard | 33 |", text)  # the crossing
@@ -112,7 +109,7 @@ class SweepFile(unittest.TestCase):
 
         near = [row("improved", 10, cost=0.2, error=0.5), row("certified", cost=0.3, error=0.0, recall=1.0)]
         far = [row("improved", 10, cost=0.1, error=0.1), row("certified", cost=0.2, error=0.0, recall=1.0)]  # better in both
-        found = self.read(at(0.001, near) + at(0.01, far))
+        found = self.sweep(at(0.001, near) + at(0.01, far))
         self.assertEqual(found.problems, ["hard, force/cutoff_m 0.001", "hard, force/cutoff_m 0.01"])
         figure = sweep.draw(found)
         self.assertEqual([axes.get_title("left") for axes in figure.axes if axes.get_title("left")], ["force/cutoff_m 0.001", "force/cutoff_m 0.01"])
@@ -131,20 +128,20 @@ class SweepFile(unittest.TestCase):
                                         "/method/visibility": visibility, "/method/constant": 3})
             return entry
 
-        found = self.read([point(n, n - 1, v) for v in ("off", "orthogonal") for n in (100, 5, 20)]).points
+        found = self.sweep([point(n, n - 1, v) for v in ("off", "orthogonal") for n in (100, 5, 20)]).points
         parted = sweep_results.lines(found)
         self.assertEqual([[p.period for p in line.points] for line in parted], [[5, 20, 100], [5, 20, 100]])
         self.assertEqual([line.value(line.points[0]) for line in parted], ["5, off", "5, orthogonal"])
         self.assertEqual(parted[0].name, "search every frames", "the latency goes with it")
         words = [point(5, 4, v) for v in ("off", "orthogonal", "vertex-normal")]
-        self.assertEqual([len(line.points) for line in sweep_results.lines(self.read(words).points)], [1, 1, 1], "words have no order to join")
-        (alone,) = sweep_results.lines(self.read([point(5, 4, "off")]).points)
+        self.assertEqual([len(line.points) for line in sweep_results.lines(self.sweep(words).points)], [1, 1, 1], "words have no order to join")
+        (alone,) = sweep_results.lines(self.sweep([point(5, 4, "off")]).points)
         self.assertEqual((alone.name, alone.value(alone.points[0])), ("", ""))
-        self.assertIn("labels: search every frames, visibility", [t.get_text() for t in sweep.draw(self.read(
+        self.assertIn("labels: search every frames, visibility", [t.get_text() for t in sweep.draw(self.sweep(
             [point(n, n - 1, v) for v in ("off", "orthogonal") for n in (5, 20)])).texts][0])
 
     def test_a_failure_has_its_reason_in_the_figure(self):
-        figure = sweep.draw(self.read())
+        figure = sweep.draw(self.sweep(ROWS))
         (note,) = [text.get_text() for text in figure.texts if text.get_text().startswith("failed: ")]
         self.assertIn("improved-other", note)
         self.assertIn("mesh is missing", note)
@@ -153,12 +150,9 @@ class SweepFile(unittest.TestCase):
 
     def test_the_same_sweep_makes_the_same_bytes_of_svg(self):
         write_sweep(self.file, ROWS)
-        texts = []
         for name in ("a", "b"):
-            sweep.main([self.file, "--out", os.path.join(self.folder.name, name)])
-            with open(os.path.join(self.folder.name, name, "test.svg"), "rb") as stream:
-                texts.append(stream.read())
-        self.assertEqual(*texts)
+            self.printed(sweep.main, self.file, "--out", self.path(name))
+        self.assertEqual(self.read("a", "test.svg"), self.read("b", "test.svg"))
 
     def test_another_file_is_refused(self):
         with h5py.File(self.file, "w") as h5:
@@ -209,7 +203,7 @@ def role_row(label, device_share, **more):
             "together_above_1ms": 0, **more}
 
 
-class Verdicts(unittest.TestCase):
+class Verdicts(SweepScratch):
     def test_one_event_decides_nothing(self):
         self.assertEqual(region_rules.decide(0.5, 1.5, at_least=1.0), claim_regions.OPEN)
         self.assertEqual(region_rules.decide(1.1, 1.5, at_least=1.0), claim_regions.HOLDS)
@@ -230,41 +224,31 @@ class Verdicts(unittest.TestCase):
                          ("holds where", "g (all 2 settings); h, 1"))
 
     def test_k1_compares_with_improved_under_the_same_schedule_and_cutoff(self):
-        with tempfile.TemporaryDirectory() as folder:
-            file = os.path.join(folder, "k1.h5")
-            many = [row("original", 20, switches=100.0, true_switches=2.0, jumps=300.0, true_jumps=4.0, false_jumps=290.0) for _ in range(3)]
-            few = [row("improved", 20, switches=1.0, true_switches=2.0, jumps=3.0, true_jumps=4.0, false_jumps=1.0) for _ in range(3)]
-            rare = [row("original", 100, switches=0.0, true_switches=2.0, jumps=3.0, true_jumps=4.0, false_jumps=1.0)]
-            also = [row("improved", 100, switches=1.0, true_switches=2.0, jumps=3.0, true_jumps=4.0, false_jumps=1.0)]
-            write_sweep(file, many + few + rare + also, "claim-k1")
-            text, cells = claim_regions.k1(sweep_results.Sweep(file))
+        many = [row("original", 20, switches=100.0, true_switches=2.0, jumps=300.0, true_jumps=4.0, false_jumps=290.0) for _ in range(3)]
+        few = [row("improved", 20, switches=1.0, true_switches=2.0, jumps=3.0, true_jumps=4.0, false_jumps=1.0) for _ in range(3)]
+        rare = [row("original", 100, switches=0.0, true_switches=2.0, jumps=3.0, true_jumps=4.0, false_jumps=1.0)]
+        also = [row("improved", 100, switches=1.0, true_switches=2.0, jumps=3.0, true_jumps=4.0, false_jumps=1.0)]
+        text, cells = claim_regions.k1(self.sweep(many + few + rare + also, "claim-k1"))
         self.assertEqual(list(cells.values()), [claim_regions.HOLDS, claim_regions.FAILS])
         self.assertIn("10 [", "\n".join(text))
 
     def test_what_was_not_swept_is_said_and_a_budget_sweep_judges_its_scene(self):
-        with tempfile.TemporaryDirectory() as folder:
-            file = os.path.join(folder, "budget.h5")
-            hard = [row("original", 20, scene="bunny-hard", switches=100.0, true_switches=2.0, jumps=300.0, true_jumps=4.0, false_jumps=290.0),
-                    row("improved", 20, scene="bunny-hard", switches=0.0, true_switches=2.0, jumps=3.0, true_jumps=4.0, false_jumps=1.0)]
-            other = [{**entry, "scene": "armadillo-bunny"} for entry in hard[:1]]
-            write_sweep(file, hard + other, "budget")
-            budget = sweep_results.Sweep(file)
-            self.assertEqual(len(budget.restricted("bunny-hard").points), 2)
-            text, cells = claim_regions.k1(budget.restricted("bunny-hard"))
-            self.assertEqual(list(cells.values()), [claim_regions.HOLDS])
-            with unittest.mock.patch.object(claim_regions, "CLAIMS", [claim for claim in claim_regions.CLAIMS if claim[0] in ("K1", "K5")]):
-                page = claim_regions.markdown({"budget": budget})
+        hard = [row("original", 20, scene="bunny-hard", switches=100.0, true_switches=2.0, jumps=300.0, true_jumps=4.0, false_jumps=290.0),
+                row("improved", 20, scene="bunny-hard", switches=0.0, true_switches=2.0, jumps=3.0, true_jumps=4.0, false_jumps=1.0)]
+        other = [{**entry, "scene": "armadillo-bunny"} for entry in hard[:1]]
+        budget = self.sweep(hard + other, "budget")
+        self.assertEqual(len(budget.restricted("bunny-hard").points), 2)
+        text, cells = claim_regions.k1(budget.restricted("bunny-hard"))
+        self.assertEqual(list(cells.values()), [claim_regions.HOLDS])
+        with unittest.mock.patch.object(claim_regions, "CLAIMS", [claim for claim in claim_regions.CLAIMS if claim[0] in ("K1", "K5")]):
+            page = claim_regions.markdown({"budget": budget})
         self.assertIn("| K5 | The reduction drops up to twenty times, more on denser meshes | **not measured**", page)
         self.assertIn("**reproduced** | in the one setting | 1 / 0 / 0 |", page)
 
     def test_k5_and_the_summary(self):
-        with tempfile.TemporaryDirectory() as folder:
-            file = os.path.join(folder, "k5.h5")
-            write_sweep(file, [row("improved", reduction_ratio_maximum=20.0), row("improved", reduction_ratio_maximum=90.0)], "claim-k10")
-            _, cells = claim_regions.k5(sweep_results.Sweep(file))
-            self.assertEqual(len(cells), 1, "two points of one setting")
-            write_sweep(file, [row("improved", reduction_ratio_maximum=20.0)], "claim-k5")
-            self.assertEqual(list(claim_regions.k5(sweep_results.Sweep(file))[1].values()), [claim_regions.HOLDS])
+        rows = [row("improved", reduction_ratio_maximum=20.0), row("improved", reduction_ratio_maximum=90.0)]
+        self.assertEqual(len(claim_regions.k5(self.sweep(rows, "claim-k10"))[1]), 1, "two points of one setting")
+        self.assertEqual(list(claim_regions.k5(self.sweep(rows[:1], "claim-k5"))[1].values()), [claim_regions.HOLDS])
 
     def test_k2_and_k4_judge_means_over_paths(self):
         def path(series, number, **numbers):
@@ -275,17 +259,15 @@ class Verdicts(unittest.TestCase):
         def numbers(count, changes, p99):
             return {"lmd_count_mean": count, "true_lmd_count_mean": 3.0, "births": changes, "deaths": changes, "lmd_count_p99": p99,
                     "lmd_count_median": count, "lmd_count_maximum": 2 * p99}
-        with tempfile.TemporaryDirectory() as folder:
-            file = os.path.join(folder, "k1.h5")
-            rows = [path("original", n, **numbers(4.0 + 0.1 * n, 50.0 + n, 12.0 + n)) for n in range(6)]
-            rows += [path("improved", n, **numbers(3.5, 5.0, 7.0 + 0.1 * n)) for n in range(6)]
-            write_sweep(file, rows, "claim-k1")
-            found = sweep_results.Sweep(file)
-            self.assertEqual(list(claim_regions.k4(found)[1].values()), [claim_regions.HOLDS])
-            self.assertEqual(list(claim_regions.k2(found)[1].values()), [claim_regions.FAILS, claim_regions.HOLDS])
-            # More LMDs than 1.5 times as many are not similar, however much the original's fluctuates.
-            write_sweep(file, [{**entry, "lmd_count_mean": 2 * entry["lmd_count_mean"]} if entry["method"] == "original" else entry for entry in rows])
-            self.assertEqual(list(claim_regions.k4(sweep_results.Sweep(file))[1].values()), [claim_regions.FAILS])
+
+        rows = [path("original", n, **numbers(4.0 + 0.1 * n, 50.0 + n, 12.0 + n)) for n in range(6)]
+        rows += [path("improved", n, **numbers(3.5, 5.0, 7.0 + 0.1 * n)) for n in range(6)]
+        found = self.sweep(rows, "claim-k1")
+        self.assertEqual(list(claim_regions.k4(found)[1].values()), [claim_regions.HOLDS])
+        self.assertEqual(list(claim_regions.k2(found)[1].values()), [claim_regions.FAILS, claim_regions.HOLDS])
+        # More LMDs than 1.5 times as many are not similar, however much the original's fluctuates.
+        rows = [{**entry, "lmd_count_mean": 2 * entry["lmd_count_mean"]} if entry["method"] == "original" else entry for entry in rows]
+        self.assertEqual(list(claim_regions.k4(self.sweep(rows))[1].values()), [claim_regions.FAILS])
 
     def test_a_ratio_of_times_is_as_wide_as_its_repetitions(self):
         new, old = np.full((3, 50), 2.0), np.full((3, 50), 1.0)
@@ -338,7 +320,3 @@ class Verdicts(unittest.TestCase):
             self.assertAlmostEqual(region_sets.distance_to_triangles(np.array(point), corners), distance, places=12)
         quarter = (0.0, 0.0, math.sqrt(0.5), math.sqrt(0.5))  # x to y
         np.testing.assert_allclose(region_sets.rotated_back(quarter, np.array([0.0, 1.0, 0.0])), [1, 0, 0], atol=1e-15)
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -4,16 +4,13 @@
 """The figure of a world, from a result made by hand."""
 
 import os
-import sys
-import tempfile
-import unittest
 
 import h5py
 import numpy as np
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), ".."))
-import world  # noqa: E402
-from lmdbench_results import ResultError  # noqa: E402
+from cases import Scratch
+import world
+from lmdbench_results import ResultError
 
 BOX = "OFF\n8 12 0\n" + "".join(f"{x} {y} {z}\n" for x in (0, 1) for y in (0, 1) for z in (0, 1)) + "".join(
     f"3 {a} {b} {c}\n" for a, b, c in ((0, 1, 3), (0, 3, 2), (4, 6, 7), (4, 7, 5), (0, 4, 5), (0, 5, 1), (2, 3, 7), (2, 7, 6), (0, 2, 6), (0, 6, 4),
@@ -46,15 +43,11 @@ def write(file, instances=True, lmds=True):
             group["point_fixed"] = np.ones((4, 3))
 
 
-class WorldFigure(unittest.TestCase):
+class WorldFigure(Scratch):
     def setUp(self):
-        self.folder = tempfile.TemporaryDirectory()
-        self.file = os.path.join(self.folder.name, "world.h5")
-        with open(os.path.join(self.folder.name, "box.off"), "w", encoding="ascii") as stream:
-            stream.write(BOX)
-
-    def tearDown(self):
-        self.folder.cleanup()
+        super().setUp()
+        self.file = self.path("world.h5")
+        self.write("box.off", BOX)
 
     def test_names_instances_and_finds_the_frame_of_most(self):
         write(self.file)
@@ -69,17 +62,15 @@ class WorldFigure(unittest.TestCase):
             found.place(6)
 
     def test_places_meshes_by_their_diagonal(self):
-        with open(os.path.join(self.folder.name, "box.off"), "w", encoding="ascii") as stream:
-            stream.write(BOX)
-        corners = world.Meshes(self.folder.name).corners("box", 2.0, np.array([5.0, 0.0, 0.0]), np.array([0.0, 0.0, 0.0, 1.0]))
+        corners = world.Meshes(self.folder).corners("box", 2.0, np.array([5.0, 0.0, 0.0]), np.array([0.0, 0.0, 0.0, 1.0]))
         points = corners.reshape(-1, 3)
         self.assertAlmostEqual(np.linalg.norm(points.max(axis=0) - points.min(axis=0)), 2.0)
         np.testing.assert_allclose(0.5 * (points.max(axis=0) + points.min(axis=0)), [5.0, 0.0, 0.0], atol=1e-12)
 
     def test_draws(self):
         write(self.file)
-        self.assertEqual(world.main([self.file, "--meshes", self.folder.name, "--out", self.folder.name]), 0)
-        self.assertGreater(os.path.getsize(os.path.join(self.folder.name, "world.png")), 10_000)
+        self.assertEqual(world.main([self.file, "--meshes", self.folder, "--out", self.folder]), 0)
+        self.assertGreater(os.path.getsize(self.path("world.png")), 10_000)
 
     def test_says_what_is_missing(self):
         write(self.file, instances=False)
@@ -88,7 +79,3 @@ class WorldFigure(unittest.TestCase):
         write(self.file, lmds=False)
         with self.assertRaisesRegex(ResultError, "record/lmds"):
             world.main([self.file])
-
-
-if __name__ == "__main__":
-    unittest.main()
