@@ -5,16 +5,14 @@
 coordinates, and the figures that are drawn from it."""
 
 import os
-import subprocess
 import sys
-import tempfile
 import unittest
 
-ROOT = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..")
-sys.path.insert(0, os.path.join(ROOT, "scripts", "figures"))
+import numpy as np
 
-import numpy as np  # noqa: E402
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "scripts", "figures", "tests"))
 
+from cases import ROOT, Scratch, call  # noqa: E402  (the figures' tests must be found first)
 import figure2  # noqa: E402
 import figure3  # noqa: E402
 import figure4  # noqa: E402
@@ -24,7 +22,7 @@ from anatomy import ask, is_all_directions  # noqa: E402
 from lmdbench_results import ResultError  # noqa: E402
 from mesh_drawing import unit  # noqa: E402
 
-EXPERIMENT = os.path.join(ROOT, "experiments", "shapes.json")
+EXPERIMENT = str(ROOT / "experiments" / "shapes.json")
 LEVELS = (1, 3, 5)
 PROGRAM = None
 
@@ -155,29 +153,21 @@ class AnatomyTest(unittest.TestCase):
         np.testing.assert_allclose(cases[0]["moving"]["corners"], self.anatomy.world_corners([cases[0]["triangle_moving"]])[0], atol=1e-12)
 
 
-class FiguresTest(unittest.TestCase):
+class FiguresTest(Scratch):
     def test_each_is_drawn_and_the_same_twice(self):
         for figure, levels in ((figure2, [5]), (figure3, [1, 3]), (figure4, [5]), (figure5, []), (figure6, [])):
-            name = figure.__name__
-            texts = []
-            for _ in range(2):
-                with tempfile.TemporaryDirectory() as folder:
-                    arguments = [EXPERIMENT, "--program", PROGRAM, "--out", folder]
-                    for level in levels:
-                        arguments += ["--level", str(level)]
-                    self.assertEqual(figure.main(arguments), 0)
-                    self.assertEqual(sorted(os.listdir(folder)), [f"{name}.png", f"{name}.svg"])
-                    with open(os.path.join(folder, f"{name}.svg"), "rb") as stream:
-                        texts.append(stream.read())
-            self.assertEqual(texts[0], texts[1], name)
+            name, chosen = figure.__name__, [word for level in levels for word in ("--level", str(level))]
+            for turn in ("first", "second"):
+                self.printed(figure.main, EXPERIMENT, "--program", PROGRAM, "--out", self.path(name, turn), *chosen)
+                self.assertEqual(sorted(os.listdir(self.path(name, turn))), [f"{name}.png", f"{name}.svg"])
+            self.assertEqual(self.read(name, "first", f"{name}.svg"), self.read(name, "second", f"{name}.svg"), name)
 
     def test_says_what_is_wrong(self):
         with self.assertRaisesRegex(ResultError, "another time of the path"):
             ask(PROGRAM, EXPERIMENT, 0.0, [2])
         with self.assertRaisesRegex(ResultError, "gone"):
             ask(PROGRAM, "gone.json")
-        outcome = subprocess.run([PROGRAM, "anatomy", EXPERIMENT, "--level", "65"], capture_output=True, text=True, check=False)
-        self.assertEqual(outcome.returncode, 2)
+        self.assertEqual(call(PROGRAM, "anatomy", EXPERIMENT, "--level", "65").returncode, 2)
 
 
 if __name__ == "__main__":

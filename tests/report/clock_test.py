@@ -10,16 +10,15 @@ import resource
 import signal
 import subprocess
 import sys
-import tempfile
 import time
 import unittest
 
 import numpy as np
 
-ROOT = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..")
-sys.path.insert(0, os.path.join(ROOT, "scripts", "figures"))
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "scripts", "figures", "tests"))
 
-from clock_results import clocks  # noqa: E402  (the figures' folder must be found first)
+from cases import ROOT, SharedScratch, call as call_in  # noqa: E402  (the figures' tests must be found first)
+from clock_results import clocks  # noqa: E402
 from lmdbench_results import Result  # noqa: E402
 from realtime import measured  # noqa: E402
 
@@ -34,7 +33,7 @@ def command(out, *more, seconds=None):
 
 
 def call(arguments, **more):
-    return subprocess.run(arguments, cwd=ROOT, stdin=subprocess.DEVNULL, capture_output=True, text=True, check=False, **more)
+    return call_in(*arguments, cwd=ROOT, **more)
 
 
 def counts(clock):
@@ -42,17 +41,13 @@ def counts(clock):
     return [int(np.sum(source == kind)) for kind in range(3)], source.size
 
 
-class Clock(unittest.TestCase):
+class Clock(SharedScratch):
     @classmethod
     def setUpClass(cls):
-        cls.folder = tempfile.TemporaryDirectory()
-        cls.addClassCleanup(cls.folder.cleanup)
-        cls.out = os.path.join(cls.folder.name, "clock.h5")
+        super().setUpClass()
+        cls.out = os.path.join(cls.folder, "clock.h5")
         cls.done = call(command(cls.out))
         assert cls.done.returncode == 0, cls.done.stderr
-
-    def path(self, name):
-        return os.path.join(self.folder.name, name)
 
     def test_the_result_is_as_described(self):
         done = call([sys.executable, "scripts/figures/check_format.py", self.out])
@@ -87,11 +82,10 @@ class Clock(unittest.TestCase):
     def test_the_page_shows_the_clock(self):
         done = call([PROGRAM, "-q", "report", self.out, "--out", self.path("page")])
         self.assertEqual(done.returncode, 0, done.stderr)
-        with open(os.path.join(self.path("page"), "index.html"), encoding="utf-8") as stream:
-            page = stream.read()
+        page = self.read("page", "index.html")
         for words in ('id="clock-shapes"', "force over empty, p99", "Age of the LMD set in use", "periods without a tick"):
             self.assertIn(words, page)
-        self.assertTrue(os.path.exists(os.path.join(self.path("page"), "clock-shapes.svg")))
+        self.assertTrue(os.path.exists(self.path("page", "clock-shapes.svg")))
 
     def test_fewer_cores_than_roles_are_shared(self):
         for cores, pin in ((1, "true"), (2, "true"), (1, "false")):

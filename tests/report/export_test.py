@@ -5,16 +5,19 @@
 grid gives it, every index a point, every cell its end; and the numbers are those of the result."""
 
 import os
-import subprocess
+import pathlib
 import sys
-import tempfile
 import unittest
 import xml.etree.ElementTree as ET
 
 import h5py
 import numpy as np
 
-ROOT = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..")
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "scripts", "figures", "tests"))
+
+from cases import ROOT, Scratch, call  # noqa: E402  (the figures' tests must be found first)
+from mesh_drawing import rotation  # noqa: E402
+
 TYPES = {"Float32": np.float32, "Float64": np.float64, "Int32": np.int32, "UInt8": np.uint8}
 POINTS_OF_A_CELL = {1: 1, 5: 3}  # of a polyline (4) any number
 PROGRAM = None
@@ -54,20 +57,16 @@ def collection(file):
     return [(float(entry.get("timestep")), Grid(os.path.join(os.path.dirname(file), entry.get("file")))) for entry in root.findall("Collection/DataSet")]
 
 
-class ExportTest(unittest.TestCase):
-    @classmethod
-    def setUpClass(cls):
-        cls.folder = tempfile.TemporaryDirectory()
-        cls.addClassCleanup(cls.folder.cleanup)
+class ExportTest(Scratch):
+    def call(self, *words, code=0):
+        done = call(PROGRAM, "-q", *words, cwd=ROOT)
+        self.assertEqual(done.returncode, code, done.stderr)
+        return done.stdout
 
-    @classmethod
-    def run_and_export(cls, name, *settings):
-        result, out = (os.path.join(cls.folder.name, name + end) for end in (".h5", ""))
-        run = {"check": True, "cwd": ROOT, "stdin": subprocess.DEVNULL, "capture_output": True, "text": True}
-        subprocess.run([PROGRAM, "-q", "run", "experiments/shapes.json", "--out", result, "--set", "/frames=400",
-                        *[word for setting in settings for word in ("--set", setting)]], **run)
-        outcome = subprocess.run([PROGRAM, "-q", "export", result, "--out", out, "--frames", "8"], **run)
-        return result, out, outcome.stdout.split()
+    def run_and_export(self, name, *settings):
+        result, out = self.path(f"{name}.h5"), self.path(name)
+        self.call("run", "experiments/shapes.json", "--out", result, "--set", "/frames=400", *[word for setting in settings for word in ("--set", setting)])
+        return result, out, self.call("export", result, "--out", out, "--frames", "8").split()
 
     def test_open_loop(self):
         result, out, told = self.run_and_export("open", "/record/lmds=true", "/record/polylines={\"stride_frames\": 100}")
@@ -92,12 +91,7 @@ class ExportTest(unittest.TestCase):
                 np.testing.assert_array_equal(grid.cell_data["feature of moving (0 vertex, 1 edge, 2 face)"],
                                               h5["methods/improved/lmds/feature_moving_kind"][rows])
             # The mesh stands where the path puts it: its pose from frame to frame is the path's.
-            x, y, z, w = h5["path/orientation"][stride]
-            turn = np.array([[1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)], [2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)],
-                             [2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)]])
-            x, y, z, w = h5["path/orientation"][0]
-            first = np.array([[1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)], [2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)],
-                              [2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)]])
+            first, turn = (rotation(*h5["path/orientation"][frame]) for frame in (0, stride))
             own_frame = (moving[0][1].points - h5["path/position"][0]) @ first
             np.testing.assert_allclose(moving[1][1].points, own_frame @ turn.T + h5["path/position"][stride], atol=1e-7)
             fixed = Grid(os.path.join(out, "fixed_0.vtu"))
@@ -122,13 +116,11 @@ class ExportTest(unittest.TestCase):
 
     def test_replaces_its_own_files_and_no_others(self):
         result, out, _ = self.run_and_export("again")
-        self.assertEqual(subprocess.run([PROGRAM, "-q", "export", result, "--out", out, "--frames", "2"], cwd=ROOT, capture_output=True, check=False).returncode, 0)
-        with open(os.path.join(out, "fixed_0.vtu"), "w", encoding="utf-8") as stream:
-            stream.write("mine")
-        outcome = subprocess.run([PROGRAM, "-q", "export", result, "--out", out], cwd=ROOT, capture_output=True, text=True, check=False)
-        self.assertEqual(outcome.returncode, 2, outcome.stderr)
-        with open(os.path.join(out, "fixed_0.vtu"), encoding="utf-8") as stream:
-            self.assertEqual(stream.read(), "mine")
+        self.call("export", result, "--out", out, "--frames", "2")
+        mine = pathlib.Path(out, "fixed_0.vtu")
+        mine.write_text("mine")
+        self.call("export", result, "--out", out, code=2)
+        self.assertEqual(mine.read_text(), "mine")
 
 
 if __name__ == "__main__":

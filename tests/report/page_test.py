@@ -9,7 +9,6 @@ import json
 import os
 import subprocess
 import sys
-import tempfile
 import unittest
 
 import h5py
@@ -21,7 +20,10 @@ from selenium.webdriver.common.action_chains import ActionChains
 from selenium.webdriver.common.by import By
 from selenium.webdriver.common.keys import Keys
 
-ROOT = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..")
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "scripts", "figures", "tests"))
+
+from cases import ROOT, SharedScratch  # noqa: E402  (the figures' tests must be found first)
+
 # 3D graphics in software, and none of the requests that a browser makes of its own.
 FLAGS = ("--headless=new", "--no-sandbox", "--disable-quic", "--no-first-run", "--disable-background-networking",
          "--disable-component-update", "--disable-sync", "--use-angle=swiftshader", "--enable-unsafe-swiftshader",
@@ -39,21 +41,21 @@ def open_browser():
     return webdriver.Chrome(options=options, service=Service("/usr/bin/chromedriver"))
 
 
-class Page(unittest.TestCase):
+class Page(SharedScratch):
     @classmethod
     def setUpClass(cls):
-        cls.folder = tempfile.TemporaryDirectory()
-        cls.addClassCleanup(cls.folder.cleanup)
-        result, closed = (os.path.join(cls.folder.name, name) for name in ("shapes.h5", "closed.h5"))
-        out = os.path.join(cls.folder.name, "page")
-        run = {"check": True, "cwd": ROOT, "stdin": subprocess.DEVNULL, "stdout": subprocess.DEVNULL}
-        subprocess.run([PROGRAM, "-q", "run", "experiments/shapes.json", "--out", result, "--set", "/frames=600", "--set", "/record/lmds=true",
-                        "--set", "/record/polylines={\"stride_frames\": 10}"], **run)
-        subprocess.run([PROGRAM, "-q", "run", "experiments/shapes.json", "--out", closed, "--set", "/frames=600", "--set", "/loop={\"kind\": \"closed\"}"], **run)
-        for number in (2, 6):
-            subprocess.run([sys.executable, f"scripts/figures/figure{number}.py", "experiments/shapes.json", "--program", PROGRAM, "--out", cls.folder.name,
-                            *(["--level", "4"] if number == 2 else [])], **run)
-        subprocess.run([PROGRAM, "-q", "report", result, closed, "--out", out, "--paper", cls.folder.name, "--study", "results/reference/claims.md"], **run)
+        super().setUpClass()
+        result, closed, out = (os.path.join(cls.folder, name) for name in ("shapes.h5", "closed.h5", "page"))
+
+        def run(*words):
+            subprocess.run(words, check=True, cwd=ROOT, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL)
+
+        shapes = ("-q", "run", "experiments/shapes.json", "--set", "/frames=600", "--out")
+        run(PROGRAM, *shapes, result, "--set", "/record/lmds=true", "--set", "/record/polylines={\"stride_frames\": 10}")
+        run(PROGRAM, *shapes, closed, "--set", "/loop={\"kind\": \"closed\"}")
+        for figure, level in (("figure2", ["--level", "4"]), ("figure6", [])):
+            run(sys.executable, f"scripts/figures/{figure}.py", "experiments/shapes.json", "--program", PROGRAM, "--out", cls.folder, *level)
+        run(PROGRAM, "-q", "report", result, closed, "--out", out, "--paper", cls.folder, "--study", "results/reference/claims.md")
         cls.page = os.path.join(out, "index.html")
         cls.browser = open_browser()
         cls.addClassCleanup(cls.browser.quit)
@@ -169,7 +171,7 @@ class Page(unittest.TestCase):
         panel, whole = sorted((text for text in texts if text.startswith("time [s]")), key=len)
         lines = panel.splitlines()
         self.assertEqual(len(lines), 601)
-        with h5py.File(os.path.join(self.folder.name, "shapes.h5")) as result:
+        with h5py.File(self.path("shapes.h5")) as result:
             force = np.linalg.norm(result["methods/improved/force"][:], axis=1)
         column = lines[0].split(",").index("Force: improved [N]")
         np.testing.assert_allclose([float(line.split(",")[column]) for line in lines[1:]], force, rtol=1e-6, atol=1e-9)

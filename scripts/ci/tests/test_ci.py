@@ -3,50 +3,40 @@
 """Tests of scripts/baseline.py, of the scripts of scripts/ci and of what they promise to other tools. The program is
 named by the environment variable LMDBENCH_PROGRAM."""
 
-import contextlib
 import importlib.util
-import io
 import json
 import os
 import random
-import re
 import shutil
 import subprocess
 import sys
-import tempfile
 import unittest
 import xml.etree.ElementTree
 
 import yaml
 
-ROOT = os.path.abspath(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", ".."))
-sys.path.insert(0, os.path.join(ROOT, "scripts"))
-sys.path.insert(0, os.path.join(ROOT, "scripts", "ci"))
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "figures", "tests"))
 
+from cases import PROGRAM, ROOT, SCRIPTS, Scratch, call, text_of  # noqa: E402  (the figures' tests must be found first)
 import baseline  # noqa: E402
 import regression  # noqa: E402
 import verdict_study  # noqa: E402
 
-PROGRAM = os.environ.get("LMDBENCH_PROGRAM", os.path.join(ROOT, "build", "release", "lmdbench"))
-REVISION = re.compile(r"^[0-9a-f]{16}$")
+REVISION = r"^[0-9a-f]{16}$"
+SHORT_RUN = [ROOT / "experiments" / "shapes.json", "--set", "/frames=60", "--set", "/probes/truth/stride_frames=0", "--set", "/probes/fcl/stride_frames=0"]
 
 
-def printed(function, *arguments):
-    stream = io.StringIO()
-    with contextlib.redirect_stdout(stream), contextlib.redirect_stderr(stream):
-        status = function(*arguments)
-    return status, stream.getvalue()
+def baseline_of(scene):
+    return json.loads(text_of(baseline.baseline_file(baseline.FOLDER, scene)))
 
 
-class BaselineTest(unittest.TestCase):
+class BaselineTest(Scratch):
     def test_baselines_are_not_stale(self):
-        status, text = printed(baseline.main, ["check", "--program", PROGRAM])
-        self.assertEqual(status, 0, text)
+        self.printed(baseline.main, "check", "--program", PROGRAM)
 
     def test_every_scene_has_hashes_counters_and_ratios(self):
         for scene in baseline.SCENES:
-            with open(baseline.baseline_file(baseline.FOLDER, scene), encoding="utf-8") as stream:
-                content = json.load(stream)
+            content = baseline_of(scene)
             self.assertGreaterEqual(len(content["methods"]), 3, scene)
             for label, method in content["methods"].items():
                 self.assertRegex(method["result_hash"], REVISION, f"{scene}: {label}")
@@ -55,9 +45,7 @@ class BaselineTest(unittest.TestCase):
         self.assertIn("improved / original", content["time_ratios"] | baseline.measure(PROGRAM, "shapes")["time_ratios"])
 
     def test_changes_are_noticed(self):
-        scene = "combs"
-        with open(baseline.baseline_file(baseline.FOLDER, scene), encoding="utf-8") as stream:
-            before = json.load(stream)
+        before = baseline_of("combs")
 
         def changed(change):
             other = json.loads(json.dumps(before))
@@ -88,52 +76,35 @@ class BaselineTest(unittest.TestCase):
         self.assertEqual(len(changed(ratio(0.25))), 1)
 
     def test_a_stale_baseline_is_named(self):
-        with tempfile.TemporaryDirectory() as folder:
-            for scene in baseline.SCENES:
-                shutil.copy(baseline.baseline_file(baseline.FOLDER, scene), folder)
-            file = baseline.baseline_file(folder, "combs")
-            with open(file, encoding="utf-8") as stream:
-                content = json.load(stream)
-            content["methods"]["improved"]["lmds"] += 1
-            with open(file, "w", encoding="utf-8") as stream:
-                json.dump(content, stream)
-            os.remove(baseline.baseline_file(folder, "rocking-box"))
-            status, text = printed(baseline.main, ["check", "--program", PROGRAM, "--folder", folder])
-            self.assertEqual(status, 1)
-            self.assertIn("combs.json: /methods/improved/lmds: ", text)
-            self.assertIn("rocking-box.json: no such baseline", text)
-            self.assertIn("2 differences (remedy: ", text)
+        shutil.copy(baseline.baseline_file(baseline.FOLDER, "shapes"), self.folder)
+        content = baseline_of("combs")
+        content["methods"]["improved"]["lmds"] += 1
+        self.write("combs.json", json.dumps(content))
+        text = self.printed(baseline.main, "check", "--program", PROGRAM, "--folder", self.folder, code=1)
+        self.assertIn("combs.json: /methods/improved/lmds: ", text)
+        self.assertIn("rocking-box.json: no such baseline", text)
+        self.assertIn("2 differences (remedy: ", text)
 
     def test_missing_baseline_and_program(self):
-        with tempfile.TemporaryDirectory() as folder:
-            status, text = printed(baseline.main, ["check", "--program", "/does/not/exist", "--folder", folder])
-            self.assertEqual(status, 4)
-            self.assertIn("remedy", text)
+        self.assertIn("remedy", self.printed(baseline.main, "check", "--program", "/does/not/exist", "--folder", self.folder, code=4))
 
 
 class WorkflowTest(unittest.TestCase):
     def test_github_actions(self):
-        with open(os.path.join(ROOT, "scripts", "ci", "github-actions.yml"), encoding="utf-8") as stream:
-            workflow = yaml.safe_load(stream)
-        steps = workflow["jobs"]["regression"]["steps"]
+        steps = yaml.safe_load(text_of("scripts", "ci", "github-actions.yml"))["jobs"]["regression"]["steps"]
         self.assertEqual([step["with"]["fetch-depth"] for step in steps if "checkout" in step.get("uses", "")], [0])
 
     def test_gitlab(self):
-        with open(os.path.join(ROOT, "scripts", "ci", "gitlab-ci.yml"), encoding="utf-8") as stream:
-            job = yaml.safe_load(stream)["regression"]
+        job = yaml.safe_load(text_of("scripts", "ci", "gitlab-ci.yml"))["regression"]
         self.assertEqual(job["artifacts"]["reports"]["junit"], "build/ci/junit.xml")
 
 
 class RegressionScriptTest(unittest.TestCase):
-    def run_script(self, *arguments):
-        return subprocess.run([os.path.join(ROOT, "scripts", "ci_regression.sh"), *arguments], capture_output=True,
-                              text=True, check=False, stdin=subprocess.DEVNULL)
-
     def test_usage(self):
         for arguments in ([], ["no-such-revision"], ["HEAD", "HEAD", "HEAD"], ["HEAD", "--unknown", "1"],
                           ["HEAD", "--pairs", "none"], ["HEAD", "--threshold"], ["HEAD", "--threshold", "much"],
                           ["HEAD", "--experiment", "/does/not/exist.json"]):
-            done = self.run_script(*arguments)
+            done = call(SCRIPTS / "ci_regression.sh", *arguments)
             self.assertEqual(done.returncode, 2, arguments)
             self.assertIn("remedy", done.stderr, arguments)
 
@@ -158,14 +129,17 @@ class Script:
         return subprocess.CompletedProcess(command, 0, "", "")
 
 
+def rule_of(run, judge="judge", **options):
+    return regression.Regression({name: name for name in regression.NAMES}, judge, ["scene"], "results", run=run, **options)
+
+
 class RuleTest(unittest.TestCase):
     """The rule, with a judge whose words are given. Answers come in the order: one round; then at every look the candidate,
     the base against itself, and the fresh rounds alone where there were suspects."""
 
     def decide(self, *answers, pairs=6, most=24):
         self.script = Script(answers)
-        rule = regression.Regression({name: name for name in regression.NAMES}, "judge", ["scene"], "results",
-                                     environments={"cand": {"A": "b"}}, generator=random.Random(1), run=self.script)
+        rule = rule_of(self.script, environments={"cand": {"A": "b"}}, generator=random.Random(1))
         decision = rule.behaviour() or rule.times(pairs, most)
         self.assertEqual(self.script.answers, [], "not all was asked")
         return decision
@@ -232,10 +206,8 @@ class RuleTest(unittest.TestCase):
         self.assertEqual(self.decide(("same",), ("slower",), ("slower",), ("slower",), ("same",), fresh)[0], "slower")
 
     def test_a_process_that_fails_is_told(self):
-        rule = regression.Regression({name: name for name in regression.NAMES}, "judge", ["scene"], "results",
-                                     run=lambda command, environment: subprocess.CompletedProcess(command, 3, "", "broken mesh"))
         with self.assertRaises(regression.Broken) as caught:
-            rule.behaviour()
+            rule_of(lambda command, environment: subprocess.CompletedProcess(command, 3, "", "broken mesh")).behaviour()
         self.assertEqual((caught.exception.side, caught.exception.log), ("base", "broken mesh"))
 
     def broken_side(self, fails, judge="cand"):
@@ -243,9 +215,8 @@ class RuleTest(unittest.TestCase):
         def run(command, environment):
             code = 70 if any(word in command for word in fails) else 0
             return subprocess.CompletedProcess(command, code, "", "gone")
-        rule = regression.Regression({name: name for name in regression.NAMES}, judge, ["scene"], "results", run=run)
         with self.assertRaises(regression.Broken) as caught:
-            rule.behaviour()
+            rule_of(run, judge).behaviour()
         return caught.exception.side
 
     def test_who_is_at_fault(self):
@@ -260,70 +231,55 @@ class RuleTest(unittest.TestCase):
             refused = "compare" in command
             return subprocess.CompletedProcess(command, 2 if refused else 0, "",
                                                f"cand.h5: {regression.OTHER_EXPERIMENT} base.h5: /force" if refused else "")
-        rule = regression.Regression({name: name for name in regression.NAMES}, "cand", ["scene"], "results", run=run)
-        word, why = rule.behaviour()
+        word, why = rule_of(run, "cand").behaviour()
         self.assertEqual(word, "changed")
         self.assertIn("another experiment", why)
 
 
-class RegressionProgramTest(unittest.TestCase):
+class RegressionProgramTest(Scratch):
     """The real program against itself and against one that does something else, in one round."""
 
-    def compare(self, folder, candidate):
-        return subprocess.run([sys.executable, os.path.join(ROOT, "scripts", "ci", "regression.py"), "--base", PROGRAM,
-                               "--candidate", candidate, "--judge", PROGRAM, "--experiment",
-                               os.path.join(ROOT, "experiments", "shapes.json"), "--set", "/frames=60", "--set",
-                               "/probes/truth/stride_frames=0", "--set", "/probes/fcl/stride_frames=0", "--pairs", "1",
-                               "--most", "1", "--instructions", "0", "--out", folder], capture_output=True, text=True,
-                              check=False, stdin=subprocess.DEVNULL)
+    def compare(self, candidate):
+        """The finished comparison, and its junit.xml."""
+        done = call(sys.executable, SCRIPTS / "ci" / "regression.py", "--base", PROGRAM, "--candidate", candidate, "--judge", PROGRAM, "--experiment",
+                    *SHORT_RUN, "--pairs", "1", "--most", "1", "--instructions", "0", "--out", self.path("out"))
+        return done, xml.etree.ElementTree.fromstring(self.read("out", "junit.xml"))
 
     def test_against_itself(self):
-        with tempfile.TemporaryDirectory() as folder:
-            done = self.compare(folder, PROGRAM)
-            self.assertIn(done.returncode, (0, 4), done.stderr)
-            self.assertRegex(done.stdout, r"verdict: (same|faster|unsure) \(.*\); 1 rounds")
-            with open(os.path.join(folder, "verdict.md"), encoding="utf-8") as stream:
-                self.assertIn("| improved | search |", stream.read())
-            self.assertEqual(xml.etree.ElementTree.parse(os.path.join(folder, "junit.xml")).getroot().get("failures"), "0")
-            for name, processes in (("base.json", 2), ("candidate.json", 1)):
-                with open(os.path.join(folder, name), encoding="utf-8") as stream:
-                    rows = json.load(stream)["benchmarks"]
-                self.assertEqual(sum(row["name"] == "improved/search" for row in rows), processes)
+        done, junit = self.compare(PROGRAM)
+        self.assertIn(done.returncode, (0, 4), done.stderr)
+        self.assertRegex(done.stdout, r"verdict: (same|faster|unsure) \(.*\); 1 rounds")
+        self.assertIn("| improved | search |", self.read("out", "verdict.md"))
+        self.assertEqual(junit.get("failures"), "0")
+        for name, processes in (("base.json", 2), ("candidate.json", 1)):
+            rows = json.loads(self.read("out", name))["benchmarks"]
+            self.assertEqual(sum(row["name"] == "improved/search" for row in rows), processes)
 
     def test_another_behaviour_is_changed(self):
-        with tempfile.TemporaryDirectory() as folder:
-            other = os.path.join(folder, "other")
-            with open(other, "w", encoding="utf-8") as stream:
-                stream.write(f"#!/bin/sh\nexec {PROGRAM} \"$@\" --set /force/maximum_force_n=2\n")
-            os.chmod(other, 0o755)
-            done = self.compare(os.path.join(folder, "out"), other)
-            self.assertEqual(done.returncode, 1, done.stderr)
-            self.assertIn("verdict: changed (the candidate makes another experiment of the same scene file", done.stdout)
-            root = xml.etree.ElementTree.parse(os.path.join(folder, "out", "junit.xml")).getroot()
-            self.assertEqual(root.get("failures"), "1")
-            self.assertIn("/force/maximum_force_n", root.find(".//failure").get("message"))
+        other = self.write("other", f"#!/bin/sh\nexec {PROGRAM} \"$@\" --set /force/maximum_force_n=2\n")
+        os.chmod(other, 0o755)
+        done, junit = self.compare(other)
+        self.assertEqual(done.returncode, 1, done.stderr)
+        self.assertIn("verdict: changed (the candidate makes another experiment of the same scene file", done.stdout)
+        self.assertEqual(junit.get("failures"), "1")
+        self.assertIn("/force/maximum_force_n", junit.find(".//failure").get("message"))
 
 
-class BenchmarkFormatTest(unittest.TestCase):
+class BenchmarkFormatTest(Scratch):
     def test_compare_py_reads_it(self):
         tool = "/usr/share/benchmark/compare.py"
         if not os.path.exists(tool):
             self.skipTest("libbenchmark-tools is not installed")
         if importlib.util.find_spec("scipy") is None:
             self.skipTest("compare.py needs scipy")
-        with tempfile.TemporaryDirectory() as folder:
-            for name in ("a", "b"):
-                subprocess.run([PROGRAM, "--quiet", "run", os.path.join(ROOT, "experiments", "shapes.json"), "--set",
-                                "/frames=60", "--set", "/probes/truth/stride_frames=0", "--set",
-                                "/probes/fcl/stride_frames=0", "--out", f"{name}.h5"], cwd=folder, check=True,
-                               stdout=subprocess.DEVNULL)
-            done = subprocess.run([PROGRAM, "--quiet", "compare", "a.h5", "b.h5", "--benchmark", "b.json",
-                                   "--benchmark-base", "a.json"], cwd=folder, check=False, stdout=subprocess.DEVNULL)
-            self.assertIn(done.returncode, (0, 4))
-            read = subprocess.run([sys.executable, tool, "--no-color", "benchmarks", "a.json", "b.json"], cwd=folder,
-                                  capture_output=True, text=True, check=False)
-            self.assertEqual(read.returncode, 0, read.stderr)
-            self.assertIn("improved/search", read.stdout)
+        for name in ("a", "b"):
+            done = call(PROGRAM, "--quiet", "run", *SHORT_RUN, "--out", f"{name}.h5", cwd=self.folder)
+            self.assertEqual(done.returncode, 0, done.stderr)
+        done = call(PROGRAM, "--quiet", "compare", "a.h5", "b.h5", "--benchmark", "b.json", "--benchmark-base", "a.json", cwd=self.folder)
+        self.assertIn(done.returncode, (0, 4), done.stderr)
+        read = call(sys.executable, tool, "--no-color", "benchmarks", "a.json", "b.json", cwd=self.folder)
+        self.assertEqual(read.returncode, 0, read.stderr)
+        self.assertIn("improved/search", read.stdout)
 
 
 class StudyTest(unittest.TestCase):
@@ -349,7 +305,3 @@ class StudyTest(unittest.TestCase):
             self.assertEqual(ours, stage + ":10")
             self.assertEqual(len(ours), len(theirs))
             self.assertNotIn(theirs.split(":")[0], {name.split(":")[0] for name in verdict_study.STAGES})
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -9,15 +9,15 @@ import random
 import shutil
 import subprocess
 import sys
-import tempfile
-import unittest
 import xml.etree.ElementTree
 
 import h5py
 import yaml
 
-ROOT = os.path.abspath(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", ".."))
-PROGRAM = os.environ.get("LMDBENCH_PROGRAM", os.path.join(ROOT, "build", "release", "lmdbench"))
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "figures", "tests"))
+
+from cases import PROGRAM, ROOT, SCRIPTS, SharedScratch, call, text_of  # noqa: E402  (the figures' tests must be found first)
+
 ROUNDS = 24  # as many as ci_regression.sh runs at most
 
 CMAKE = """#!/bin/sh
@@ -49,9 +49,8 @@ cp {folder}/results/$kind/$(basename "$2") "$2"
 def make_results(folder):
     """results/KIND/NAME-ROUND.h5: copies of one result with times of their own; the spread is 0.3 %, 60 % under load."""
     template = os.path.join(folder, "template.h5")
-    subprocess.run([PROGRAM, "--quiet", "run", os.path.join(ROOT, "experiments", "shapes.json"), "--set", "/frames=60",
-                    "--set", "/probes/truth/stride_frames=0", "--set", "/probes/fcl/stride_frames=0", "--out", template],
-                   check=True, stdout=subprocess.DEVNULL)
+    subprocess.run([PROGRAM, "--quiet", "run", ROOT / "experiments" / "shapes.json", "--set", "/frames=60", "--set", "/probes/truth/stride_frames=0",
+                    "--set", "/probes/fcl/stride_frames=0", "--out", template], check=True, stdout=subprocess.DEVNULL)
     generator = random.Random(30)
     for kind, names, factor, spread in (("same", ("base", "null", "cand"), 1.0, 0.003), ("slower", ("cand",), 1.3, 0.003),
                                         ("faster", ("cand",), 0.7, 0.003),
@@ -70,12 +69,10 @@ def make_results(folder):
                         h5["methods/improved/force"][3] += 0.001
 
 
-class GateTest(unittest.TestCase):
+class GateTest(SharedScratch):
     @classmethod
     def setUpClass(cls):
-        scratch = tempfile.TemporaryDirectory()
-        cls.addClassCleanup(scratch.cleanup)
-        cls.folder = scratch.name
+        super().setUpClass()
         make_results(cls.folder)
         tools = os.path.join(cls.folder, "tools")
         os.makedirs(tools)
@@ -88,10 +85,10 @@ class GateTest(unittest.TestCase):
         cls.environment = {"PATH": f"{tools}:{os.path.dirname(sys.executable)}:/usr/bin:/bin", "HOME": cls.folder,
                            "PYTHONDONTWRITEBYTECODE": "1"}
         cls.repository = os.path.join(cls.folder, "repository")
-        shutil.copytree(os.path.join(ROOT, "scripts"), os.path.join(cls.repository, "scripts"),
+        shutil.copytree(SCRIPTS, os.path.join(cls.repository, "scripts"),
                         ignore=shutil.ignore_patterns("__pycache__"))
         os.makedirs(os.path.join(cls.repository, "experiments"))
-        shutil.copy(os.path.join(ROOT, "experiments", "shapes.json"), os.path.join(cls.repository, "experiments"))
+        shutil.copy(ROOT / "experiments" / "shapes.json", os.path.join(cls.repository, "experiments"))
         cls.git("init", "--quiet")
         cls.commits = {}
         for behaviour in ("same", "base", "slower", "faster", "differs", "no-build", "no-run", "no-start"):
@@ -100,10 +97,8 @@ class GateTest(unittest.TestCase):
             cls.git("add", "--all")
             cls.git("-c", "user.name=t", "-c", "user.email=t@example.org", "commit", "--quiet", "--message", behaviour)
             cls.commits[behaviour] = cls.git("rev-parse", "HEAD").strip()
-        with open(os.path.join(ROOT, "scripts", "ci", "github-actions.yml"), encoding="utf-8") as stream:
-            cls.github = yaml.safe_load(stream)["jobs"]["regression"]
-        with open(os.path.join(ROOT, "scripts", "ci", "gitlab-ci.yml"), encoding="utf-8") as stream:
-            cls.gitlab = yaml.safe_load(stream)["regression"]
+        cls.github = yaml.safe_load(text_of("scripts", "ci", "github-actions.yml"))["jobs"]["regression"]
+        cls.gitlab = yaml.safe_load(text_of("scripts", "ci", "gitlab-ci.yml"))["regression"]
 
     @classmethod
     def git(cls, *words):
@@ -111,8 +106,7 @@ class GateTest(unittest.TestCase):
                               env=cls.environment).stdout
 
     def shell(self, lines, **variables):
-        return subprocess.run(["bash", "-e", "-c", lines], cwd=self.repository, env={**self.environment, **variables},
-                              capture_output=True, text=True, check=False, stdin=subprocess.DEVNULL)
+        return call("bash", "-e", "-c", lines, cwd=self.repository, env={**self.environment, **variables})
 
     def on_gitlab(self, base, candidate, **variables):
         """(outcome of the job, exit code of its script)."""
@@ -128,14 +122,9 @@ class GateTest(unittest.TestCase):
         lines = step["run"].replace("${{ github.event.pull_request.base.sha }}", self.commits[base])
         lines = lines.replace("${{ github.event.pull_request.head.sha }}", self.commits[candidate])
         self.assertNotIn("${{", lines)
-        summary = os.path.join(self.folder, "summary.md")
-        if os.path.exists(summary):
-            os.remove(summary)
-        done = self.shell(lines, GITHUB_ACTIONS="true", GITHUB_STEP_SUMMARY=summary, **variables)
-        with open(summary, encoding="utf-8") as stream:
-            text = stream.read()
+        done = self.shell(lines, GITHUB_ACTIONS="true", GITHUB_STEP_SUMMARY=self.write("summary.md", ""), **variables)
         notes = [line for line in done.stdout.splitlines() if line.startswith("::")]
-        return "failed" if done.returncode else "passed", notes[0].split("::")[1] if notes else "", text
+        return "failed" if done.returncode else "passed", notes[0].split("::")[1] if notes else "", self.read("summary.md")
 
     def junit(self):
         """(failures, errors, text of the first error)."""
@@ -186,7 +175,3 @@ class GateTest(unittest.TestCase):
             for candidate in ("same", base):
                 self.check(base, candidate, 3, "failed", ("failed", "error"), "no comparison: the base")
                 self.assertEqual(self.junit()[:2], (0, 1))
-
-
-if __name__ == "__main__":
-    unittest.main()

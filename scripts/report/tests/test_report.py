@@ -8,17 +8,14 @@ import json
 import os
 import re
 import sys
-import tempfile
-import unittest
 
 import h5py
 import numpy as np
 from PIL import Image
 
-HERE = os.path.dirname(os.path.abspath(__file__))
-sys.path[:0] = [os.path.join(HERE, ".."), os.path.join(HERE, "..", "..", "figures"),
-                os.path.join(HERE, "..", "..", "figures", "tests")]
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "figures", "tests"))
 
+from cases import Scratch  # noqa: E402  (the figures' tests must be found first)
 import report  # noqa: E402
 import scene_data  # noqa: E402
 from answer import answer, sentence  # noqa: E402
@@ -41,7 +38,7 @@ def decoded(text):
     return np.frombuffer(base64.b64decode(text), dtype="<f4")
 
 
-class Answer(unittest.TestCase):
+class Answer(Scratch):
     def test_names_the_least_error_within_the_budget(self):
         rows = [FakeRow("cheap", 0.5, 1e-6, 2e-6), FakeRow("good", 0.1, 1e-5, 9e-4), FakeRow("exact", 0.0, 1e-3, 5e-3)]
         self.assertIn("good leaves the least force error: 10 %", sentence(rows))
@@ -57,26 +54,21 @@ class Answer(unittest.TestCase):
         self.assertIn("No truth probe", sentence([FakeRow("a", float("nan"), 1e-6, 1e-6)]))
 
     def test_shows_a_row_a_method_with_both_recalls(self):
-        with tempfile.TemporaryDirectory() as folder:
-            file = os.path.join(folder, "hard.h5")
-            write_result(file)
-            shown = answer(Result(file))
+        shown = answer(Result(write_result(self.path("hard.h5"))))
         self.assertEqual([line[0] for line in shown["rows"]], ["original", "improved"])
         self.assertTrue(all(len(line) == len(shown["headings"]) for line in shown["rows"]))
         self.assertIn("recall [%]", shown["headings"])
         self.assertIn("recall, neighbouring features count [%]", shown["headings"])
 
     def test_names_an_aggregation_that_is_not_the_sum(self):
-        with tempfile.TemporaryDirectory() as folder:
-            file = os.path.join(folder, "hard.h5")
-            write_result(file)
-            with h5py.File(file, "a") as h5:
-                h5["/methods/improved"].attrs["aggregation"] = "shared"
-            rows = answer(Result(file))["rows"]
+        file = write_result(self.path("hard.h5"))
+        with h5py.File(file, "a") as h5:
+            h5["/methods/improved"].attrs["aggregation"] = "shared"
+        rows = answer(Result(file))["rows"]
         self.assertEqual([line[1] for line in rows], ["linear", "exponential, shared"])
 
 
-class Series(unittest.TestCase):
+class Series(Scratch):
     def test_holds_values_between_searches(self):
         class Frames:
             time = np.arange(6)
@@ -90,31 +82,15 @@ class Series(unittest.TestCase):
         np.testing.assert_allclose(moving_recall(Truth), [1.0, 0.5, 0.5, 0.5])
 
     def test_encodes_what_the_result_holds(self):
-        with tempfile.TemporaryDirectory() as folder:
-            file = os.path.join(folder, "hard.h5")
-            write_result(file, frames=300)
-            result = Result(file)
-            panels = {panel["id"]: panel for panel in time_panels(result)["panels"]}
-            lines = {line["label"]: decoded(line["values"]) for line in panels["force"]["series"]}
-            np.testing.assert_allclose(lines["improved"], result.methods["improved"].force_magnitude(), rtol=1e-6)
-            self.assertEqual(lines["truth, exponential law"].size, 300)
+        result = Result(write_result(self.path("hard.h5"), frames=300))
+        panels = {panel["id"]: panel for panel in time_panels(result)["panels"]}
+        lines = {line["label"]: decoded(line["values"]) for line in panels["force"]["series"]}
+        np.testing.assert_allclose(lines["improved"], result.methods["improved"].force_magnitude(), rtol=1e-6)
+        self.assertEqual(lines["truth, exponential law"].size, 300)
 
 
 OCTAHEDRON = "OFF\n6 8 0\n1 0 0\n-1 0 0\n0 1 0\n0 -1 0\n0 0 1\n0 0 -1\n" + "".join(
     f"3 {a} {b} {c}\n" for a, b, c in ((0, 2, 4), (2, 1, 4), (1, 3, 4), (3, 0, 4), (2, 0, 5), (1, 2, 5), (3, 1, 5), (0, 3, 5)))
-
-
-def write_scene(folder, tracks=("",), frames=(0, 100, 200)):
-    """What `lmdbench report` leaves of a result: two octahedra, an LMD of a millimetre in every frame but the first."""
-    os.makedirs(folder, exist_ok=True)
-    for role in ("moving", "fixed_0"):
-        with open(os.path.join(folder, f"{role}.off"), "w", encoding="utf-8") as stream:
-            stream.write(OCTAHEDRON)
-    with open(os.path.join(folder, "lmds.jsonl"), "w", encoding="utf-8") as stream:
-        for track in tracks:
-            for frame in frames:
-                lmds = [{"distance": 0.001, "point_moving": [1.0, 0.0, 0.0], "point_fixed": [1.001, 0.0, 0.0]}] if frame else []
-                stream.write(json.dumps({"frame": frame, "track": track, "time": frame / 1000, "lmds": lmds}) + "\n")
 
 
 def add_path(file):
@@ -124,16 +100,19 @@ def add_path(file):
         h5["path/orientation"] = np.tile([0.0, 0.0, 0.0, 1.0], (frames, 1))
 
 
-class Scene(unittest.TestCase):
-    def made(self, change=lambda h5: None, **options):
-        with tempfile.TemporaryDirectory() as folder:
-            file = os.path.join(folder, "hard.h5")
-            write_result(file, frames=300)
-            add_path(file)
-            with h5py.File(file, "a") as h5:
-                change(h5)
-            write_scene(os.path.join(folder, "scene"), **options)
-            return scene_data.scene(Result(file), os.path.join(folder, "scene"))
+class Scene(Scratch):
+    def made(self, change=lambda h5: None, tracks=("",)):
+        """Of what `lmdbench report` leaves of a result: two octahedra, an LMD of a millimetre in every frame but the first."""
+        file = write_result(self.path(f"{change.__name__}.h5"), frames=300)
+        add_path(file)
+        with h5py.File(file, "a") as h5:
+            change(h5)
+        for role in ("moving", "fixed_0"):
+            self.write(f"scene/{role}.off", OCTAHEDRON)
+        lmd = {"distance": 0.001, "point_moving": [1.0, 0.0, 0.0], "point_fixed": [1.001, 0.0, 0.0]}
+        self.write("scene/lmds.jsonl", "".join(json.dumps({"frame": frame, "track": track, "time": frame / 1000, "lmds": [lmd] if frame else []}) + "\n"
+                                               for track in tracks for frame in (0, 100, 200)))
+        return scene_data.scene(Result(file), self.path("scene"))
 
     def test_shows_exact_sets_poses_and_forces(self):
         (track,) = self.made()["tracks"]
@@ -199,81 +178,70 @@ class Scene(unittest.TestCase):
         np.testing.assert_allclose(back, vertices, atol=4.0 / 65535)
 
     def test_tells_why_there_is_no_view(self):
-        with tempfile.TemporaryDirectory() as folder:
-            file = os.path.join(folder, "hard.h5")
-            write_result(file)
-            with open(os.path.join(folder, "problem.txt"), "w", encoding="utf-8") as stream:
-                stream.write("No view: the mesh is gone")
-            self.assertEqual(scene_data.scene(Result(file), folder)["problem"], "No view: the mesh is gone")
+        self.write("problem.txt", "No view: the mesh is gone")
+        self.assertEqual(scene_data.scene(Result(write_result(self.path("hard.h5"))), self.folder)["problem"], "No view: the mesh is gone")
 
 
-class Page(unittest.TestCase):
+class Page(Scratch):
     def setUp(self):
-        self.folder = tempfile.TemporaryDirectory()
-        self.addCleanup(self.folder.cleanup)
-        self.file = os.path.join(self.folder.name, "hard.h5")
-        write_result(self.file)
+        super().setUp()
+        self.file = write_result(self.path("hard.h5"))
 
     def made(self, *more):
-        out = os.path.join(self.folder.name, "out")
-        report.main([self.file, "--out", out, *more])
-        with open(os.path.join(out, "index.html"), encoding="utf-8") as stream:
-            return stream.read(), out
+        self.printed(report.main, self.file, "--out", self.path("out"), *more)
+        return self.read("out", "index.html")
 
     def test_stands_alone_and_is_the_same_bytes_twice(self):
-        text, out = self.made()
+        text = self.made()
         self.assertNotRegex(text, r'(?:src|href)="(?!data:|#)')
-        for name in ("work_precision", "figure7"):
-            self.assertTrue(os.path.getsize(os.path.join(out, f"{name}.svg")) > 0)
-            self.assertTrue(os.path.getsize(os.path.join(out, f"{name}.png")) > 0)
-        self.assertEqual(text, self.made()[0])
+        for name in ("work_precision.svg", "work_precision.png", "figure7.svg", "figure7.png"):
+            self.assertTrue(os.path.getsize(self.path("out", name)) > 0)
+        self.assertEqual(text, self.made())
 
     def test_shows_studies_and_escapes_what_a_result_says(self):
-        study = os.path.join(self.folder.name, "ledger.md")
-        with open(study, "w", encoding="utf-8") as stream:
-            stream.write("# Who was wrong\n\n| a | b |\n|---|---|\n| 1 | 2 |\n\n![picture](elsewhere.png)\n")
-        text, _ = self.made("--study", study)
+        text = self.made("--study", self.write("ledger.md", "# Who was wrong\n\n| a | b |\n|---|---|\n| 1 | 2 |\n\n![picture](elsewhere.png)\n"))
         self.assertIn("<h2>Who was wrong</h2>", text)
         self.assertIn("<td>1</td>", text)
         self.assertNotIn("elsewhere.png", text)
         self.assertEqual(text.count("</script>"), text.count("<script"))
 
+    def check_pictures(self, text, size, *colours):
+        """There is one of each colour, in this order, in a part of the page."""
+        for data, colour in zip(re.findall(r'src="data:image/webp;base64,([^"]+)"', text), colours, strict=True):
+            with Image.open(io.BytesIO(base64.b64decode(data))) as picture:
+                self.assertEqual(picture.size, size)
+                np.testing.assert_allclose(picture.convert("RGB").getpixel((size[0] // 2, size[1] // 2)), colour, atol=4)
+
     def test_studies_carry_their_pictures_and_the_named_ones_come_first(self):
-        for name, text in (("a-table", "# A table\n\nwords\n"), ("ledger", "# Ledger\n\nwords\n"), ("scaling", "# Scaling\n\n![lines](lines.png)\n[other](other.md) [web](https://example.org)\n")):
-            with open(os.path.join(self.folder.name, f"{name}.md"), "w", encoding="utf-8") as stream:
-                stream.write(text)
-        Image.new("RGB", (3000, 30), "#336699").save(os.path.join(self.folder.name, "lines.png"))
-        text, _ = self.made("--study", *(os.path.join(self.folder.name, f"{name}.md") for name in ("a-table", "ledger", "scaling")))
+        studies = [self.write(f"{name}.md", text) for name, text in (
+            ("a-table", "# A table\n\nwords\n"), ("ledger", "# Ledger\n\nwords\n"),
+            ("scaling", "# Scaling\n\n![lines](lines.png)\n[other](other.md) [web](https://example.org)\n"))]
+        Image.new("RGB", (3000, 30), "#336699").save(self.path("lines.png"))
+        text = self.made("--study", *studies)
         self.assertLess(text.index('id="study-scaling"'), text.index('id="study-ledger"'))
         self.assertLess(text.index('id="study-ledger"'), text.index('id="more"'))
         self.assertLess(text.index('id="more"'), text.index('id="study-a-table"'))
-        data = text.split('alt="lines" src="data:image/webp;base64,', 1)[1].split('"', 1)[0]
-        with Image.open(io.BytesIO(base64.b64decode(data))) as picture:
-            self.assertEqual(picture.size, (1500, 15))
-            np.testing.assert_allclose(picture.convert("RGB").getpixel((700, 7)), (0x33, 0x66, 0x99), atol=4)
+        self.check_pictures(text.split('alt="lines"')[1], (1500, 15), (0x33, 0x66, 0x99))
         self.assertNotIn('href="other.md"', text)
         self.assertIn('href="https://example.org"', text)
 
     def test_shows_those_of_the_papers_figures_that_are_there(self):
-        folder = os.path.join(self.folder.name, "figures")
+        folder = self.path("figures")
         os.mkdir(folder)
         with self.assertRaisesRegex(ResultError, "none of figure1.png to figure6.png.*remedy"):
             self.made("--paper", folder)
         for name, colour in (("figure2", "#336699"), ("figure6", "#993366"), ("figure8", "#000000")):
             Image.new("RGB", (2000, 40), colour).save(os.path.join(folder, f"{name}.png"))
-        text, _ = self.made("--paper", folder)
+        text = self.made("--paper", folder)
         section = text.split('<section id="paper">', 1)[1].split("</section>", 1)[0]
         self.assertEqual(re.findall(r'<figure class="drawing" id="([^"]+)"', section), ["figure2", "figure6"])
         self.assertRegex(section, r'alt="Figure 2: A normal cone[^"]*"')
-        for data, colour in zip(re.findall(r'src="data:image/webp;base64,([^"]+)"', section), ((0x33, 0x66, 0x99), (0x99, 0x33, 0x66)), strict=True):
-            with Image.open(io.BytesIO(base64.b64decode(data))) as picture:
-                self.assertEqual(picture.size, (1000, 20))
-                np.testing.assert_allclose(picture.convert("RGB").getpixel((500, 10)), colour, atol=4)
+        self.check_pictures(section, (1000, 20), (0x33, 0x66, 0x99), (0x99, 0x33, 0x66))
         self.assertIn('<a href="#paper">Figures 1 to 6</a>', text)
-        self.assertNotIn('id="paper"', self.made()[0])
+        self.assertNotIn('id="paper"', self.made())
 
     def test_claims_link_to_sections_that_are_there(self):
-        text, _ = self.made()
+        text = self.made()
         claims = text.split('<section id="claims">', 1)[1].split("</section>", 1)[0]
         self.assertIn('<th scope="row">K10</th>', claims)
         links = re.findall(r'href="#([^"]+)"', claims)
@@ -284,9 +252,8 @@ class Page(unittest.TestCase):
         self.assertIn("hard alone", claims)
 
     def test_a_run_without_contact_judges_nothing(self):
-        self.file = os.path.join(self.folder.name, "apart.h5")
-        write_result(self.file, true_counts=np.zeros(2000, dtype=int))
-        self.assertIn("and frames in contact", self.made()[0])
+        self.file = write_result(self.path("apart.h5"), true_counts=np.zeros(2000, dtype=int))
+        self.assertIn("and frames in contact", self.made())
 
     def test_own_scenes_get_what_they_have_and_are_told_what_they_lack(self):
         """Labels of one's own, one method that searches in every frame, no truth probe, two profiles."""
@@ -298,12 +265,11 @@ class Page(unittest.TestCase):
                 h5[f"methods/mine-{profile}"].attrs["cutoff_m"] = 0.001 if profile == "hard" else 0.01
         for name, methods, stride, change in (("certified", ("certified",), 50, lambda h5: None), ("bare", ("original", "certified"), 0, lambda h5: None),
                                               ("profiles", ("original", "improved"), 50, relabel)):
-            self.file = os.path.join(self.folder.name, f"{name}.h5")
-            write_result(self.file, methods=methods, truth_stride=stride)
+            self.file = write_result(self.path(f"{name}.h5"), methods=methods, truth_stride=stride)
             with h5py.File(self.file, "a") as h5:
                 change(h5)
-            text, out = self.made()
-            self.assertTrue(os.path.exists(os.path.join(out, "figure7.svg")))
+            text = self.made()
+            self.assertTrue(os.path.exists(self.path("out", "figure7.svg")))
             self.assertEqual('<section id="work_precision">' in text, stride > 0)
             claims = text.split('<section id="claims">', 1)[1].split("</section>", 1)[0]
             self.assertIn("No claim can be judged", claims)
@@ -312,32 +278,26 @@ class Page(unittest.TestCase):
         self.assertIn("cutoff 1 and 10 mm", text)
 
     def test_data_is_json(self):
-        text, _ = self.made()
+        text = self.made()
         data = text.split('id="page-data">', 1)[1].split("</script>", 1)[0]
         self.assertEqual(json.loads(data)["results"][0]["name"], "hard")
 
     def test_refuses_what_is_no_result(self):
         with self.assertRaises(ResultError):
-            report.main([__file__, "--out", self.folder.name])
+            report.main([__file__, "--out", self.folder])
 
 
-class SweepPage(unittest.TestCase):
+class SweepPage(Scratch):
     """A page of sweeps, alone and beside a run."""
 
-    def page(self, *files):
-        with tempfile.TemporaryDirectory() as folder:
-            names = []
-            for name in files:
-                names.append(os.path.join(folder, name))
-                (write_sweep if name.startswith("sweep") else write_result)(names[-1], *([ROWS, "budget"] if name.startswith("sweep") else []))
-            out = os.path.join(folder, "page")
-            self.assertEqual(report.main([*names, "--out", out]), 0)
-            self.assertTrue(os.path.exists(os.path.join(out, "sweep-budget.svg")))
-            with open(os.path.join(out, "index.html"), encoding="utf-8") as stream:
-                return stream.read()
+    def page(self, *runs):
+        write_sweep(self.path("sweep.h5"), ROWS, "budget")
+        self.printed(report.main, *runs, self.path("sweep.h5"), "--out", self.path("page"))
+        self.assertTrue(os.path.exists(self.path("page", "sweep-budget.svg")))
+        return self.read("page", "index.html")
 
     def test_alone_it_has_figure_budgets_crossing_and_every_point(self):
-        text = self.page("sweep.h5")
+        text = self.page()
         self.assertIn('<section id="sweep-budget">', text)
         self.assertIn("certified: 0 %", text)
         self.assertIn("<td>33</td>", text)
@@ -345,10 +305,6 @@ class SweepPage(unittest.TestCase):
         self.assertNotIn('<section id="frames">', text)
 
     def test_beside_a_run_it_comes_first_and_the_run_keeps_its_sections(self):
-        text = self.page("run.h5", "sweep.h5")
+        text = self.page(write_result(self.path("run.h5")))
         self.assertLess(text.index('<section id="sweep-budget">'), text.index('<section id="work_precision">'))
         self.assertIn('<section id="frames">', text)
-
-
-if __name__ == "__main__":
-    unittest.main()
