@@ -11,6 +11,7 @@ import os
 import re
 import subprocess
 import sys
+from pathlib import Path
 
 ROOT = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..")
 FOLDER = os.path.join(ROOT, "results", "reference")
@@ -54,14 +55,12 @@ def unmarked(ages):
 
 def mark(ages):
     older = {row.files[0]: since > 0 for row, since in ages}
-    with open(REGISTER, encoding="utf-8") as stream:
-        lines = stream.read().split("\n")
+    lines = Path(REGISTER).read_text(encoding="utf-8").split("\n")
     for i, line in enumerate(lines):
         if line.startswith("| `"):
             cells = line.strip().strip("|").split("|")[:-1]
             lines[i] = "|" + "|".join([*cells, f" {OLDER} |" if older[Row(line).files[0]] else " |"])
-    with open(REGISTER, "w", encoding="utf-8") as stream:
-        stream.write("\n".join(lines))
+    Path(REGISTER).write_text("\n".join(lines), encoding="utf-8")
 
 
 def main():

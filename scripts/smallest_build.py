@@ -19,6 +19,7 @@ import subprocess
 import sys
 import tempfile
 import time
+from pathlib import Path
 
 ROOT = os.path.abspath(os.path.join(os.path.dirname(os.path.abspath(__file__)), ".."))
 FOLDER = os.path.join(ROOT, "build", "smallest")
@@ -121,8 +122,7 @@ def check_messages(check, full, folder):
            "curve.obj": ("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\ncurv 0 1 1 2\n", "curv"),
            "number.obj": ("v 0 0 zero\n", "line 1"), "short.obj": ("v 0 0 0\nv 1 0 0\nf 1 2\n", "line 3")}
     for name, (text, part) in bad.items():
-        with open(os.path.join(folder, name), "w", encoding="ascii") as stream:
-            stream.write(text)
+        Path(folder, name).write_text(text, encoding="ascii")
         done = run(PROGRAM, ["mesh", "info", f"./{name}"], folder)
         check.that(done.returncode == 3 and part in done.stderr, f"{name}: exit code {done.returncode}, {done.stderr.strip()}")
 
@@ -158,8 +158,7 @@ def main():
     with tempfile.TemporaryDirectory() as folder:
         for name, text in (("cube.obj", CUBE_OBJ), ("cube.off", CUBE_OFF), ("cube.stl", "solid\n"),
                            ("apart.tum", "0 1.05 0.2 0.1 0 0 0 1\n")):
-            with open(os.path.join(folder, name), "w", encoding="ascii") as stream:
-                stream.write(text)
+            Path(folder, name).write_text(text, encoding="ascii")
         check_queries(check, full, folder)
         check_messages(check, full, folder)
         table(([("full", full)] if full else []) + [("smallest", PROGRAM)], folder)

@@ -16,6 +16,7 @@ import shutil
 import subprocess
 import sys
 import tempfile
+from pathlib import Path
 
 ROOT = os.path.abspath(os.path.join(os.path.dirname(os.path.abspath(__file__)), ".."))
 TREE = os.path.join(ROOT, "build", "tuned", "tree")
@@ -106,8 +107,7 @@ def main():
         for name in arguments.only or CONSTANTS:
             file, pattern, values = CONSTANTS[name]
             path = os.path.join(TREE, file)
-            with open(path, encoding="utf-8") as stream:
-                text = stream.read()
+            text = Path(path).read_text(encoding="utf-8")
             here = re.search(re.escape(pattern).replace(r"\{\}", r"([0-9.]+)"), text)
             if not here:
                 fail(f"{file} has no '{pattern}' (remedy: mend the list in scripts/tuned_constants.py)")
@@ -115,15 +115,13 @@ def main():
                 same = float(value) == float(here[1])
                 rows = committed
                 if not same:
-                    with open(path, "w", encoding="utf-8") as stream:
-                        stream.write(text.replace(here[0], pattern.format(value)))
+                    Path(path).write_text(text.replace(here[0], pattern.format(value)), encoding="utf-8")
                     rows = costs(build(), experiments, arguments.frames)
                 changed |= any(row[1] != old[1] for row, old in zip(rows, committed))
                 cells = " | ".join(f"{row[0]:.0f} ({row[0] / old[0]:.3f}){'' if row[1] == old[1] else ' OTHER SETS'}"
                                    for row, old in zip(rows, committed))
                 print(f"| {name} | {value}{' *' if same else ''} | {cells} |", flush=True)
-            with open(path, "w", encoding="utf-8") as stream:
-                stream.write(text)
+            Path(path).write_text(text, encoding="utf-8")
     finally:
         subprocess.run(["git", "-C", ROOT, "worktree", "remove", "--force", TREE], check=False, capture_output=True)
     return 1 if changed else 0

@@ -8,6 +8,7 @@ import json
 import os
 import shlex
 import subprocess
+from pathlib import Path
 
 
 class Piece:
@@ -80,19 +81,16 @@ def pieces_of_study(program, arguments, out):
 
 def _version(program):
     """A report of another build is another report."""
-    with open(program, "rb") as stream:
-        return hashlib.sha256(stream.read()).hexdigest()
+    return hashlib.sha256(Path(program).read_bytes()).hexdigest()
 
 
 def write_plan(folder, pieces, collect):
     os.makedirs(folder, exist_ok=True)
     place = os.path.join(folder, "plan.json")
-    with open(place + ".new", "w", encoding="utf-8") as stream:
-        json.dump({"pieces": [piece.as_json() for piece in pieces], "collect": collect}, stream, indent=1)
+    Path(place + ".new").write_text(json.dumps({"pieces": [piece.as_json() for piece in pieces], "collect": collect}, indent=1), encoding="utf-8")
     os.replace(place + ".new", place)
 
 
 def read_plan(folder):
-    with open(os.path.join(folder, "plan.json"), encoding="utf-8") as stream:
-        plan = json.load(stream)
+    plan = json.loads(Path(folder, "plan.json").read_text(encoding="utf-8"))
     return [Piece(**piece) for piece in plan["pieces"]], plan["collect"]

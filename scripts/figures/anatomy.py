@@ -5,13 +5,13 @@ program's own node tests, neighbourhoods and visibility pre-test make of them.""
 
 import argparse
 import json
-import subprocess
 
 import numpy as np
 
 import figure_style as style
 from lmdbench_results import ResultError
 from mesh_drawing import rotation
+from program import PROGRAM, answer
 
 
 class Mesh:
@@ -57,12 +57,9 @@ def ask(program, experiment, time=None, levels=()):
     for level in levels:
         command += ["--level", str(level)]
     try:
-        outcome = subprocess.run(command, capture_output=True, text=True, check=False)
+        return Anatomy(json.loads(answer(command)))
     except OSError as error:
         raise ResultError(f"{error} (remedy: build it, or name it with --program)")
-    if outcome.returncode != 0:
-        raise ResultError(outcome.stderr.strip())
-    return Anatomy(json.loads(outcome.stdout))
 
 
 def main_of(name, doc, draw, levels=()):
@@ -72,12 +69,10 @@ def main_of(name, doc, draw, levels=()):
         parser.add_argument("experiment", metavar="EXPERIMENT.json", help="an experiment whose meshes are there")
         parser.add_argument("--time", type=float, default=None, metavar="SECONDS", help="pose of the path; the middle of the contact without it")
         parser.add_argument("--level", type=int, action="append", metavar="N", help=f"levels of the hierarchy; {', '.join(map(str, levels))} without it")
-        parser.add_argument("--program", default="build/release/lmdbench", metavar="FILE")
+        parser.add_argument("--program", default=PROGRAM, metavar="FILE")
         parser.add_argument("--out", required=True, metavar="DIR", help=f"directory of {name}.svg and {name}.png")
         arguments = parser.parse_args(argv)
         style.use_style()
         chosen = arguments.level or list(levels)
-        for file in style.save(draw(ask(arguments.program, arguments.experiment, arguments.time, chosen), chosen), arguments.out, name):
-            print(file)
-        return 0
+        return style.leave(draw(ask(arguments.program, arguments.experiment, arguments.time, chosen), chosen), arguments.out, name)
     return main

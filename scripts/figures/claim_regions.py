@@ -8,16 +8,17 @@ crosses its threshold, or that rests on one repetition, is "undecided" and decid
 
 import argparse
 import json
-import os
+from pathlib import Path
 
-from lmdbench_results import Result, ResultError, run_script
+from lmdbench_results import Result, ResultError, run_script, texts_of
 from readings import readings
 from region_cost import k5, k6, k7, k8, k9
 from region_force import k1, k2, k3, k4
 from claim_verdicts import NOT_MEASURED, VERDICTS
-from region_rules import FAILS, HOLDS, MEAN_EDGE_DIAGONAL, OPEN, table, verdict
+from region_rules import FAILS, HOLDS, MEAN_EDGE_DIAGONAL, OPEN, verdict
 from region_sets import k10, k11, k12
-from sweep_results import Sweep, is_sweep
+from sweep_results import Sweep, commit_of, is_sweep
+from tables import table, write_text
 
 # Of each claim what judges it, the first of the lists that is there whole. A budget sweep varies the search period alone,
 # and a claim of hard or soft contact takes its scene.
@@ -42,23 +43,19 @@ class Roles(dict):
     """What `lmdbench-study roles --json` wrote."""
 
     def commit(self):
-        build = self["context"]["build"]
-        return str(build.get("git_commit", "unknown"))[:12] + (" with local changes" if build.get("git_dirty") == "yes" else "")
+        return commit_of(self["context"]["build"])
 
 
 class Run(Result):
     def commit(self):
-        attributes = self.h5["provenance"].attrs
-        text = {name: value.decode() if isinstance(value, bytes) else value for name, value in attributes.items()}
-        return str(text.get("git_commit", "unknown"))[:12] + (" with local changes" if text.get("git_dirty") == "yes" else "")
+        return commit_of(texts_of(self.h5["provenance"].attrs))
 
 
 def load(file):
     """(name, evidence) of a file: a sweep's, a run's, or the roles'."""
     if str(file).endswith(".json"):
         try:
-            with open(file, encoding="utf-8") as stream:
-                return "roles", Roles(json.load(stream))
+            return "roles", Roles(json.loads(Path(file).read_text(encoding="utf-8")))
         except (OSError, ValueError) as error:
             raise ResultError(f"{file}: cannot be read: {error} (remedy: lmdbench-study roles --json {file})")
     if is_sweep(file):
@@ -157,17 +154,9 @@ def main(argv):
     parser.add_argument("--other", nargs="+", default=[], metavar="FILE", help="the same of another run, on another load: do the verdicts agree?")
     parser.add_argument("--out", required=True, metavar="DIR", help="directory of claim-regions.md and claim-verdicts.json")
     arguments = parser.parse_args(argv)
-    os.makedirs(arguments.out, exist_ok=True)
-    file = os.path.join(arguments.out, "claim-regions.md")
     evidence = dict(load(name) for name in arguments.files)
-    text = markdown(evidence, dict(load(name) for name in arguments.other))
-    with open(file, "w", encoding="utf-8") as stream:
-        stream.write(text)
-    print(file)
-    ledger = os.path.join(arguments.out, VERDICTS)
-    with open(ledger, "w", encoding="utf-8") as stream:
-        stream.write(json.dumps(entries(judged(evidence)), indent=1) + "\n")
-    print(ledger)
+    print(write_text(markdown(evidence, dict(load(name) for name in arguments.other)), arguments.out, "claim-regions.md"))
+    print(write_text(json.dumps(entries(judged(evidence)), indent=1) + "\n", arguments.out, VERDICTS))
     return 0
 
 

@@ -65,8 +65,6 @@ def errors(result):
     return f"(recall and RMS force error, {result.name}: " + "; ".join(texts) + ")"
 
 
-# K1 ------------------------------------------------------------------------------------------------------------------
-
 ZERO_SHARE, STRONG_SHARE = 0.05, 0.5
 
 
@@ -108,9 +106,6 @@ def k1(hard):
          "true_large_changes": {name: events(rate) for name, rate in true.items()}})
 
 
-# K2 ------------------------------------------------------------------------------------------------------------------
-
-
 def k2(hard):
     counts = {}
     for method in both(hard):
@@ -123,9 +118,6 @@ def k2(hard):
     return Claim("K2", "Hard: the working set of LMDs is relatively small (under 10) (6.1).",
                  "LMDs within the cutoff, frames in contact: the 99th percentile is under 10 for both methods.",
                  text + ".", setting, because, {"lmd_count": counts, "share_under_10": share})
-
-
-# K3 ------------------------------------------------------------------------------------------------------------------
 
 
 def k3(soft):
@@ -151,9 +143,6 @@ def k3(soft):
                  {"correlation": correlation, "mean_force_n": {"original": mean_o, "improved": mean_i}})
 
 
-# K4 ------------------------------------------------------------------------------------------------------------------
-
-
 def k4(results):
     parts, texts, numbers = {}, [], {}
     for result in results:
@@ -174,9 +163,6 @@ def k4(results):
                  "(6.1).",
                  "Frames in contact: means within a factor of 1.5; the original gains and loses more LMDs per second.",
                  "; ".join(texts) + ".", setting, because, numbers)
-
-
-# K5 ------------------------------------------------------------------------------------------------------------------
 
 
 def k5(results):
@@ -208,9 +194,6 @@ def k5(results):
                  "10 and 40; the ratio of the sums over all searches grows with the triangle count where results of "
                  "several densities are given.",
                  "; ".join(texts) + ".", setting, because, numbers)
-
-
-# K6 ------------------------------------------------------------------------------------------------------------------
 
 
 def search_ratios(original, improved, busy, repetition):
@@ -246,9 +229,6 @@ def k6(results):
                  "Medians over searches in contact: base ratio 0.8 to 1.25; 99th percentile of reduction / search "
                  "at least 0.8; total ratio 1.5 to 2.5; undecided where repetitions disagree or there is one.",
                  "; ".join(texts) + ".", setting, because, numbers)
-
-
-# K7 ------------------------------------------------------------------------------------------------------------------
 
 
 def local_ratio(result):
@@ -290,17 +270,11 @@ def k7(hard, soft):
                                     "local_update_s": {"hard": time_hard, "soft": time_soft}})
 
 
-# K8 ------------------------------------------------------------------------------------------------------------------
-
-
 def k8():
     return Claim("K8", "The Phantom loop consumes much less processing power than the other threads and can run together with "
                  "local LMD tracking on one core (6.1).",
                  "Processor time of the device loop against the local and global threads.",
                  "These runs have no device loop; `lmdbench-study roles` times it in a closed loop (claim-regions.md).", NOT_MEASURED)
-
-
-# K9 ------------------------------------------------------------------------------------------------------------------
 
 
 def k9(results):
@@ -321,9 +295,6 @@ def k9(results):
     return Claim("K9", "Update rates usually exceed 1 kHz (3), with bunnies of over 10,000 triangles each (6).",
                  "The 99th percentile of the improved local update is under 1 ms in every repetition (two at least) on meshes of more than 10,000 "
                  "triangles.", "; ".join(texts) + ".", setting, because, numbers)
-
-
-# K10 -----------------------------------------------------------------------------------------------------------------
 
 
 def k10(results, unequal):

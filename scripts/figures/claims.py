@@ -16,6 +16,7 @@ import numpy as np
 from claim_rules import rows
 from claim_verdicts import read_verdicts
 from lmdbench_results import Result, run_script
+from tables import write_text
 
 
 def verdict_text(claim):
@@ -57,14 +58,6 @@ def without_nan(value):
     return value
 
 
-def write_text(directory, name, text):
-    os.makedirs(directory, exist_ok=True)
-    file = os.path.join(directory, name)
-    with open(file + ".part", "w", encoding="utf-8") as stream:
-        stream.write(text)
-    os.replace(file + ".part", file)
-
-
 def main(argv):
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("hard", help="result file of the experiment with hard contact")
@@ -79,9 +72,8 @@ def main(argv):
     hard, soft = Result(arguments.hard), Result(arguments.soft)
     others, unequal = ([Result(file) for file in files] for files in (arguments.other, arguments.unequal))
     claims = rows(hard, soft, read_verdicts(arguments.verdicts), others, unequal)
-    write_text(arguments.out, "claims.md", markdown(claims, [hard, soft, *others, *unequal]))
-    write_text(arguments.out, "claims.json",
-               json.dumps([without_nan(asdict(claim)) for claim in claims], indent=2) + "\n")
+    write_text(markdown(claims, [hard, soft, *others, *unequal]), arguments.out, "claims.md")
+    write_text(json.dumps([without_nan(asdict(claim)) for claim in claims], indent=2) + "\n", arguments.out, "claims.json")
     print(plain(claims))
     return 0
 

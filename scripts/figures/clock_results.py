@@ -6,6 +6,7 @@ import numpy as np
 
 import figure_style as style
 from intervals import poisson_interval
+from tables import table
 
 import matplotlib.pyplot as plt
 
@@ -44,9 +45,6 @@ class Clock:
         ticks = sum(self.read(f"{name}/asked").size for name in groups) + skipped
         low, high = poisson_interval(skipped)
         return tuple(1e6 * value / max(ticks, 1) for value in (skipped, low, high))
-
-    def floor_skipped(self):
-        return int(sum(self.attribute("skipped", name) for name in ("floor_before", "floor_after")))
 
     def refused(self):
         granted, asked, thread = (self.read(f"grants/{name}") for name in ("granted", "asked", "thread"))
@@ -111,16 +109,14 @@ def micro(row):
 
 
 def lateness_table(named):
-    """Markdown rows: [(name, clock)]."""
-    lines = ["| run | loop | p50 [us] | p95 | p99 | p99.9 | p99.99 (ticks above) | largest |", "|---|---|---|---|---|---|---|---|"]
+    """Markdown lines: [(name, clock)]."""
+    lines = []
     for name, clock in named:
         for series, loop in (("floor", "empty"), ("servo", "servo, woken"), ("response", "servo, force")):
             rows, above = clock.quantiles(series), clock.above(series)
-            cells = [micro(row) for row in rows.values()]
-            last = list(rows)[-1]
-            lines.append(f"| {name} | {loop} | " + " | ".join(cells[:-1]) + f" | {cells[-1]} ({above[last]}) | "
-                         f"{1e6 * clock.attribute('maximum_s', f'lateness/{series}'):.0f} |")
-    return lines
+            *cells, last = map(micro, rows.values())
+            lines.append([name, loop, *cells, f"{last} ({above[list(rows)[-1]]})", f"{1e6 * clock.attribute('maximum_s', f'lateness/{series}'):.0f}"])
+    return table(["run", "loop", "p50 [us]", "p95", "p99", "p99.9", "p99.99 (ticks above)", "largest"], lines)[:-1]
 
 
 def excess_table(named):
@@ -148,8 +144,5 @@ def role_table(named):
 
 
 def age_table(named):
-    lines = ["| run | age of the set in use, p50 [ms] | p99 | largest | since its search, p50 [ms] | p99 | largest |", "|---|---|---|---|---|---|---|"]
-    for name, clock in named:
-        cells = [f"{value:.2f}" for ages in clock.ages_ms()[1:] for value in (*np.quantile(ages, (0.5, 0.99)), ages.max())]
-        lines.append(f"| {name} | " + " | ".join(cells) + " |")
-    return lines
+    return table(["run", "age of the set in use, p50 [ms]", "p99", "largest", "since its search, p50 [ms]", "p99", "largest"], [
+        [name, *(f"{value:.2f}" for ages in clock.ages_ms()[1:] for value in (*np.quantile(ages, (0.5, 0.99)), ages.max()))] for name, clock in named])[:-1]

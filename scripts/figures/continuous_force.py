@@ -62,9 +62,7 @@ def main(argv):
         axes[0].legend(loc="upper left", ncols=2)
         for axis in axes:
             axis.set_ylim(bottom=0.0)
-        for name in style.save(figure, arguments.out, "continuous-force"):
-            print(name)
-    return 0
+        return style.leave(figure, arguments.out, "continuous-force")
 
 
 if __name__ == "__main__":

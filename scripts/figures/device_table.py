@@ -13,10 +13,12 @@ import resource
 import subprocess
 import sys
 
+from program import PROGRAM, settings_words
+
 DEVICES = ["phantom-desktop", "phantom-premium-1.5", "phantom-omni", "phantom-premium-3.0-6dof"]
 FRICTIONS = [
     ("Coulomb", []),
-    ("none, exact encoders", ["--set", "/loop/friction_n=0", "--set", "/loop/resolution_m=0"]),
+    ("none, exact encoders", settings_words({"/loop/friction_n": 0, "/loop/resolution_m": 0})),
 ]
 PERIOD_S = 1e-3
 TOLERANCE = 1e-3
@@ -51,7 +53,7 @@ def search(program, experiment, device, settings):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--program", default="build/release/lmdbench")
+    parser.add_argument("--program", default=PROGRAM)
     parser.add_argument("--experiment", default=os.path.join("experiments", "stability", "device.json"))
     arguments = parser.parse_args()
     wrong = []

@@ -11,6 +11,7 @@ import json
 import numpy as np
 
 from lmdbench_results import EXIT_CHECK_FAILED, Result, run_script, truth_of
+from tables import table_text, write_text
 
 COMPLETE_SET = "complete-set"  # what a method promises that must have the true set
 HEADINGS = ("scene", "method", "contact frames", "LMDs", "recall [%]", "precision [%]", "frames wrong",
@@ -92,24 +93,19 @@ def cells(row):
 
 
 def markdown(rows):
-    lines = ["| " + " | ".join(HEADINGS) + " |", "|" + "---|" * len(HEADINGS)]
-    return "\n".join(lines + ["| " + " | ".join(cells(row)) + " |" for row in rows])
+    return table_text(HEADINGS, map(cells, rows))
 
 
 def standings(rows):
     """A line a method: in how many scenes it stands, and in how many each criterion fails."""
-    lines = ["| method | stands | misses LMDs | force off | values missing | fewest LMDs known [%] | worst force error [F_max] |",
-             "|" + "---|" * 7]
+    lines = []
     for method in dict.fromkeys(row["method"] for row in rows):
         own = [row for row in rows if row["method"] == method]
         known, force = (min(own, key=lambda row: row["recall_adjacent"]), max(own, key=lambda row: row["force_error_fmax"]))
-        lines.append(f"| {method} | {sum(row['stands'] for row in own)} of {len(own)} "
-                     f"| {sum(row['recall_adjacent'] < STANDS_RECALL for row in own)} "
-                     f"| {sum(not row['force_error_fmax'] <= STANDS_FORCE for row in own)} "
-                     f"| {sum(row['not_a_number'] > 0 for row in own)} "
-                     f"| {100 * known['recall_adjacent']:.1f} ({known['scene']}) "
-                     f"| {force['force_error_fmax']:.2g} ({force['scene']}) |")
-    return "\n".join(lines)
+        lines.append([method, f"{sum(row['stands'] for row in own)} of {len(own)}", sum(row["recall_adjacent"] < STANDS_RECALL for row in own),
+                      sum(not row["force_error_fmax"] <= STANDS_FORCE for row in own), sum(row["not_a_number"] > 0 for row in own),
+                      f"{100 * known['recall_adjacent']:.1f} ({known['scene']})", f"{force['force_error_fmax']:.2g} ({force['scene']})"])
+    return table_text(["method", "stands", "misses LMDs", "force off", "values missing", "fewest LMDs known [%]", "worst force error [F_max]"], lines)
 
 
 LEGEND = f"""\
@@ -145,11 +141,9 @@ def main(argv):
     text = standings(rows) + "\n\n" + markdown(rows) + "\n\n" + LEGEND + "\n"
     print(text, end="")
     if arguments.out:
-        with open(f"{arguments.out}.md", "w", encoding="utf-8") as file:
-            file.write("# Extreme scenes\n\n" + text)
-        with open(f"{arguments.out}.json", "w", encoding="utf-8") as file:
-            json.dump([{key: None if value != value else value for key, value in row.items()} for row in rows], file, indent=1)
-            file.write("\n")
+        write_text("# Extreme scenes\n\n" + text, f"{arguments.out}.md")
+        known = [{key: None if value != value else value for key, value in row.items()} for row in rows]
+        write_text(json.dumps(known, indent=1) + "\n", f"{arguments.out}.json")
     broken = list(complaints(rows)) if arguments.check else []
     for complaint in broken:
         print(f"broken: {complaint}")

@@ -8,13 +8,14 @@ enlarged."""
 import argparse
 import json
 import os
-import subprocess
+from pathlib import Path
 
 import numpy as np
 
 import figure_style as style
 from lmdbench_results import ResultError, run_script
 from mesh_drawing import FIXED, MOVING, draw_triangles, read_off, rotation, view_towards
+from program import PROGRAM, answer
 
 import matplotlib.pyplot as plt
 from matplotlib.collections import LineCollection
@@ -40,10 +41,7 @@ def query(program, folder, meshes, cutoff, poses, method):
     command = [program, "query", "--moving", names[0], "--fixed", names[1], "--cutoff", repr(cutoff), "--method", method, "--poses", "-",
                "--json"]
     lines = "".join(" ".join(repr(float(value)) for value in pose) + "\n" for pose in poses)
-    outcome = subprocess.run(command, input=lines, capture_output=True, text=True, check=False)
-    if outcome.returncode != 0:
-        raise ResultError(outcome.stderr.strip())
-    return [json.loads(line)["lmds"] for line in outcome.stdout.splitlines()]
+    return [json.loads(line)["lmds"] for line in answer(command, lines).splitlines()]
 
 
 def chosen_poses(poses, time):
@@ -91,11 +89,10 @@ def main(argv):
     parser.add_argument("experiment", metavar="EXPERIMENT.json", help="an experiment on built meshes")
     parser.add_argument("--time", type=float, default=None, metavar="SECONDS", help="pose of the path; without it the one nearest the middle that has LMDs")
     parser.add_argument("--method", default="certified")
-    parser.add_argument("--program", default="build/release/lmdbench", metavar="FILE")
+    parser.add_argument("--program", default=PROGRAM, metavar="FILE")
     parser.add_argument("--out", required=True, metavar="DIR", help="directory of figure1.svg and figure1.png")
     arguments = parser.parse_args(argv)
-    with open(arguments.experiment, encoding="utf-8") as stream:
-        experiment = json.load(stream)
+    experiment = json.loads(Path(arguments.experiment).read_text(encoding="utf-8"))
     here = os.path.dirname(arguments.experiment)
     folder = os.path.join(here, experiment.get("mesh_folder", "../meshes"))
     bodies = [experiment["moving"], experiment["fixed"][0]]
@@ -119,9 +116,7 @@ def main(argv):
     pose, lmds = poses[shown], sets[shown]
     placed = [(moving @ rotation(*pose[4:]).T + pose[1:4], meshes["moving"][1]), meshes["fixed"]]
     title = f"{len(lmds)} LMD{'s' * (len(lmds) != 1)} of {arguments.method} within {1e3 * cutoff:.3g} mm, {experiment['name']} at {pose[0]:g} s"
-    for file in style.save(draw(placed, lmds, title), arguments.out, "figure1"):
-        print(file)
-    return 0
+    return style.leave(draw(placed, lmds, title), arguments.out, "figure1")
 
 
 if __name__ == "__main__":

@@ -244,10 +244,7 @@ def main(argv):
     parser.add_argument("results", nargs="+", metavar="RESULT.h5", help="result files, from left to right: in the paper hard, soft")
     parser.add_argument("--out", required=True, metavar="DIR", help="directory of figure7.svg and figure7.png")
     arguments = parser.parse_args(argv)
-    figure = draw(*map(Result, arguments.results))
-    for file in style.save(figure, arguments.out, "figure7"):
-        print(file)
-    return 0
+    return style.leave(draw(*map(Result, arguments.results)), arguments.out, "figure7")
 
 
 if __name__ == "__main__":

@@ -20,7 +20,8 @@ import collections
 
 import numpy as np
 
-from lmdbench_results import Result, ResultError, run_script
+from lmdbench_results import Result, ResultError, law, run_script
+from tables import table_text
 
 REFERENCE = "certified"
 JUMP_SHARE = 0.25  # of F_max: what the summary of a run counts as a jump
@@ -28,16 +29,6 @@ HAND_OVER_TRAVELS = 50  # how far, in travels of the mesh, a minimum may slide w
 KINDS = ("cutoff", "hand-over", "fold", "age", "loss", "false")
 
 Pair = collections.namedtuple("Pair", "distance force point")
-
-
-def law(distance, cutoff, saturation, maximum, sharpness, name):
-    """Length of one LMD's force [N], as src/lmdbench/force/force_law.h."""
-    if distance >= cutoff:
-        return 0.0
-    if distance <= saturation:
-        return maximum
-    s = (cutoff - distance) / (cutoff - saturation)
-    return maximum * (s if name == "linear" or sharpness == 0 else np.expm1(sharpness * s) / np.expm1(sharpness))
 
 
 def travel(position, orientation, radius):
@@ -89,30 +80,26 @@ def events(before, after, true_before, true_after, step, cutoff):
 
 def sets_of(method, frames, scene):
     """[{key: Pair}] of a method, one a frame."""
-    if "lmds" not in method:
-        raise ResultError(f"{method.name}: holds no LMD lists (remedy: run with --set /record/lmds=true)")
-    lmds = {name: dataset[:] for name, dataset in method["lmds"].items()}
-    name = method.attrs["force_law"]
-    name = name.decode() if isinstance(name, bytes) else str(name)
+    if not method.has("lmds"):
+        raise ResultError(f"/methods/{method.label}: holds no LMD lists (remedy: run with --set /record/lmds=true)")
+    lmds = {name: dataset[:] for name, dataset in method.result.h5[f"/methods/{method.label}/lmds"].items()}
     keys = zip(lmds["fixed_body"], lmds["feature_moving_kind"], lmds["feature_moving_index"],
                lmds["feature_fixed_kind"], lmds["feature_fixed_index"])
-    pairs = [(key, Pair(d, -law(d, *scene, name) * n, p)) for key, d, n, p in
-             zip(keys, lmds["distance"], lmds["direction"], lmds["point_fixed"])]
+    pushes = -law(lmds["distance"], *scene, method.force_law)[:, None] * lmds["direction"]
+    pairs = [(key, Pair(*pair)) for key, *pair in zip(keys, lmds["distance"], pushes, lmds["point_fixed"])]
     offset = lmds["frame_offset"]
     return [dict(pairs[offset[f]:offset[f + 1]]) for f in range(frames)]
 
 
 def attribute(file):
     """({label: {kind: jumps [N]}}, F_max, seconds) of one result file."""
-    h5 = Result(file).h5
-    attributes = h5["/scene"].attrs
-    scene = tuple(float(attributes[name]) for name in ("cutoff_m", "saturation_m", "maximum_force_n", "sharpness"))
-    if REFERENCE not in h5["/methods"]:
+    run = Result(file)
+    scene = tuple(run.scene(name) for name in ("cutoff_m", "saturation_m", "maximum_force_n", "sharpness"))
+    if REFERENCE not in run.methods:
         raise ResultError(f"{file}: /methods/{REFERENCE} is missing (remedy: add the method to the experiment)")
-    time = h5["/path/time"][:]
-    steps = travel(h5["/path/position"][:], h5["/path/orientation"][:],
-                   0.5 * float(h5["/scene/moving"].attrs["diagonal_m"]))
-    sets = {label: sets_of(group, time.size, scene) for label, group in h5["/methods"].items()}
+    time = run.time
+    steps = travel(run.read("/path/position"), run.read("/path/orientation"), 0.5 * float(run.h5["/scene/moving"].attrs["diagonal_m"]))
+    sets = {label: sets_of(run.methods[label], time.size, scene) for label in sorted(run.methods)}
     true = sets[REFERENCE]
     result = {}
     for label, own in sets.items():
@@ -125,15 +112,15 @@ def attribute(file):
 
 
 def table(result, maximum, seconds):
-    lines = ["| method | " + " | ".join(KINDS) + " |", "|---|" + "---|" * len(KINDS)]
+    rows = []
     for label, jumps in result.items():
         cells = []
         for kind in KINDS:
             values = np.array(jumps[kind]) / maximum
             large = values[values > JUMP_SHARE]
             cells.append(f"{values.size}, {large.size / seconds:.2f}/s, {values.max():.2f}" if values.size else "none")
-        lines.append(f"| {label} | " + " | ".join(cells) + " |")
-    return "\n".join(lines)
+        rows.append([label, *cells])
+    return table_text(["method", *KINDS], rows)
 
 
 def main(argv):

@@ -38,6 +38,15 @@ DATA_ERRORS = (AttributeError, IndexError, KeyError, TypeError, ValueError)
 OPENED = []  # names of the results of this call, for messages
 
 
+def text(value):
+    """What HDF5 has as bytes or as text; all else as it is."""
+    return value.decode() if isinstance(value, bytes) else value
+
+
+def texts_of(attributes):
+    return {name: text(value) for name, value in attributes.items()}
+
+
 def check_content(file, h5):
     """Whether the file's bytes are those that were written (results/README.md); results of earlier versions do not tell."""
     digits = h5.attrs.get("content_sha256")
@@ -62,8 +71,7 @@ def open_h5(file):
         h5 = h5py.File(file, "r")
     except OSError as error:
         raise ResultError(f"{file}: cannot be read: {error} {remedy}")
-    found, creator = (value.decode() if isinstance(value, bytes) else value
-                      for value in (h5.attrs.get(name) for name in ("format", "creator")))
+    found, creator = (text(h5.attrs.get(name)) for name in ("format", "creator"))
     if found == "lmdbench-part":
         raise ResultError(f"{file}: is an unfinished run (remedy: finish it with lmdbench run --resume)")
     if found != FORMAT or "format_version" not in h5.attrs:
@@ -183,11 +191,10 @@ class Result:
         return self.texts(path)[0]
 
     def texts(self, path):
-        return [item.decode() if isinstance(item, bytes) else str(item) for item in np.ravel(self.read(path))]
+        return [str(text(item)) for item in np.ravel(self.read(path))]
 
     def text_attribute(self, path, name, default=None):
-        value = self.h5[path].attrs.get(name, default) if path in self.h5 else default
-        return value.decode() if isinstance(value, bytes) else value
+        return text(self.h5[path].attrs.get(name, default)) if path in self.h5 else default
 
     def _warm_up_repetitions(self):
         for path in ("/methods", "/"):
@@ -247,9 +254,7 @@ class Result:
         return min(counts) if smallest else sum(counts)
 
     def machine(self):
-        if "/provenance/machine" not in self.h5:
-            return {}
-        return {name: self.text_attribute("/provenance/machine", name) for name in self.h5["/provenance/machine"].attrs}
+        return texts_of(self.h5["/provenance/machine"].attrs) if "/provenance/machine" in self.h5 else {}
 
 
 def nan_median(values, axis=None):
@@ -269,6 +274,12 @@ def quantile(values, share):
 
 def median(values):
     return quantile(values, 0.5)
+
+
+def law(distance, cutoff, saturation, maximum, sharpness, name):
+    """Lengths of the forces of LMDs [N], as src/lmdbench/force/force_law.h."""
+    s = np.clip((cutoff - distance) / (cutoff - saturation), 0.0, 1.0)
+    return maximum * (s if name == "linear" or sharpness == 0 else np.expm1(sharpness * s) / np.expm1(sharpness))
 
 
 class Truth:

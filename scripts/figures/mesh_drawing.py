@@ -32,6 +32,12 @@ def read_off(file):
     return points, np.array(words[4 + 3 * vertices:4 + 3 * vertices + 4 * triangles], dtype=int).reshape(-1, 4)[:, 1:]
 
 
+def placed(points, diagonal):
+    """Centre of the bounding box at the origin, its diagonal as long as the experiment says."""
+    low, high = points.min(axis=0), points.max(axis=0)
+    return (points - 0.5 * (low + high)) * (diagonal / np.linalg.norm(high - low))
+
+
 def rotation(x, y, z, w):
     return np.array([[1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)],
                      [2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)],

@@ -11,30 +11,13 @@ import os
 import numpy as np
 
 import figure_style as style
-from lmdbench_results import ResultError, open_h5, run_script
+from lmdbench_results import ResultError, open_h5, run_script, text
+from mesh_drawing import placed, read_off
 
 import matplotlib.pyplot as plt
 from mpl_toolkits.mplot3d.art3d import Line3DCollection, Poly3DCollection
 
 LIGHT = np.array([0.4, 0.7, 0.6]) / np.linalg.norm([0.4, 0.7, 0.6])
-
-
-def read_off(file):
-    try:
-        with open(file, encoding="ascii") as stream:
-            words = stream.read().split()
-    except FileNotFoundError as error:
-        raise ResultError(f"{file}: no such mesh (remedy: lmdbench mesh build)") from error
-    vertices, faces = int(words[1]), int(words[2])
-    points = np.array(words[4 : 4 + 3 * vertices], dtype=float).reshape(-1, 3)
-    rest = np.array(words[4 + 3 * vertices : 4 + 3 * vertices + 4 * faces], dtype=int).reshape(-1, 4)
-    return points, rest[:, 1:]
-
-
-def placed(points, diagonal):
-    """Centre of the bounding box at the origin, its diagonal as long as the experiment says."""
-    low, high = points.min(axis=0), points.max(axis=0)
-    return (points - 0.5 * (low + high)) * (diagonal / np.linalg.norm(high - low))
 
 
 class Lines:
@@ -69,9 +52,7 @@ def draw_mesh(axes, points, faces):
     shade = 0.62 + 0.36 * np.clip(normals @ LIGHT[[2, 0, 1]], 0, 1)
     axes.add_collection3d(Poly3DCollection(corners, facecolors=np.repeat(shade[:, None], 3, axis=1), rasterized=True))
     low, high = corners.reshape(-1, 3).min(axis=0), corners.reshape(-1, 3).max(axis=0)
-    axes.set_xlim(low[0], high[0])
-    axes.set_ylim(low[1], high[1])
-    axes.set_zlim(low[2], high[2])
+    axes.set(xlim=(low[0], high[0]), ylim=(low[1], high[1]), zlim=(low[2], high[2]))
     axes.set_box_aspect(high - low, zoom=1.25)
     axes.set_axis_off()
 
@@ -88,10 +69,9 @@ def main(argv):
             raise ResultError(f"{arguments.result}: no /polylines (remedy: --set /record/polylines/stride_frames=5)")
         lines = Lines(file["polylines"])
         scene = file["scene/fixed_0"].attrs
-        mesh, diagonal = scene["mesh"], scene["diagonal_m"]
+        mesh, diagonal = text(scene["mesh"]), scene["diagonal_m"]
         rate = file["scene"].attrs["frame_rate_hz"]
         validity = json.loads(scene["validity"])
-    mesh = mesh.decode() if isinstance(mesh, bytes) else mesh
     points, faces = read_off(os.path.join(arguments.meshes, f"{mesh}.off"))
     cutting = [i for i in range(len(lines.frames)) if lines.of(i)]
     if not cutting:
@@ -119,9 +99,7 @@ def main(argv):
         bottom.set_ylim(0, 1.6e6 * np.quantile(lines.seconds, 0.95))  # above: another program had the processor
         bottom.set_ylabel("walk and chaining [us]")
         bottom.set_xlabel("time [s]")
-        for name in style.save(figure, arguments.out, "polylines"):
-            print(name)
-    return 0
+        return style.leave(figure, arguments.out, "polylines")
 
 
 if __name__ == "__main__":

@@ -9,7 +9,8 @@ import math
 
 import numpy as np
 
-from region_rules import shown, table
+from lmdbench_results import law
+from tables import shown, table
 
 DECISIONS = {
     "e1": "leaf cones", "e2": "inequality of G3", "e3": "overlapping spheres", "e4": "line cone of the original",
@@ -69,6 +70,7 @@ def readings(sweep, direction_memory=None):
 def memory_text(result):
     """E12: LMDs at distance 0 push along the last valid direction; the other reading lets them push not at all."""
     rows = []
+    profile = [result.scene(name) for name in ("cutoff_m", "saturation_m", "maximum_force_n", "sharpness")]
     for method in result.methods.values():
         if not method.has("lmds/distance"):
             continue
@@ -83,8 +85,8 @@ def memory_text(result):
             frames[frame] = True
             here, free = direction[rows_here], ~touching[rows_here]
             lengths.append(np.linalg.norm(method.read("force")[frame]))
-            law = magnitudes(distance[rows_here], method, result)
-            push = -(law[free, None] * here[free]).sum(axis=0) if free.any() else np.zeros(3)
+            lengths_here = law(distance[rows_here], *profile, method.force_law)
+            push = -(lengths_here[free, None] * here[free]).sum(axis=0) if free.any() else np.zeros(3)
             without.append(min(np.linalg.norm(push), result.scene("force_limit_n")))
         if lengths:
             rows.append([result.name, method.label, int(frames.sum()), shown(float(np.mean(lengths))), shown(float(np.mean(without))),
@@ -92,10 +94,3 @@ def memory_text(result):
     return ["E12, contacts: frames in which triangles touch or intersect, and the force there.", "",
             *table(["scene", "method", "frames with touching pairs", "force as decided [N], mean", "without the last direction [N], mean",
                     "of these frames without any force then [%]"], rows)]
-
-
-def magnitudes(distance, method, result):
-    """Force of each LMD [N], by the law of the method (decision E9)."""
-    cutoff, saturation, largest, k = (result.scene(name) for name in ("cutoff_m", "saturation_m", "maximum_force_n", "sharpness"))
-    s = np.clip((cutoff - distance) / (cutoff - saturation), 0.0, 1.0)
-    return largest * (s if method.force_law == "linear" or k == 0 else np.expm1(k * s) / np.expm1(k))

@@ -14,12 +14,15 @@ import subprocess
 import sys
 import tempfile
 import time
+from pathlib import Path
 
 import numpy as np
 
 import figure_style as style
 from clock_results import age_table, clocks, draw_timing, excess_table, lateness_table, micro, role_table
 from lmdbench_results import Result, ResultError, run_script
+from program import PROGRAM, failure, printed, settings_words
+from tables import write_text
 
 import matplotlib.pyplot as plt
 
@@ -50,10 +53,7 @@ class Study:
         return os.path.join(self.out, name + ".h5")
 
     def command(self, experiment, file, settings):
-        command = [self.program, "-q", "run", experiment, "--out", file]
-        for pointer, value in settings.items():
-            command += ["--set", f"{pointer}={json.dumps(value)}"]
-        return command
+        return [self.program, "-q", "run", experiment, "--out", file, *settings_words(settings)]
 
     def spend(self):
         if self.left == 0:
@@ -65,10 +65,7 @@ class Study:
         file = self.file(name)
         if not os.path.exists(file):
             self.spend()
-            command = self.command(experiment, file, settings)
-            done = subprocess.run(command, capture_output=True, text=True, check=False, stdin=subprocess.DEVNULL)
-            if done.returncode != 0:
-                raise ResultError(f"{' '.join(command)}: exit code {done.returncode}\n{done.stderr}")
+            printed(self.command(experiment, file, settings))
         result = Result(file)
         self.loads.append(float(result.machine().get("load_average_1_minute", "nan")))
         return result
@@ -259,9 +256,9 @@ def stopped_process(study, experiment, settings):
             process.send_signal(signal.SIGSTOP)
             time.sleep(STOPPED_S)
             process.send_signal(signal.SIGCONT)
-            _, errors = process.communicate()
+            process.stderr = process.communicate()[1]
             if process.returncode != 0:
-                raise ResultError(f"{' '.join(command)}: exit code {process.returncode}\n{errors}")
+                raise failure(command, process)
     return clocks(Result(file))[0]
 
 
@@ -304,10 +301,8 @@ def full_disk(study, settings):
             if not done.stdout.strip():
                 raise ResultError(f"a full disk could not be made: {done.stderr}")
             said = [line.replace(disk, "DISK") for line in done.stderr.splitlines() if "error" in line]
-        with open(note, "w", encoding="utf-8") as stream:
-            json.dump({"exit": int(done.stdout.split()[0]), "error": said, "frames": measured(kept), "result": done.returncode != 0}, stream)
-    with open(note, encoding="utf-8") as stream:
-        return json.load(stream)
+        write_text(json.dumps({"exit": int(done.stdout.split()[0]), "error": said, "frames": measured(kept), "result": done.returncode != 0}), note)
+    return json.loads(Path(note).read_text(encoding="utf-8"))
 
 
 def overload_part(study):
@@ -360,8 +355,7 @@ def crossing(shares, growths):
 
 def closed_part(study):
     """The wall's boundary by the lockstep, and what the clock makes of stiffnesses about it."""
-    done = subprocess.run([study.program, "-q", "stability", "experiments/wall.json", "--json"], capture_output=True, text=True, check=True, stdin=subprocess.DEVNULL)
-    boundary = json.loads(done.stdout)[0]["critical_stiffness_n_per_m"]
+    boundary = json.loads(printed([study.program, "-q", "stability", "experiments/wall.json", "--json"]))[0]["critical_stiffness_n_per_m"]
     lines = ["## Closed loops", "", f"`wall`: the lockstep's boundary is {boundary:.5g} N/m. At shares of it the ball swings about its place of rest for 0.6 s; does the swing grow? "
              "On the clock a force "
              f"comes later than the pose that it is for, and the simulated ball feels that, in steps of 10 us. With a delay t_d the boundary b / (T/2 + t_d) falls by T/2 / (T/2 + t_d).", "",
@@ -399,7 +393,7 @@ def closed_part(study):
 
 def main(argv):
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--program", default="build/release/lmdbench")
+    parser.add_argument("--program", default=PROGRAM)
     parser.add_argument("--out", default="results/realtime", help="folder of results, realtime.md and figures")
     parser.add_argument("--seconds", type=float, default=60.0, help="of each run on the clock")
     parser.add_argument("--parts", nargs="+", choices=PARTS, default=PARTS)
@@ -417,10 +411,7 @@ def main(argv):
     if study.missing:
         lines += [f"Not run: {', '.join(study.missing)}.", ""]
         print(f"{len(study.missing)} runs are missing: call again", file=sys.stderr)
-    file = os.path.join(arguments.out, "realtime.md")
-    with open(file, "w", encoding="utf-8") as stream:
-        stream.write("\n".join(lines))
-    print(file)
+    print(write_text("\n".join(lines), arguments.out, "realtime.md"))
     return 0
 
 

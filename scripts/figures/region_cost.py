@@ -8,13 +8,9 @@ import math
 import numpy as np
 
 from intervals import bootstrap
-from region_rules import (FAILS, HOLDS, OPEN, all_of, blocks, cutoff_share, decide, groups, interval, joined, mesh, of_repetitions, partner, shown, span, table,
-                          triangles, usable)
-
-
-def mean_edges(point):
-    """Its cutoff; the bunnies' edges shrink with the root of their number of triangles."""
-    return shown(cutoff_share(point) / (0.0128 * math.sqrt(16298 / triangles(mesh(point)))), 2)
+from region_rules import (FAILS, HOLDS, OPEN, all_of, blocks, cutoff_share, decide, groups, joined, mean_edges, mesh, of_repetitions, partner, span, triangles,
+                          usable)
+from tables import interval, shown, table
 
 
 def options_text(options):

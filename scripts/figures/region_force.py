@@ -6,8 +6,9 @@
 import numpy as np
 
 from intervals import bootstrap
-from region_rules import (FAILS, HOLDS, OPEN, all_of, blocks, cutoff_share, decide, groups, in_edges, interval, joined, partner,
-                          rate, shown, table, tolerance, usable)
+from region_rules import (FAILS, HOLDS, OPEN, all_of, blocks, cutoff_share, decide, groups, in_edges, joined, partner, rate, tolerance,
+                          usable)
+from tables import interval, shown, table
 
 
 def schedule(period):

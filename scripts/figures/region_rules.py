@@ -5,35 +5,24 @@ threshold; a claim's verdict is made of its settings."""
 
 import json
 import math
-import os
+from pathlib import Path
 
 import numpy as np
 
 from intervals import Rate
+from tables import shown
 
 HOLDS, FAILS, OPEN = "holds", "does not hold", "undecided"  # a setting
 REPRODUCED, NOT_REPRODUCED, HOLDS_WHERE = "reproduced", "not reproduced", "holds where"  # a claim, or OPEN
 LEAST_REPETITIONS = 2  # one does not tell how far the next would lie from it
 MEAN_EDGE_DIAGONAL = 0.0128  # of bunny-16k: `lmdbench mesh info bunny-16k`, mean edge / diagonal
+MANIFEST = Path(__file__).resolve().parents[2] / "meshes" / "manifest.json"
 BLOCK = 200  # frames that are resampled together: neighbours resemble each other
-
-
-def shown(value, digits=3):
-    return f"{value:.{digits}g}" if math.isfinite(value) else "-"
-
-
-def interval(value, limits):
-    return f"{shown(value)} [{shown(limits[0])}, {shown(limits[1])}]"
 
 
 def span(values):
     """From the least to the largest; one number where both are shown alike."""
     return " to ".join(dict.fromkeys((shown(min(values)), shown(max(values)))))
-
-
-def table(headings, rows):
-    return ["| " + " | ".join(headings) + " |", "|" + "---|" * len(headings),
-            *("| " + " | ".join(str(cell) for cell in row) + " |" for row in rows), ""]
 
 
 def decide(low, high, at_least=None, at_most=None):
@@ -111,10 +100,13 @@ def mesh(point):
 
 def triangles(name):
     """Of a mesh of the manifest; NaN for another one."""
-    manifest = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "meshes", "manifest.json")
-    with open(manifest, encoding="utf-8") as stream:
-        meshes = json.load(stream)["meshes"]
+    meshes = json.loads(MANIFEST.read_text(encoding="utf-8"))["meshes"]
     return meshes.get(name, {}).get("triangles", math.nan)
+
+
+def mean_edges(point):
+    """Its cutoff in mean edges of its mesh; the bunnies' edges shrink with the root of their number of triangles."""
+    return shown(cutoff_share(point) / (MEAN_EDGE_DIAGONAL * math.sqrt(16298 / triangles(mesh(point)))), 2)
 
 
 def rate(points, name):

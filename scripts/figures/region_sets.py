@@ -7,9 +7,11 @@ import os
 
 import numpy as np
 
-from lmdbench_results import median, quantile
-from polylines import Lines, placed, read_off
-from region_rules import FAILS, HOLDS, cutoff_share, mesh, shown, table, tolerance, triangles, usable
+from lmdbench_results import median, quantile, text
+from polylines import Lines
+from mesh_drawing import placed, read_off
+from region_rules import FAILS, HOLDS, mean_edges, mesh, tolerance, usable
+from tables import shown, table
 
 DENSE = ("bunny-hard",)
 UNEVEN = ("extreme-unequal", "extreme-needles")
@@ -20,14 +22,8 @@ def is_fresh(point):
     return point.experiment["driver"]["search_latency_frames"] == 0
 
 
-def cutoff_in_edges(point):
-    if "bunny" not in mesh(point) or not math.isfinite(cutoff_share(point)):
-        return "-"
-    return shown(cutoff_share(point) / (0.0128 * math.sqrt(16298 / triangles(mesh(point)))), 2)
-
-
 def set_row(point, cell):
-    return [point.scene, mesh(point), cutoff_in_edges(point), point.series, "fresh" if is_fresh(point) else "aged",
+    return [point.scene, mesh(point), mean_edges(point) if "bunny" in mesh(point) else "-", point.series, "fresh" if is_fresh(point) else "aged",
             f"{tolerance(point):.0f}" if tolerance(point) is not None else "-", shown(100 * (1 - point.number("recall"))),
             shown(100 * (1 - point.number("recall_adjacent"))), shown(100 * point.number("precision")), shown(100 * point.force_error), cell]
 
@@ -102,7 +98,7 @@ def rotated_back(quaternion, vector):
 
 def body(result, name, meshes):
     scene = result.h5[f"scene/{name}"].attrs
-    mesh_name = scene["mesh"].decode() if isinstance(scene["mesh"], bytes) else scene["mesh"]
+    mesh_name = text(scene["mesh"])
     points, faces = read_off(os.path.join(meshes, f"{mesh_name}.off"))
     points = placed(points, scene["diagonal_m"])
     return mesh_name, points[faces], float(scene["diagonal_m"])

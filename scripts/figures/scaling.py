@@ -9,11 +9,13 @@ at every size, so all sizes are drawn together."""
 
 import argparse
 import json
+from pathlib import Path
 
 import numpy as np
 
 import figure_style as style
 from lmdbench_results import ResultError, run_script
+from tables import table_text
 
 import matplotlib.pyplot as plt
 from matplotlib.lines import Line2D
@@ -55,8 +57,7 @@ def load(files):
     studies = {}
     for file in files:
         try:
-            with open(file, encoding="utf-8") as stream:
-                report = json.load(stream)
+            report = json.loads(Path(file).read_text(encoding="utf-8"))
         except FileNotFoundError as error:
             raise ResultError(f"{file}: there is no such file (remedy: make it with lmdbench-study scaling --json "
                               f"{file})") from error
@@ -102,34 +103,32 @@ def slope_with_interval(x, values):
     return slope_of(x, np.median(values, axis=1)), low, high
 
 
+def sized(studies):
+    """(study, its points, its mark) of those that vary the number of triangles."""
+    return [(study, studies[study], marker) for study, marker in STUDIES.items() if study in studies]
+
+
+def describe(axes, title, x, y="time per query [\u00b5s], median"):
+    axes.set(xlabel=x, ylabel=y)
+    axes.set_title(title, loc="left", fontweight="bold")
+
+
 def draw_times(axes, studies):
-    for study, marker in STUDIES.items():
-        if study not in studies:
-            continue
-        points = studies[study]
-        x = triangles(points)
+    for _, points, marker in sized(studies):
         for method, (_, colour, line) in looks(studies).items():
-            values = samples(points, method)
-            axes.plot(x, np.median(values, axis=1), color=colour, ls=line, lw=0.8, marker=marker, ms=3.4, mec="white",
+            axes.plot(triangles(points), np.median(samples(points, method), axis=1), color=colour, ls=line, lw=0.8, marker=marker, ms=3.4, mec="white",
                       mew=0.4)
-    axes.set_xlabel("triangles of the moving mesh")
-    axes.set_ylabel("time per query [\u00b5s], median")
-    axes.set_title("a  Time at gap 0.2 %, cutoff 0.5 %", loc="left", fontweight="bold")
+    describe(axes, "a  Time at gap 0.2 %, cutoff 0.5 %", "triangles of the moving mesh")
 
 
 def draw_counters(axes, studies):
-    for study, marker in STUDIES.items():
-        if study not in studies:
-            continue
-        points = studies[study]
+    for _, points, marker in sized(studies):
         for counter, (_, colour, line) in COUNTERS.items():
             values = np.array([point["methods"][CERTIFIED]["counters"][counter] for point in points], dtype=float)
             middle = np.mean(values, axis=1)  # medians of small counts would jump
             axes.plot(triangles(points), np.where(middle > 0, middle, np.nan), color=colour, ls=line, lw=0.8,
                       marker=marker, ms=3.4, mec="white", mew=0.4)
-    axes.set_xlabel("triangles of the moving mesh")
-    axes.set_ylabel("work of certified per query, mean")
-    axes.set_title("b  Work counters of certified", loc="left", fontweight="bold")
+    describe(axes, "b  Work counters of certified", "triangles of the moving mesh", "work of certified per query, mean")
     keys = [Line2D([], [], color=colour, ls=line, label=label) for label, colour, line in COUNTERS.values()]
     axes.set_ylim(top=axes.get_ylim()[1] * 25)  # room for the key
     axes.legend(handles=keys, loc="upper left", ncol=2, handlelength=2.4, columnspacing=1.2)
@@ -141,10 +140,7 @@ def draw_cutoffs(axes, studies):
     for method, (_, colour, line) in looks(studies).items():
         values = samples(points, method)
         axes.plot(x, np.median(values, axis=1), color=colour, ls=line, lw=0.9, marker="o", ms=3.2, mec="white", mew=0.4)
-    axes.set_xlabel("cutoff [% of the diagonal]")
-    axes.set_ylabel("time per query [\u00b5s], median")
-    axes.set_title("c  Time over cutoff, bunnies of 16k", loc="left", fontweight="bold")
-    axes.xaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
+    describe(axes, "c  Time over cutoff, bunnies of 16k", "cutoff [% of the diagonal]")
 
 
 def draw_contacts(axes, studies):
@@ -158,23 +154,17 @@ def draw_contacts(axes, studies):
         groups = [group for group in groups if np.count_nonzero(group) >= 5]
         axes.plot([np.mean(counts[group]) for group in groups], [np.median(values[group]) for group in groups],
                   color=colour, ls=line, lw=0.9, marker="o", ms=3.2, mec="white", mew=0.4)
-    axes.set_xlabel("number of LMDs of the pose")
-    axes.set_ylabel("time per query [\u00b5s], median")
-    axes.set_title("d  Time over contacts, all cutoffs of c", loc="left", fontweight="bold")
-    axes.xaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
+    describe(axes, "d  Time over contacts, all cutoffs of c", "number of LMDs of the pose")
 
 
 def print_slopes(studies):
-    print("| study | triangles | method | slope of log time over log triangles | 95 % interval |")
-    print("|---|---|---|---|---|")
-    for study in STUDIES:
-        if study not in studies:
-            continue
-        points = studies[study]
+    rows = []
+    for study, points, _ in sized(studies):
         x = triangles(points)
         for method, (label, _, _) in looks(studies).items():
             slope, low, high = slope_with_interval(x, samples(points, method))
-            print(f"| {STUDY_LABELS[study]} | {x[0]:.0f} to {x[-1]:.0f} | {label} | {slope:.3f} | {low:.3f} to {high:.3f} |")
+            rows.append([STUDY_LABELS[study], f"{x[0]:.0f} to {x[-1]:.0f}", label, f"{slope:.3f}", f"{low:.3f} to {high:.3f}"])
+    print(table_text(["study", "triangles", "method", "slope of log time over log triangles", "95 % interval"], rows))
 
 
 def draw(studies):
@@ -182,8 +172,7 @@ def draw(studies):
     figure, axes = plt.subplots(2, 2, figsize=(style.TWO_COLUMNS_IN, 6.0), gridspec_kw={
         "left": 0.08, "right": 0.985, "bottom": 0.07, "top": 0.845, "wspace": 0.2, "hspace": 0.32})
     for panel in axes.flat:
-        panel.set_xscale("log")
-        panel.set_yscale("log")
+        panel.set(xscale="log", yscale="log")
     draw_times(axes[0, 0], studies)
     draw_counters(axes[0, 1], studies)
     draw_cutoffs(axes[1, 0], studies)
@@ -203,7 +192,7 @@ def draw(studies):
                           columnspacing=1.4, borderpad=0.1)
     figure.add_artist(first)
     marks = [Line2D([], [], color="#444444", ls="none", marker=marker, ms=4.5, mew=0, label=STUDY_LABELS[study])
-             for study, marker in STUDIES.items() if study in studies]
+             for study, _, marker in sized(studies)]
     figure.legend(handles=marks, loc="upper left", bbox_to_anchor=(0.07, 0.915), ncol=4, handlelength=1.2,
                   columnspacing=1.2, borderpad=0.1)
     figure.text(0.075, 0.973, "How run time grows with the meshes and with the contact", fontsize=8.5,
@@ -222,9 +211,7 @@ def main(argv):
         raise ResultError(f"{', '.join(arguments.files)}: the study '{missing[0]}' is missing (remedy: run "
                           "lmdbench-study scaling without --only)")
     print_slopes(studies)
-    for file in style.save(draw(studies), arguments.out, "scaling"):
-        print(file)
-    return 0
+    return style.leave(draw(studies), arguments.out, "scaling")
 
 
 if __name__ == "__main__":

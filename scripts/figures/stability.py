@@ -9,11 +9,13 @@ import argparse
 import json
 import math
 import os
-import subprocess
 import sys
+from pathlib import Path
 
 import figure_style as style
-from lmdbench_results import EXIT_CHECK_FAILED, ResultError, run_script
+from lmdbench_results import EXIT_CHECK_FAILED, run_script
+from program import PROGRAM, printed, settings_words
+from tables import shown, table_text, write_text
 
 import matplotlib.pyplot as plt
 
@@ -58,19 +60,12 @@ class Searches:
         """Rows of one search; 'settings' maps JSON pointers to values."""
         key = self.key(experiment, settings)
         if key not in self.known:
-            self.known[key] = self.run(experiment, settings)
+            # 3: a row has no stiffness, and says why
+            said = printed([self.program, "stability", experiment, "--json", *settings_words(settings)], allowed=(0, 3))
+            self.known[key] = json.loads(said)
             with open(self.file, "a", encoding="utf-8") as stream:
                 stream.write(json.dumps({"experiment": experiment, "settings": settings, "rows": self.known[key]}) + "\n")
         return self.known[key]
-
-    def run(self, experiment, settings):
-        command = [self.program, "stability", experiment, "--json"]
-        for pointer, value in settings.items():
-            command += ["--set", f"{pointer}={json.dumps(value)}"]
-        done = subprocess.run(command, capture_output=True, text=True, check=False, stdin=subprocess.DEVNULL)
-        if done.returncode not in (0, 3):  # 3: a row has no stiffness, and says why
-            raise ResultError(f"{' '.join(command)}: exit code {done.returncode}\n{done.stderr}")
-        return json.loads(done.stdout)
 
 
 def deviation(row):
@@ -94,64 +89,53 @@ def lever_rows(searches, folder):
                 yield name, row
 
 
+def cells(row):
+    """Of a row with an exact boundary, from its delay on."""
+    return [row["delay_frames"], *(f"{row[name]:.7g}" for name in ("critical_stiffness_n_per_m", "exact_n_per_m", "bound_n_per_m")), f"{deviation(row):+.1e}"]
+
+
 def lever_table(rows):
-    lines = ["| device | delay, frames | critical, N/m | exact, N/m | bound, N/m | difference |", "|---|---|---|---|---|---|"]
-    for name, row in rows:
-        lines.append(f"| {name} | {row['delay_frames']} | {row['critical_stiffness_n_per_m']:.7g} | {row['exact_n_per_m']:.7g} "
-                     f"| {row['bound_n_per_m']:.7g} | {deviation(row):+.1e} |")
-    return "\n".join(lines)
+    return table_text(["device", "delay, frames", "critical, N/m", "exact, N/m", "bound, N/m", "difference"], [[name, *cells(row)] for name, row in rows])
 
 
 def scene_rows(searches, folder):
     """(scene, profile, row)"""
     for scene in SCENES:
         file = os.path.join(folder, "stability", f"{scene}.json")
-        with open(file, encoding="utf-8") as stream:
-            profiles = json.load(stream)["force"]
+        profiles = json.loads(Path(file).read_text(encoding="utf-8"))["force"]
         for profile in profiles:
             for delay in SCENE_DELAYS_FRAMES:
                 for row in searches.rows(file, {"/loop/delay_frames": delay, "/force": [profile]}):
                     yield scene, row["profile"], row
 
 
-def number(value, digits=6):
-    return "none" if value is None else f"{value:.{digits}g}"
+def number(value):
+    return shown(value, 6, missing="none")
 
 
 def wall_table(rows):
-    lines = ["| mass, kg | damping, N s/m | rate, Hz | delay, frames | critical, N/m | exact, N/m | b/(T/2 + t_d), N/m "
-             "| difference |", "|---|---|---|---|---|---|---|---|"]
-    for row in rows:
-        lines.append(f"| {row['mass_kg']:g} | {row['damping_n_s_per_m']:g} | {row['servo_rate_hz']:g} "
-                     f"| {row['delay_frames']} | {row['critical_stiffness_n_per_m']:.7g} | {row['exact_n_per_m']:.7g} "
-                     f"| {row['bound_n_per_m']:.7g} | {deviation(row):+.1e} |")
-    return "\n".join(lines)
+    return table_text(["mass, kg", "damping, N s/m", "rate, Hz", "delay, frames", "critical, N/m", "exact, N/m", "b/(T/2 + t_d), N/m", "difference"],
+                      [[*(f"{row[name]:g}" for name in ("mass_kg", "damping_n_s_per_m", "servo_rate_hz")), *cells(row)] for row in rows])
 
 
 def scene_table(rows):
     """One line a scene, profile and delay; a column a method."""
     methods = list(dict.fromkeys(row["method"] for _, _, row in rows))
-    lines = ["| scene | profile | delay, frames | " + " | ".join(f"{m}, N/m" for m in methods) + " | one contact, exact, N/m "
-             "| ended by |", "|---|---|---|" + "---|" * (len(methods) + 2)]
-    groups = {}
+    lines, groups = [], {}
     for scene, profile, row in rows:
         groups.setdefault((scene, profile, row["delay_frames"]), []).append(row)
     for (scene, profile, delay), group in groups.items():
         found = {row["method"]: row for row in group}
         ends = ", ".join(dict.fromkeys(row["clean_until"] for row in group))
-        cells = " | ".join(number(found[m]["critical_stiffness_n_per_m"]) for m in methods)
-        lines.append(f"| {scene} | {profile} | {delay} | {cells} | {number(group[0]['exact_n_per_m'])} | {ends} |")
-    return "\n".join(lines)
+        lines.append([scene, profile, delay, *(number(found[m]["critical_stiffness_n_per_m"]) for m in methods), number(group[0]["exact_n_per_m"]), ends])
+    return table_text(["scene", "profile", "delay, frames", *(f"{m}, N/m" for m in methods), "one contact, exact, N/m", "ended by"], lines)
 
 
 def draw(walls, scenes, directory):
     style.use_style()
     figure, axes = plt.subplots(1, 2, figsize=(style.TWO_COLUMNS_IN, 3.0), layout="constrained")
     axes[0].set_xscale("symlog", linthresh=1)
-    axes[0].set_yscale("log")
-    axes[0].set_xlabel("delay, frames")
-    axes[0].set_ylabel("largest clean stiffness, N/m")
-    axes[0].set_title("wall, 0.04 kg, 0.8 N s/m: found (points), exact (lines)")
+    axes[0].set(yscale="log", xlabel="delay, frames", ylabel="largest clean stiffness, N/m", title="wall, 0.04 kg, 0.8 N s/m: found (points), exact (lines)")
     for rate, colour in zip(RATES_HZ, (style.VERMILLION, style.BLUE, style.GREEN, style.PURPLE)):
         rows = [r for r in walls if r["servo_rate_hz"] == rate and (r["mass_kg"], r["damping_n_s_per_m"]) == (0.04, 0.8)]
         delays = [r["delay_frames"] for r in rows]
@@ -179,7 +163,7 @@ def note(text):
 
 def main(argv):
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--program", default="build/release/lmdbench", help="the program; %(default)s without it")
+    parser.add_argument("--program", default=PROGRAM, help="the program; %(default)s without it")
     parser.add_argument("--experiments", default="experiments", help="folder of the experiment files")
     parser.add_argument("--rows", default="results/stability.jsonl", help="searches already made; new ones are added")
     parser.add_argument("--out", default="results/figures", help="folder of the tables and the figure")
@@ -198,10 +182,8 @@ def main(argv):
              f"{number(row['critical_stiffness_n_per_m'])} N/m, {row['clean_until']}")
     turned = max((row for _, row in levers), key=lambda row: abs(deviation(row)))
     worst = max(walls, key=lambda row: abs(deviation(row)))
-    os.makedirs(options.out, exist_ok=True)
-    with open(os.path.join(options.out, "stability.md"), "w", encoding="ascii") as file:
-        file.write(TEXT.format(count=len(walls), worst=deviation(worst), row=worst, scenes=scene_table(scenes),
-                               walls=wall_table(walls), levers=lever_table(levers), turned=deviation(turned)))
+    write_text(TEXT.format(count=len(walls), worst=deviation(worst), row=worst, scenes=scene_table(scenes), walls=wall_table(walls),
+                           levers=lever_table(levers), turned=deviation(turned)), options.out, "stability.md")
     draw(walls, scenes, options.out)
     return EXIT_CHECK_FAILED if max(abs(deviation(worst)), abs(deviation(turned))) > TOLERANCE else 0
 

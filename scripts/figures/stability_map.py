@@ -7,12 +7,12 @@ the age of the LMD set, by scene, profile and method. Leaves stability-map.md an
 import argparse
 import json
 import math
-import os
 
 import numpy as np
 
 import figure_style as style
 from lmdbench_results import ResultError, run_script
+from tables import table_text, write_text
 
 import matplotlib.pyplot as plt
 
@@ -91,30 +91,21 @@ def headline(points):
     """Largest clean stiffness: a line a scene and profile, a column a method and age."""
     columns = sorted({(key[2], key[3]) for key in points},
                      key=lambda c: (METHODS.index(c[0]) if c[0] in METHODS else 9, c[1]))
-    lines = ["| scene | profile | " + " | ".join(f"{m}, {a} ms" for m, a in columns) + " |", "|---|---|" + "---|" * len(columns)]
-    for scene, profile in dict.fromkeys((key[0], key[1]) for key in ordered(points)):
-        cells = []
-        for method, age in columns:
-            by_stiffness = points.get((scene, profile, method, age))
-            cells.append(largest_clean(by_stiffness) if by_stiffness else "not run")
-        lines.append(f"| {scene} | {profile} | " + " | ".join(cells) + " |")
-    return "\n".join(lines)
+    rows = []
+    for place in dict.fromkeys(key[:2] for key in ordered(points)):
+        found = [points.get((*place, *column)) for column in columns]
+        rows.append([*place, *(largest_clean(by_stiffness) if by_stiffness else "not run" for by_stiffness in found)])
+    return table_text(["scene", "profile", *(f"{m}, {a} ms" for m, a in columns)], rows)
 
 
 def counts(points):
     stiffnesses = sorted({s for by in points.values() for s in by})
-    lines = ["| scene | profile | method | age, ms | " + " | ".join(f"{s:g} N/m" for s in stiffnesses) + " |",
-             "|---|---|---|---|" + "---|" * len(stiffnesses)]
-    for key in ordered(points):
-        by = points[key]
-        lines.append(f"| {key[0]} | {key[1]} | {key[2]} | {key[3]} | "
-                     + " | ".join(verdict(by[s]) if s in by else "-" for s in stiffnesses) + " |")
-    return "\n".join(lines)
+    return table_text(["scene", "profile", "method", "age, ms", *(f"{s:g} N/m" for s in stiffnesses)],
+                      [[*key, *(verdict(points[key][s]) if s in points[key] else "-" for s in stiffnesses)] for key in ordered(points)])
 
 
 def details(points):
-    lines = ["| scene | profile | method, age | K, N/m | " + " | ".join(title for _, title, _ in MEASURES) + " |",
-             "|---|---|---|---|" + "---|" * len(MEASURES)]
+    lines = []
     for key in ordered(points):
         if key[3] not in (0, DETAIL_AGE_FRAMES) or (key[3] == 0 and key[2] in METHODS[:2]):
             continue
@@ -126,8 +117,8 @@ def details(points):
             for name, _, scale in MEASURES:
                 mean, half = mean_and_half([run[name] for run in runs])
                 cells.append(f"{scale * mean:.3g} +- {scale * half:.2g}")
-            lines.append(f"| {key[0]} | {key[1]} | {key[2]}, {key[3]} ms | {stiffness:g} | " + " | ".join(cells) + " |")
-    return "\n".join(lines)
+            lines.append([key[0], key[1], f"{key[2]}, {key[3]} ms", f"{stiffness:g}", *cells])
+    return table_text(["scene", "profile", "method, age", "K, N/m", *(title for _, title, _ in MEASURES)], lines)
 
 
 def draw(points, directory):
@@ -210,16 +201,13 @@ def main(argv):
     points = read_runs(options.runs)
     if not points:
         raise ResultError(f"{options.runs[0]}: holds no run (remedy: run 'lmdbench-study stability')")
-    os.makedirs(options.out, exist_ok=True)
     every = [runs for by in points.values() for runs in by.values()]
-    with open(os.path.join(options.out, "stability-map.md"), "w", encoding="ascii") as file:
-        file.write(TEXT.format(runs=sum(len(runs) for runs in every), seeds=max(len(runs) for runs in every), load=1,
-                               age=DETAIL_AGE_FRAMES, commit=f" at commit {options.commit}" if options.commit else "",
-                               balance=max(abs(run["balance_error"]) for runs in every for run in runs),
-                               certain="[{:.2f}, {:.2f}]".format(*wilson(max(len(runs) for runs in every),
-                                                                         max(len(runs) for runs in every))),
-                               headline=headline(points), counts=counts(points),
-                               details=details(points)))
+    seeds = max(map(len, every))
+    write_text(TEXT.format(runs=sum(map(len, every)), seeds=seeds, load=1, age=DETAIL_AGE_FRAMES,
+                           commit=f" at commit {options.commit}" if options.commit else "",
+                           balance=max(abs(run["balance_error"]) for runs in every for run in runs),
+                           certain="[{:.2f}, {:.2f}]".format(*wilson(seeds, seeds)), headline=headline(points), counts=counts(points),
+                           details=details(points)), options.out, "stability-map.md")
     draw(points, options.out)
     return 0
 

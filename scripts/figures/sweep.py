@@ -7,7 +7,6 @@ which method at which budget, where one gets cheaper than another, and every poi
 
 import argparse
 import math
-import os
 
 import numpy as np
 
@@ -15,6 +14,7 @@ import figure_style as style
 from lmdbench_results import run_script
 from intervals import Rate
 from sweep_results import Sweep, crossing, front, lines
+from tables import shown, table, write_text
 
 import matplotlib.pyplot as plt
 from matplotlib.lines import Line2D
@@ -72,11 +72,9 @@ def draw_panel(axes, points, value, colours, markers):
     low, high, zero, failed = levels(points, value)
     has_zero = any(not point.trouble and value(point) == 0 for point in points)
     has_failed = any(point.trouble for point in points)
-    axes.set_xscale("log")
-    axes.set_yscale("log")
     bottom = 10 ** (low - LANE) if has_zero else 10**low
     top = 10 ** (high + LANE) if has_failed else 10**high
-    axes.set_ylim(bottom, top)
+    axes.set(xscale="log", yscale="log", ylim=(bottom, top))
     for begin, end in ((bottom, 10**low), (10**high, top)):
         if end > begin:
             axes.axhspan(begin, end, color="#F0F0F0", lw=0, zorder=0)
@@ -191,30 +189,25 @@ def draw(sweep):
     return figure
 
 
-def shown(value, digits=3):
-    return f"{value:.{digits}g}" if math.isfinite(value) else "-"
-
-
 def whole(value):
     return f"{value:.0f}" if math.isfinite(value) else "-"
 
 
 def budget_table(sweep):
-    rows = ["| problem | " + " | ".join(f"{budget:g} ms/s" for budget in BUDGETS_MS) + " |",
-            "|---|" + "---|" * len(BUDGETS_MS)]
+    rows = []
     for problem in sweep.problems:
         cells = []
         for budget in BUDGETS_MS:
             able = [point for point in sweep.of(problem=problem) if not point.trouble and cost(point) <= budget]
             best = min(able, key=lambda point: (error(point), cost(point)), default=None)
             cells.append(f"{best.text()}: {shown(error(best))} %" if best else "none")
-        rows.append(f"| {problem} | " + " | ".join(cells) + " |")
-    return rows
+        rows.append([problem, *cells])
+    return table(["problem", *(f"{budget:g} ms/s" for budget in BUDGETS_MS)], rows)
 
 
 def crossings(sweep, cheaper="improved", reference="certified"):
-    rows = ["| problem | run time: every ... frames | median frame: every ... frames | force error there [% of F_max] "
-            "| recall there [%] |", "|---|---|---|---|---|"]
+    """Lines of a table; none where nothing gets cheaper."""
+    rows = []
     for problem in sweep.problems:
         exact = next((point for point in sweep.of(problem=problem, series=reference) if not point.trouble), None)
         points = sweep.of(problem=problem, series=cheaper)
@@ -225,8 +218,9 @@ def crossings(sweep, cheaper="improved", reference="certified"):
         beyond = next((point for point in sorted(points, key=lambda point: point.period) if point.period >= by_cost), None)
         at = f"{shown(error(beyond))} (at {beyond.period})" if beyond else "-"
         recall = f"{shown(100 * beyond.number('recall'))} (at {beyond.period})" if beyond else "-"
-        rows.append(f"| {problem} | {whole(by_cost)} | {whole(by_median)} | {at} | {recall} |")
-    return rows
+        rows.append([problem, whole(by_cost), whole(by_median), at, recall])
+    return rows and table(["problem", "run time: every ... frames", "median frame: every ... frames", "force error there [% of F_max]",
+                           "recall there [%]"], rows)
 
 
 def a_second(point, *names):
@@ -260,7 +254,7 @@ COLUMNS = (
 
 
 def point_table(sweep, problem):
-    rows = ["| point | " + " | ".join(name for name, _ in COLUMNS) + " |", "|---|" + "---|" * len(COLUMNS)]
+    rows = []
     best = {point.index for point in front(sweep.of(problem=problem), cost, error)}
     for point in sorted(sweep.of(problem=problem), key=lambda point: (bool(point.failure), cost(point))):
         name = f"**{point.text()}**" if point.index in best else point.text()
@@ -270,7 +264,7 @@ def point_table(sweep, problem):
         values = [value(point) for _, value in COLUMNS]
         rows.append(f"| {name}{' (' + point.trouble + ')' if point.trouble else ''} | "
                     + " | ".join(str(found) if isinstance(found, Rate) else shown(found) for found in values) + " |")
-    return rows
+    return [*table(["point", *(name for name, _ in COLUMNS)], [])[:-1], *rows, ""]
 
 
 def load(sweep):
@@ -311,14 +305,14 @@ def markdown(sweep, picture):
         text += [f"![Error against run time]({picture})", ""]
     text += ["## Which method at which budget", "",
               "Least RMS force error [% of F_max of one LMD] within so much run time of a second in contact, searches included:", "",
-              *budget_table(sweep), ""]
-    table = crossings(sweep)
-    if len(table) > 2:
+              *budget_table(sweep)]
+    cheaper = crossings(sweep)
+    if cheaper:
         text += ["## Where `improved` gets cheaper than `certified`", "",
                   "The rarer its searches, the cheaper `improved` is and the older its sets. It costs less than `certified` where it "
-                  "searches more rarely than every", "", *table, ""]
+                  "searches more rarely than every", "", *cheaper]
     for problem in sweep.problems:
-        text += [f"## {problem}", "", f"{cutoff_text(sweep.of(problem=problem)[0])} Bold: on the Pareto front of force error and run time.", "", *point_table(sweep, problem), ""]
+        text += [f"## {problem}", "", f"{cutoff_text(sweep.of(problem=problem)[0])} Bold: on the Pareto front of force error and run time.", "", *point_table(sweep, problem)]
     return "\n".join(text)
 
 
@@ -330,12 +324,8 @@ def main(argv):
     arguments = parser.parse_args(argv)
     sweep = Sweep(arguments.sweep)
     name = arguments.name or sweep.name
-    for file in style.save(draw(sweep), arguments.out, name):
-        print(file)
-    table = os.path.join(arguments.out, f"{name}.md")
-    with open(table, "w", encoding="utf-8") as stream:
-        stream.write(markdown(sweep, f"{name}.png"))
-    print(table)
+    style.leave(draw(sweep), arguments.out, name)
+    print(write_text(markdown(sweep, f"{name}.png"), arguments.out, f"{name}.md"))
     return 0
 
 

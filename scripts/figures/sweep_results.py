@@ -9,14 +9,9 @@ import math
 import h5py
 import numpy as np
 
-from lmdbench_results import ResultError, open_h5
+from lmdbench_results import ResultError, open_h5, text, texts_of
 
 MISSES_ALL = "finds no true LMD"
-
-
-def dataset_text(dataset):
-    value = np.ravel(dataset[()])[0]
-    return value.decode() if isinstance(value, bytes) else str(value)
 
 
 def is_sweep(file):
@@ -26,6 +21,11 @@ def is_sweep(file):
             return "sweep" in h5
     except OSError:
         return False
+
+
+def commit_of(build):
+    """Short, with a word where the program was built from something else than the commit."""
+    return str(build.get("git_commit", "unknown"))[:12] + (" with local changes" if build.get("git_dirty") == "yes" else "")
 
 
 class Point:
@@ -97,21 +97,17 @@ class Sweep:
                 for name, dataset in h5["points"].items():
                     values = dataset[()]
                     if dataset.dtype.kind == "O":
-                        self.texts[name] = [value.decode() if isinstance(value, bytes) else str(value) for value in values]
+                        self.texts[name] = [str(text(value)) for value in values]
                     else:
                         self.columns[name] = values
                 self.counters = {name: dataset[()] for name, dataset in h5.get("counters", {}).items()}
-                text = {name: value.decode() if isinstance(value, bytes) else value for name, value in h5["sweep"].attrs.items()}
-                provenance = {name: value.decode() if isinstance(value, bytes) else value
-                              for name, value in h5["provenance"].attrs.items()}
-                self.definition = dataset_text(h5["provenance/experiment"]) if "provenance/experiment" in h5 else ""
-                machine = h5["provenance/machine"].attrs if "provenance/machine" in h5 else {}
-                self.machine = {name: value.decode() if isinstance(value, bytes) else value for name, value in machine.items()}
+                attributes, self.provenance = texts_of(h5["sweep"].attrs), texts_of(h5["provenance"].attrs)
+                self.definition = str(text(np.ravel(h5["provenance/experiment"][()])[0])) if "provenance/experiment" in h5 else ""
+                self.machine = texts_of(h5["provenance/machine"].attrs) if "provenance/machine" in h5 else {}
         except OSError as error:
             raise ResultError(f"{self.file}: cannot be read: {error} {remedy}")
-        self.name, self.title = text["name"], text["title"]
-        self.clock_overhead = float(text["clock_overhead_s"])
-        self.provenance = provenance
+        self.name, self.title = attributes["name"], attributes["title"]
+        self.clock_overhead = float(attributes["clock_overhead_s"])
         self.points = [Point(self, index) for index in range(len(self.texts["scene"]))]
 
     @property
@@ -143,9 +139,7 @@ class Sweep:
             return h5[f"samples/{point.index}/{name}"][()]
 
     def commit(self):
-        """Short, with a word where the program was built from something else than the commit."""
-        local = " with local changes" if self.provenance.get("git_dirty") == "yes" else ""
-        return str(self.provenance.get("git_commit", "unknown"))[:12] + local
+        return commit_of(self.provenance)
 
 
 class Line:

@@ -19,7 +19,9 @@ import tempfile
 import numpy as np
 
 import figure_style as style
+from figure1 import write_off
 from lmdbench_results import EXIT_CHECK_FAILED, EXIT_ENVIRONMENT, run_script
+from program import PROGRAM
 
 import matplotlib.pyplot as plt
 
@@ -28,14 +30,11 @@ TILTS = np.logspace(-2, -12, 201)
 AXIS = np.array([2.0, 1.0, 0.0]) / np.sqrt(5.0)  # between the box's sides, so that one corner is lowest
 
 
-def box_off(low, high, turn):
-    """A box as OFF text, its coordinates turned by a rotation matrix."""
+def box(low, high, turn):
+    """Vertices, turned by a rotation matrix, and triangles."""
     corners = np.array([[x, y, z] for z in (low[2], high[2]) for y in (low[1], high[1]) for x in (low[0], high[0])]) @ turn.T
     faces = [(0, 2, 3, 1), (4, 5, 7, 6), (0, 1, 5, 4), (2, 6, 7, 3), (0, 4, 6, 2), (1, 3, 7, 5)]
-    triangles = [t for f in faces for t in ((f[0], f[1], f[2]), (f[0], f[2], f[3]))]
-    lines = ["OFF", f"{len(corners)} {len(triangles)} 0"]
-    lines += [" ".join(repr(float(x)) for x in corner) for corner in corners]
-    return "\n".join(lines + [f"3 {a} {b} {c}" for a, b, c in triangles]) + "\n"
+    return corners, [t for f in faces for t in ((f[0], f[1], f[2]), (f[0], f[2], f[3]))]
 
 
 def rotation(axis, angle):
@@ -58,13 +57,8 @@ def sets_of(program, floats, folder):
     turn_axis, turn_angle = np.array([0.6, -0.48, 0.64]), 0.7
     turn = rotation(turn_axis, turn_angle)
     for name, low, high in (("box", (-0.5, -0.5, 0.0), (0.5, 0.5, 1.0)), ("table", (-2.0, -2.0, -0.5), (2.0, 2.0, 0.0))):
-        text = box_off(low, high, turn)
-        if floats:
-            lines = text.splitlines()
-            lines[2:10] = [" ".join(repr(float(np.float32(x))) for x in line.split()) for line in lines[2:10]]
-            text = "\n".join(lines) + "\n"
-        with open(os.path.join(folder, f"{name}.off"), "w", encoding="ascii") as stream:
-            stream.write(text)
+        vertices, triangles = box(low, high, turn)
+        write_off(os.path.join(folder, f"{name}.off"), vertices.astype(np.float32) if floats else vertices, triangles)
     back = quaternion(turn_axis, -turn_angle)
     with open(os.path.join(folder, "tilt.tum"), "w", encoding="ascii") as stream:
         for i, tilt in enumerate(TILTS):
@@ -83,7 +77,7 @@ def sets_of(program, floats, folder):
 
 def main(argv):
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--program", default="build/release/lmdbench")
+    parser.add_argument("--program", default=PROGRAM)
     parser.add_argument("--out", default="results/figures")
     arguments = parser.parse_args(argv)
     if not os.access(arguments.program, os.X_OK):
@@ -113,13 +107,10 @@ def main(argv):
             for axis, values in zip(axes, (force, torque, place)):
                 axis.plot(TILTS, values, color=colour, label=label, linewidth=1.0)
         for axis, name in zip(axes, ("force [F_max]", "torque [F_max m]", "point from the middle [m]")):
-            axis.set_xscale("log")
-            axis.set_xlabel("tilt [rad]")
-            axis.set_ylabel(name)
+            axis.set(xscale="log", xlabel="tilt [rad]", ylabel=name)
             axis.set_ylim(bottom=0.0)
         axes[0].legend(loc="lower left", frameon=False)
-        for name in style.save(figure, arguments.out, "tilt"):
-            print(name)
+        style.leave(figure, arguments.out, "tilt")
     return status
 
 

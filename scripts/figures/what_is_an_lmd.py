@@ -12,6 +12,7 @@ import numpy as np
 import figure_style as style
 from lmdbench_results import ResultError, run_script
 from figure1 import query
+from program import PROGRAM
 
 import matplotlib.pyplot as plt
 from matplotlib.lines import Line2D
@@ -97,13 +98,11 @@ def draw(moving, fixed, pairs):
 
 def main(argv):
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--program", default="build/release/lmdbench")
+    parser.add_argument("--program", default=PROGRAM)
     parser.add_argument("--out", required=True, metavar="DIR", help="directory of lmd.svg and lmd.png")
     arguments = parser.parse_args(argv)
     pairs = pairs_of(arguments.program, tool(), ground())
-    for file in style.save(draw(tool(), ground(), pairs), arguments.out, "lmd"):
-        print(file)
-    return 0
+    return style.leave(draw(tool(), ground(), pairs), arguments.out, "lmd")
 
 
 if __name__ == "__main__":

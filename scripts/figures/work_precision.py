@@ -151,10 +151,7 @@ def main(argv):
     parser.add_argument("--out", required=True, metavar="DIR",
                         help="directory of work_precision.svg and work_precision.png")
     arguments = parser.parse_args(argv)
-    figure = draw([Result(file) for file in arguments.results])
-    for file in style.save(figure, arguments.out, "work_precision"):
-        print(file)
-    return 0
+    return style.leave(draw([Result(file) for file in arguments.results]), arguments.out, "work_precision")
 
 
 if __name__ == "__main__":

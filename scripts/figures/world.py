@@ -11,17 +11,13 @@ import os
 import numpy as np
 
 import figure_style as style
-from lmdbench_results import ResultError, open_h5, run_script
-from mesh_drawing import FIXED, MOVING, draw_triangles, read_off, rotation, view_onto
+from lmdbench_results import ResultError, open_h5, run_script, text
+from mesh_drawing import FIXED, MOVING, draw_triangles, placed, read_off, rotation, view_onto
 
 import matplotlib.pyplot as plt
 
 VIEW = view_onto(np.array([0.0, 0.0, 1.0]), 20.0)
 OTHERS = "0.8"  # instances without contact
-
-
-def text(value):
-    return value.decode() if isinstance(value, bytes) else str(value)
 
 
 class World:
@@ -77,8 +73,7 @@ class Meshes:
         """(T, 3, 3) corners in the world."""
         if (mesh, diagonal) not in self.read:
             points, triangles = read_off(os.path.join(self.folder, f"{mesh}.off"))
-            low, high = points.min(axis=0), points.max(axis=0)
-            self.read[mesh, diagonal] = ((points - 0.5 * (low + high)) * (diagonal / np.linalg.norm(high - low)), triangles)
+            self.read[mesh, diagonal] = placed(points, diagonal), triangles
         points, triangles = self.read[mesh, diagonal]
         return (points @ rotation(*orientation).T + position)[triangles]
 
@@ -121,8 +116,7 @@ def draw_times(top, bottom, world, touched, colours):
         bottom.plot(world.time[:len(values)], values, color=colour, linewidth=0.8, label=name.replace("_", " "))
     if world.counters:
         bottom.legend(fontsize=6, frameon=False)
-    bottom.set_ylabel("instances a frame")
-    bottom.set_xlabel("time [s]")
+    bottom.set(ylabel="instances a frame", xlabel="time [s]")
 
 
 def main(argv):
@@ -147,9 +141,7 @@ def main(argv):
         draw_times(top, figure.add_axes([0.72, 0.13, 0.27, 0.32], sharex=top), world, touched, colours)
         figure.text(0.01, 0.94, f"{world.count()} instances, {len(touched)} in contact", fontsize=7.5)
         figure.text(0.36, 0.94, f"{world.time[frame]:.3f} s: {len(world.bodies(frame))} LMDs, instances in contact: {len(set(world.bodies(frame)))}", fontsize=7.5)
-        for name in style.save(figure, arguments.out, "world"):
-            print(name)
-    return 0
+        return style.leave(figure, arguments.out, "world")
 
 
 if __name__ == "__main__":

@@ -51,10 +51,10 @@ def entry(figure, folder, name, title, text, table=""):
 def sweep_entry(sweep, folder):
     """Figure and answer of a sweep: which method at which budget, and where one gets cheaper than the other."""
     tables = ["Least RMS force error [% of F_max of one LMD] within so much run time of a second in contact, searches included:",
-              "", *sweep_figure.budget_table(sweep), ""]
+              "", *sweep_figure.budget_table(sweep)]
     crossing = sweep_figure.crossings(sweep)
-    if len(crossing) > 2:
-        tables += ["`improved` costs less than `certified`, with older sets, where it searches more rarely than every", "", *crossing, ""]
+    if crossing:
+        tables += ["`improved` costs less than `certified`, with older sets, where it searches more rarely than every", "", *crossing]
     made = entry(
         sweep_figure.draw(sweep), folder, f"sweep-{sweep.name}", "Error against run time" if sweep.name == "budget" else sweep.title,
         f"{sweep.title}. A line a series, a point a setting, truth in every frame. Lower left is better; shaded lanes hold errors of exactly "

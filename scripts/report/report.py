@@ -9,6 +9,7 @@ import json
 import os
 import re
 import sys
+from pathlib import Path
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 sys.path.insert(0, os.path.join(HERE, "..", "figures"))
@@ -25,6 +26,7 @@ from paper_figures import paper_figures  # noqa: E402
 from scene_data import scene  # noqa: E402
 from studies import FIRST, studies as study_sections  # noqa: E402
 from sweep_results import Sweep, is_sweep  # noqa: E402
+from tables import write_text  # noqa: E402
 
 JAVASCRIPT = "/usr/share/javascript"
 LIBRARIES = (("three/three.min.js", "libjs-three"), ("three/examples/js/controls/OrbitControls.js", "libjs-three"),
@@ -33,8 +35,7 @@ STYLES = (("dygraphs/dygraph.min.css", "libjs-dygraphs"),)
 
 
 def text_of(*path):
-    with open(os.path.join(*path), encoding="utf-8") as stream:
-        return stream.read()
+    return Path(*path).read_text(encoding="utf-8")
 
 
 def library(name, package):
@@ -144,13 +145,9 @@ def main(argv):
     folders = [os.path.join(arguments.scenes, str(i)) if arguments.scenes else None for i, _ in runs]
     scenes = [scene(result, folder) for result, folder in zip(results, folders)]
     os.makedirs(arguments.out, exist_ok=True)
-    file = os.path.join(arguments.out, "index.html")
     paper = paper_figures(arguments.paper) if arguments.paper else []
     text = page(results, sweeps, scenes, arguments.study, paper, arguments.out)
-    with open(file + ".part", "w", encoding="utf-8") as stream:
-        stream.write(text)
-    os.replace(file + ".part", file)
-    print(file)
+    print(write_text(text, arguments.out, "index.html"))
     return 0
 
 

@@ -12,6 +12,7 @@ import subprocess
 import sys
 import tempfile
 import unittest
+from pathlib import Path
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 ROOT = os.path.abspath(os.path.join(HERE, "..", ".."))
@@ -42,8 +43,7 @@ class Installed(unittest.TestCase):
         os.makedirs(os.path.dirname(cls.prefix))
         shutil.copytree(cls.staged, cls.prefix, symlinks=True)
         cls.mesh = os.path.join(cls.scratch.name, "box.off")
-        with open(cls.mesh, "w", encoding="ascii") as stream:
-            stream.write(BOX)
+        Path(cls.mesh).write_text(BOX, encoding="ascii")
 
     @classmethod
     def tearDownClass(cls):
@@ -118,8 +118,7 @@ class Installed(unittest.TestCase):
         self.assert_answers(program)
 
     def test_flags_that_make_the_results_stay_private(self):
-        with open(os.path.join(self.prefix, self.package_folder(), "lmdbenchTargets.cmake"), encoding="utf-8") as stream:
-            targets = stream.read()
+        targets = Path(self.prefix, self.package_folder(), "lmdbenchTargets.cmake").read_text(encoding="utf-8")
         self.assertIn("EIGEN_MAX_ALIGN_BYTES=16", targets)
         for private in ("ffp-contract", "-march", "-W", "fast-math"):
             self.assertNotIn(private, targets)
@@ -127,8 +126,7 @@ class Installed(unittest.TestCase):
     def test_nothing_installed_names_the_tree_it_was_built_in(self):
         for folder, _, files in os.walk(self.staged):
             for name in files:
-                with open(os.path.join(folder, name), "rb") as stream:
-                    content = stream.read()
+                content = Path(folder, name).read_bytes()
                 for place in (ROOT, BUILD, self.staged):
                     self.assertNotIn(place.encode() + b"/", content, os.path.join(folder, name))
 
@@ -147,8 +145,7 @@ class Installed(unittest.TestCase):
         self.assertEqual(done.returncode, 0, done.stderr)
         done = run(program, "-q", "report", "results/shapes.h5", "--out", "page", cwd=work, env=environment)
         self.assertEqual(done.returncode, 0, done.stderr)
-        with open(os.path.join(work, "page", "index.html"), encoding="utf-8") as stream:
-            self.assertGreater(len(stream.read()), 100_000)
+        self.assertGreater(len(Path(work, "page", "index.html").read_text(encoding="utf-8")), 100_000)
         for other in os.listdir(os.path.join(self.prefix, "share/lmdbench/experiments")):
             if not other.endswith(".json"):
                 continue

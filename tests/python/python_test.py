@@ -13,6 +13,7 @@ import tempfile
 import threading
 import time
 import unittest
+from pathlib import Path
 
 PROGRAM, MODULE = sys.argv.pop(1), sys.argv.pop(1)
 sys.path.insert(0, MODULE)
@@ -71,8 +72,7 @@ class Files(unittest.TestCase):
         return os.path.join(self.folder, name)
 
     def write(self, name, text):
-        with open(self.path(name), "w", encoding="ascii") as stream:
-            stream.write(text)
+        Path(self.path(name)).write_text(text, encoding="ascii")
         return self.path(name)
 
     def write_off(self, name, vertices, triangles):
@@ -305,8 +305,7 @@ class Memory(unittest.TestCase):
         refused = np.eye(4) * 2
 
         def resident():
-            with open("/proc/self/statm", encoding="ascii") as stream:
-                return int(stream.read().split()[1]) * resource.getpagesize()
+            return int(Path("/proc/self/statm").read_text(encoding="ascii").split()[1]) * resource.getpagesize()
 
         def hundred_thousand():
             for _ in range(100):
@@ -405,14 +404,12 @@ class Types(unittest.TestCase):
         environment = {**os.environ, "PYTHONPATH": MODULE, "MYPYPATH": MODULE}
         with tempfile.TemporaryDirectory() as folder:
             # pybind11's classes have a metaclass and an initialiser of its own.
-            with open(os.path.join(folder, "allowed"), "w", encoding="ascii") as stream:
-                stream.write("lmdbench._lmdbench.(Mesh|Poses|Search|Sets)(.__init__)?\n")
+            Path(folder, "allowed").write_text("lmdbench._lmdbench.(Mesh|Poses|Search|Sets)(.__init__)?\n", encoding="ascii")
             done = subprocess.run([sys.executable, "-m", "mypy.stubtest", "lmdbench._lmdbench", "--ignore-missing-stub", "--allowlist",
                                    "allowed"], cwd=folder, env=environment, capture_output=True, text=True, timeout=600)
             self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
-            with open(os.path.join(folder, "user.py"), "w", encoding="ascii") as stream:
-                stream.write("import lmdbench\nimport numpy as np\nsets = lmdbench.query('a', 'b', np.eye(4), 0.1)\n"
-                             "distance: np.ndarray = sets[0]['distance']\ncount: int = lmdbench.Mesh('a').vertices\n")
+            Path(folder, "user.py").write_text("import lmdbench\nimport numpy as np\nsets = lmdbench.query('a', 'b', np.eye(4), 0.1)\n"
+                         "distance: np.ndarray = sets[0]['distance']\ncount: int = lmdbench.Mesh('a').vertices\n", encoding="ascii")
             done = subprocess.run([sys.executable, "-m", "mypy", "user.py"], cwd=folder, env=environment, capture_output=True, text=True,
                                   timeout=600)
             self.assertIn("user.py:5", done.stdout + done.stderr)

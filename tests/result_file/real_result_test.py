@@ -12,6 +12,7 @@ import subprocess
 import sys
 import tempfile
 import unittest
+from pathlib import Path
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 sys.path.insert(0, os.path.join(HERE, "..", "..", "scripts", "figures"))
@@ -112,8 +113,7 @@ class RealResultTest(unittest.TestCase):
 
     @classmethod
     def run_program(cls, name, cutoffs, everything):
-        with open(cls.path(name + ".json"), "w", encoding="utf-8") as stream:
-            json.dump(experiment(name, cutoffs, everything), stream)
+        Path(cls.path(name + ".json")).write_text(json.dumps(experiment(name, cutoffs, everything)), encoding="utf-8")
         result = cls.path(name + ".h5")
         done = subprocess.run([PROGRAM, "run", cls.path(name + ".json"), "--out", result], capture_output=True, text=True,
                               check=False, stdin=subprocess.DEVNULL)
@@ -152,8 +152,7 @@ class RealResultTest(unittest.TestCase):
         self.assertIn(" 0 differences", text)
 
     def test_everything_described_is_there(self):
-        with open(check_format.README, encoding="utf-8") as stream:
-            described = set(check_format.described(stream.read()))
+        described = set(check_format.described(Path(check_format.README).read_text(encoding="utf-8")))
         found = set()
         for file in (self.hard, self.both, *self.special()):
             Result(file).h5.visit(lambda name: found.add(check_format.documented_path("/" + name)))
@@ -233,12 +232,10 @@ class RealResultTest(unittest.TestCase):
 
     def test_flipped_bytes_are_refused(self):
         damaged = self.path("damaged.h5")
-        with open(self.hard, "rb") as stream:
-            content = bytearray(stream.read())
+        content = bytearray(Path(self.hard).read_bytes())
         for place in range(1000, len(content), len(content) // 400):
             content[place] ^= 1
-        with open(damaged, "wb") as stream:
-            stream.write(content)
+        Path(damaged).write_bytes(content)
         for words in (["compare", self.hard, damaged], ["export", damaged, "--out", self.path("view")]):
             done = subprocess.run([PROGRAM, *words], capture_output=True, text=True, check=False)
             self.assertEqual(done.returncode, 3, done.stderr)

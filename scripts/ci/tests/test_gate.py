@@ -10,6 +10,7 @@ import shutil
 import subprocess
 import sys
 import xml.etree.ElementTree
+from pathlib import Path
 
 import h5py
 import yaml
@@ -77,11 +78,9 @@ class GateTest(SharedScratch):
         tools = os.path.join(cls.folder, "tools")
         os.makedirs(tools)
         for name, text in (("cmake", CMAKE), ("valgrind", "#!/bin/sh\nexit 1\n")):
-            with open(os.path.join(tools, name), "w", encoding="utf-8") as stream:
-                stream.write(text.replace("{folder}", cls.folder))
+            Path(tools, name).write_text(text.replace("{folder}", cls.folder), encoding="utf-8")
             os.chmod(os.path.join(tools, name), 0o755)
-        with open(os.path.join(cls.folder, "program.sh"), "w", encoding="utf-8") as stream:
-            stream.write(PLAYED.replace("{folder}", cls.folder).replace("{program}", PROGRAM))
+        Path(cls.folder, "program.sh").write_text(PLAYED.replace("{folder}", cls.folder).replace("{program}", PROGRAM), encoding="utf-8")
         cls.environment = {"PATH": f"{tools}:{os.path.dirname(sys.executable)}:/usr/bin:/bin", "HOME": cls.folder,
                            "PYTHONDONTWRITEBYTECODE": "1"}
         cls.repository = os.path.join(cls.folder, "repository")
@@ -92,8 +91,7 @@ class GateTest(SharedScratch):
         cls.git("init", "--quiet")
         cls.commits = {}
         for behaviour in ("same", "base", "slower", "faster", "differs", "no-build", "no-run", "no-start"):
-            with open(os.path.join(cls.repository, "behaviour"), "w", encoding="utf-8") as stream:
-                stream.write(behaviour + "\n")
+            Path(cls.repository, "behaviour").write_text(behaviour + "\n", encoding="utf-8")
             cls.git("add", "--all")
             cls.git("-c", "user.name=t", "-c", "user.email=t@example.org", "commit", "--quiet", "--message", behaviour)
             cls.commits[behaviour] = cls.git("rev-parse", "HEAD").strip()

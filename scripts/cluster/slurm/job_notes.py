@@ -5,6 +5,7 @@
 import json
 import os
 import time
+from pathlib import Path
 
 FOLDER = os.path.join(".snakemake", "lmdbench-jobs")
 
@@ -15,16 +16,14 @@ def _place(job):
 
 def write_note(job, note):
     os.makedirs(FOLDER, exist_ok=True)
-    with open(_place(job) + ".new", "w", encoding="utf-8") as stream:
-        json.dump(note, stream)
+    Path(_place(job) + ".new").write_text(json.dumps(note), encoding="utf-8")
     os.replace(_place(job) + ".new", _place(job))
 
 
 def read_note(job):
     """None where nobody noted anything."""
     try:
-        with open(_place(job), encoding="utf-8") as stream:
-            return json.load(stream)
+        return json.loads(Path(_place(job)).read_text(encoding="utf-8"))
     except (OSError, ValueError):
         return None
 

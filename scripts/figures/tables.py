@@ -1,0 +1,34 @@
+# SPDX-FileCopyrightText: The lmdbench authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Numbers in words, Markdown tables of them, and files that appear whole or not at all."""
+
+import math
+import os
+
+
+def shown(value, digits=3, missing="-"):
+    return missing if value is None or not math.isfinite(value) else f"{value:.{digits}g}"
+
+
+def interval(value, limits):
+    return f"{shown(value)} [{shown(limits[0])}, {shown(limits[1])}]"
+
+
+def table(headings, rows):
+    """Its lines, and an empty one behind it."""
+    return ["| " + " | ".join(headings) + " |", "|" + "---|" * len(headings),
+            *("| " + " | ".join(str(cell) for cell in row) + " |" for row in rows), ""]
+
+
+def table_text(headings, rows):
+    return "\n".join(table(headings, rows)[:-1])
+
+
+def write_text(text, *path):
+    """The file's name."""
+    file = os.path.join(*path)
+    os.makedirs(os.path.dirname(file) or ".", exist_ok=True)
+    with open(file + ".part", "w", encoding="utf-8") as stream:
+        stream.write(text)
+    os.replace(file + ".part", file)
+    return file
