@@ -157,10 +157,7 @@ def draw(rows, file):
                       label=f"{variant} % planted, {len(found)} comparisons")
             axes.plot(sum(row["verdict"] == "slower" for row in of[AGAIN]) / len(of[AGAIN]),
                       sum(row["verdict"] == "slower" for row in of[variant]) / len(of[variant]), "o", color=f"C{colour}")
-        axes.set_title(condition)
-        axes.set_xlabel(f"false alarms (share of {len(null)} equal programs)")
-        axes.set_xlim(-0.02, 1.0)
-        axes.set_ylim(0.0, 1.02)
+        axes.set(title=condition, xlabel=f"false alarms (share of {len(null)} equal programs)", xlim=(-0.02, 1.0), ylim=(0.0, 1.02))
         axes.legend(loc="lower right", fontsize=8, title="line: first look alone; dot: whole rule", title_fontsize=8)
     panels[0][0].set_ylabel("slowdowns found (share)")
     figure.tight_layout()

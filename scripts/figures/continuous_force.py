@@ -57,8 +57,7 @@ def main(argv):
             steps = np.linalg.norm(np.diff(forces[law], axis=0), axis=1)[frames]
             axes[1].plot(time[:len(steps)], steps, color=colour)
         axes[0].set_ylabel("force [F_max]")
-        axes[1].set_ylabel("change a frame [F_max]")
-        axes[1].set_xlabel("time [s]")
+        axes[1].set(ylabel="change a frame [F_max]", xlabel="time [s]")
         axes[0].legend(loc="upper left", ncols=2)
         for axis in axes:
             axis.set_ylim(bottom=0.0)

@@ -75,9 +75,7 @@ def draw(meshes, lmds, title):
         axes.add_collection(LineCollection(lines, colors=style.VERMILLION, linewidths=1.6, zorder=5))
         for points in (lines[:, 0], lines[:, 1]):
             axes.plot(points[:, 0], points[:, 1], ls="none", marker="o", ms=2.6, color=style.VERMILLION, mec="white", mew=0.3, zorder=6)
-        axes.set_xlim(middle[0] - half, middle[0] + half)
-        axes.set_ylim(middle[1] - half, middle[1] + half)
-        axes.set_aspect("equal")
+        axes.set(xlim=(middle[0] - half, middle[0] + half), ylim=(middle[1] - half, middle[1] + half), aspect="equal")
         axes.axis("off")
         axes.set_title(words, fontsize=8)
     figure.text(0.02, 0.945, title, fontsize=8.5, fontweight="bold")

@@ -226,8 +226,7 @@ def draw(*results):
         beyond = 0.4 * (axes[0, 1].get_position().x0 - axes[0, 0].get_position().x1) if len(columns) > 1 else 0.05
         title = panels[0].set_title(column.title(), pad=19, fontweight="bold", linespacing=1.1)
         style.fit_title(figure, title, box.x0 - beyond, min(box.x1 + beyond, 0.998))
-        panels[-1].set_xlabel("time [s]")
-        panels[-1].set_xlim(column.time[0], column.time[-1])
+        panels[-1].set(xlabel="time [s]", xlim=(column.time[0], column.time[-1]))
     for row, ((_, label, _), keys) in enumerate(zip(ROWS, keys_of_rows(columns))):
         axes[row, 0].set_ylabel(label)
         axes[row, 0].yaxis.set_label_coords(0.026, axes[row, 0].get_position().y0 + 0.5 * axes[row, 0].get_position().height,

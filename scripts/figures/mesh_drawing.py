@@ -110,7 +110,5 @@ def draw_cone(axes, apex, axis, half_angle, length, view, colour, zorder=4):
 def frame(axes, low, high, margin=0.06):
     """Limits round a box, equal scales, no axes."""
     middle, half = 0.5 * (low + high), (0.5 + margin) * np.max(high - low)
-    axes.set_xlim(middle[0] - half, middle[0] + half)
-    axes.set_ylim(middle[1] - half, middle[1] + half)
-    axes.set_aspect("equal")
+    axes.set(xlim=(middle[0] - half, middle[0] + half), ylim=(middle[1] - half, middle[1] + half), aspect="equal")
     axes.axis("off")

@@ -69,8 +69,7 @@ def error_axis(axes, errors, any_failed):
     has_zero = any(error == 0 for error in errors)
     left = 10 ** (low - lane) if has_zero else 10**low
     right = 10 ** (high + lane) if any_failed else 10**high
-    axes.set_xscale("log")
-    axes.set_xlim(left, right)
+    axes.set(xscale="log", xlim=(left, right))
     decades = style.labelled_decades(low, high)
     names = {zero: "0", failed: "failed"}
     axes.xaxis.set_major_locator(FixedLocator([zero] * has_zero + decades + [failed] * any_failed))

@@ -22,6 +22,11 @@ import numpy as np
 from init_pairs_test import box, grid_sphere, scan, write_obj, write_off, write_ply, write_stl
 
 ROOT = os.path.normpath(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", ".."))
+sys.path.insert(0, os.path.join(ROOT, "scripts", "figures"))
+
+from mesh_drawing import read_off  # noqa: E402  (the figures' folder must be found first)
+from what_is_an_lmd import caps  # noqa: E402
+
 MESHES = os.path.join(ROOT, "meshes")
 
 
@@ -64,23 +69,8 @@ def slotted_plate(slots, width, gap, length, base, height):
 
 
 def end_caps(profile):
-    n, left, caps = len(profile), list(range(len(profile))), []
-
-    def turn(a, b, c):
-        (ax, ay), (bx, by), (cx, cy) = profile[[a, b, c]]
-        return (bx - ax) * (cy - ay) - (by - ay) * (cx - ax)
-
-    while len(left) > 3:
-        for k in range(len(left)):
-            a, b, c = left[k - 1], left[k], left[(k + 1) % len(left)]
-            if turn(a, b, c) > 0 and not any(turn(a, b, q) >= 0 and turn(b, c, q) >= 0 and turn(c, a, q) >= 0 for q in left if q not in (a, b, c)):
-                caps.append((a, b, c))
-                left.pop(k)
-                break
-        else:
-            raise SystemExit("an outline crosses itself")
-    caps.append(tuple(left))
-    return [(c, b, a) for a, b, c in caps] + [(n + a, n + b, n + c) for a, b, c in caps]
+    n, ears = len(profile), caps(profile)
+    return [(c, b, a) for a, b, c in ears] + [(n + a, n + b, n + c) for a, b, c in ears]
 
 
 def pairs(program, folder):
@@ -98,11 +88,7 @@ def pairs(program, folder):
         return name
 
     def built(name, factor):
-        with open(os.path.join(MESHES, f"{build(name)}.off"), encoding="ascii") as stream:
-            words = stream.read().split()
-        end = 4 + 3 * int(words[1])
-        points = np.array(words[4:end], float).reshape(-1, 3)
-        return points * factor, np.array(words[end:end + 4 * int(words[2])], int).reshape(-1, 4)[:, 1:]
+        return scaled(read_off(os.path.join(MESHES, f"{build(name)}.off")), factor)
 
     def ring_mm():
         return ring(circle(20, 48), circle(12, 48), 6.0)

@@ -39,11 +39,17 @@ def without_root(command):
             "--bounding-set=-all"] + command
 
 
+def flipped(content, places):
+    damaged = bytearray(content)
+    for at in places:
+        damaged[at] ^= 0xFF
+    return damaged
+
+
 class Surroundings(unittest.TestCase):
     def setUp(self):
-        self.folder = pathlib.Path(tempfile.mkdtemp(prefix="lmdbench-surroundings-"))
+        self.folder = pathlib.Path(self.enterContext(tempfile.TemporaryDirectory(prefix="lmdbench-surroundings-", ignore_cleanup_errors=True)))
         self.folder.chmod(0o777)
-        self.addCleanup(shutil.rmtree, self.folder, ignore_errors=True)
         self.shapes = str(SOURCE / "experiments" / "shapes.json")
 
     def run_program(self, arguments, limits=(), wrap=lambda command: command, **options):
@@ -53,6 +59,12 @@ class Surroundings(unittest.TestCase):
         return subprocess.run(wrap([PROGRAM, *map(str, arguments)]), capture_output=True, text=True, errors="replace",
                               stdin=subprocess.DEVNULL, preexec_fn=limit, timeout=300, check=False,
                               cwd=options.pop("cwd", self.folder), **options)
+
+    def started(self, *arguments):
+        return subprocess.Popen([PROGRAM, *map(str, arguments)], cwd=self.folder, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
+
+    def finished_run(self, *more):
+        self.assertEqual(self.run_program(self.short_run("r.h5", *more)).returncode, DONE)
 
     def short_run(self, out, *more):
         return ["run", self.shapes, "--set", "/frames=20", "--set", "/driver/repetitions=1", "--out", out, *more]
@@ -79,7 +91,7 @@ class Surroundings(unittest.TestCase):
             self.assertIn(done.returncode, (DONE, ENVIRONMENT), done.stderr)
 
     def test_little_memory(self):
-        self.assertEqual(self.run_program(self.short_run("r.h5")).returncode, DONE)
+        self.finished_run()
         before = (self.folder / "r.h5").read_bytes()
         for mebibytes in (512, 200, 150, 120, 90):
             with self.subTest(mebibytes=mebibytes):
@@ -121,7 +133,7 @@ class Surroundings(unittest.TestCase):
                                  DONE)
 
     def test_read_only_folder(self):
-        self.assertEqual(self.run_program(self.short_run("r.h5")).returncode, DONE)
+        self.finished_run()
         (self.folder / "r.h5").chmod(0o644)
         before = (self.folder / "r.h5").read_bytes()
         self.folder.chmod(0o555)
@@ -199,8 +211,7 @@ class Surroundings(unittest.TestCase):
     def test_inputs_that_change_during_a_run(self):
         mesh, path = self.own_experiment()
         wanted = {file.name: hashlib.sha256(file.read_bytes()).hexdigest() for file in (mesh, path)}
-        process = subprocess.Popen([PROGRAM, "run", "own.json", "--out", "r.h5", "-q"], cwd=self.folder,
-                                   stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
+        process = self.started("run", "own.json", "--out", "r.h5", "-q")
         self.wait_for_frames(process, self.folder / "r.h5.part")
         mesh.write_text(mesh.read_text().replace("0 0 1", "0 0 2"))
         path.unlink()
@@ -224,13 +235,16 @@ class Surroundings(unittest.TestCase):
                 pass
             time.sleep(0.005)
 
-    def test_an_interrupted_run_is_not_resumed_with_another_mesh(self):
-        mesh, _ = self.own_experiment()
-        process = subprocess.Popen([PROGRAM, "run", "own.json", "--out", "r.h5", "-q"], cwd=self.folder,
-                                   stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    def begin_run(self):
+        """Of the own experiment, killed once it has frames."""
+        process = self.started("run", "own.json", "--out", "r.h5", "-q")
         self.wait_for_frames(process, self.folder / "r.h5.part")
         process.kill()
-        process.wait()
+        process.communicate()
+
+    def test_an_interrupted_run_is_not_resumed_with_another_mesh(self):
+        mesh, _ = self.own_experiment()
+        self.begin_run()
         mesh.write_text(mesh.read_text().replace("0 0 1", "0 0 2"))
         self.assert_refused(self.run_program(["run", "own.json", "--out", "r.h5", "--resume"]), INPUT_DATA, "another run")
 
@@ -249,8 +263,7 @@ class Surroundings(unittest.TestCase):
             alone = written.read_bytes()
             for _ in range(2):
                 written.unlink()
-                processes = [subprocess.Popen([PROGRAM, *map(str, arguments)], cwd=self.folder, stdout=subprocess.DEVNULL,
-                                              stderr=subprocess.PIPE, text=True) for _ in range(4)]
+                processes = [self.started(*arguments) for _ in range(4)]
                 for process in processes:
                     _, errors = process.communicate(timeout=300)
                     self.assertIn(process.returncode, (DONE, ENVIRONMENT), errors)
@@ -277,8 +290,7 @@ class Surroundings(unittest.TestCase):
         self.assertEqual(self.run_program(["work-precision", sweep, "--out", "whole.h5"]).returncode, DONE)
         journal, resumed = self.folder / "s.h5.points.jsonl", 0
         for lines in range(2, 40, 3):  # killed when the journal has so many: the first says what it is
-            process = subprocess.Popen([PROGRAM, "work-precision", str(sweep), "--out", "s.h5"], cwd=self.folder,
-                                       stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
+            process = self.started("work-precision", sweep, "--out", "s.h5")
             while process.poll() is None:
                 if journal.exists() and journal.read_bytes().count(b"\n") >= lines:
                     process.kill()
@@ -294,18 +306,15 @@ class Surroundings(unittest.TestCase):
         with h5py.File(self.folder / "whole.h5") as whole, h5py.File(self.folder / "s.h5") as other:
             for name in ("failure", "scene", "series", "axes", "force_error_rms_n", "recall", "truth_checked_frames"):
                 if name in whole["points"]:
-                    self.assertEqual(whole["points"][name][()].tolist() if whole["points"][name].dtype.kind == "O"
-                                     else whole["points"][name][()].tobytes(),
-                                     other["points"][name][()].tolist() if other["points"][name].dtype.kind == "O"
-                                     else other["points"][name][()].tobytes(), name)
+                    one, two = (file["points"][name][()] for file in (whole, other))
+                    self.assertEqual(*((values.tolist() if values.dtype.kind == "O" else values.tobytes()) for values in (one, two)), name)
 
     def test_inputs_that_change_during_a_sweep(self):
         mesh, _ = self.own_experiment()
         sweep = json.loads(self.sweep(20).read_text())
         sweep["experiments"] = [self.shapes, "own.json"]  # one after the other; the second one is read when its turn comes
         (self.folder / "sweep.json").write_text(json.dumps(sweep))
-        process = subprocess.Popen([PROGRAM, "work-precision", "sweep.json", "--out", "s.h5"], cwd=self.folder,
-                                   stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
+        process = self.started("work-precision", "sweep.json", "--out", "s.h5")
         journal = self.folder / "s.h5.points.jsonl"
         while process.poll() is None and not (journal.exists() and journal.read_bytes().count(b"\n") > 1):
             time.sleep(0.002)
@@ -352,7 +361,7 @@ class Surroundings(unittest.TestCase):
                 yield arguments, self.run_program(arguments)
 
     def test_results_of_other_versions_and_files(self):
-        self.assertEqual(self.run_program(self.short_run("r.h5")).returncode, DONE)
+        self.finished_run()
 
         def newer(file):
             file.attrs.modify("format_version", 3)
@@ -383,22 +392,17 @@ class Surroundings(unittest.TestCase):
                             self.assert_refused(done, INPUT_DATA, "bad.h5")
 
     def test_cut_and_flipped_results(self):
-        self.assertEqual(self.run_program(self.short_run("r.h5")).returncode, DONE)
+        self.finished_run()
         content = (self.folder / "r.h5").read_bytes()
         for step in range(1, 13):
-            damaged = bytearray(content)
-            if step % 2:
-                del damaged[len(content) * step // 14:]
-            else:
-                for at in range(step * 37, len(damaged), len(damaged) // 40):
-                    damaged[at] ^= 0xFF
-            (self.folder / "bad.h5").write_bytes(damaged)
+            (self.folder / "bad.h5").write_bytes(
+                content[:len(content) * step // 14] if step % 2 else flipped(content, range(step * 37, len(content), len(content) // 40)))
             for arguments in (["compare", "bad.h5", "r.h5"], ["report", "bad.h5", "--out", "page"])[:1 + (step < 3)]:
                 self.assert_refused(self.run_program(arguments), INPUT_DATA, "bad.h5")
 
     def test_results_that_are_no_regular_files(self):
         os.mkfifo(self.folder / "fifo.h5")
-        self.assertEqual(self.run_program(self.short_run("r.h5")).returncode, DONE)
+        self.finished_run()
         for bad in ("fifo.h5", "/dev/zero", ".", "absent.h5"):
             for arguments in (["compare", bad, "r.h5"], ["compare", "r.h5", bad], ["report", bad, "--out", "page"]):
                 self.assert_refused(self.run_program(arguments), INPUT_DATA, bad)
@@ -406,20 +410,10 @@ class Surroundings(unittest.TestCase):
     def test_damaged_parts(self):
         part = self.folder / "r.h5.part"
         self.own_experiment(repetitions=6)
-        process = subprocess.Popen([PROGRAM, "run", "own.json", "--out", "r.h5", "-q"], cwd=self.folder,
-                                   stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-        self.wait_for_frames(process, part)
-        process.kill()
-        process.wait()
+        self.begin_run()
         content = part.read_bytes()
         for step in range(1, 9):
-            damaged = bytearray(content)
-            if step % 2:
-                del damaged[len(content) * step // 10:]
-            else:
-                for at in range(step, min(len(damaged), 4000), 97):
-                    damaged[at] ^= 0xFF
-            part.write_bytes(damaged)
+            part.write_bytes(content[:len(content) * step // 10] if step % 2 else flipped(content, range(step, min(len(content), 4000), 97)))
             done = self.run_program(["run", "own.json", "--out", "r.h5", "--resume"])
             self.assertIn(done.returncode, (DONE, INPUT_DATA, ENVIRONMENT), done.stderr)
             self.assertFalse(re.search(r"[\x00-\x08\x0b-\x1f]", done.stderr))

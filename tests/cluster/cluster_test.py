@@ -25,9 +25,7 @@ BUILD = None
 
 class Scratch(unittest.TestCase):
     def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = pathlib.Path(folder.name)
+        self.folder = pathlib.Path(self.enterContext(tempfile.TemporaryDirectory()))
 
     def write(self, name, content):
         (self.folder / name).parent.mkdir(parents=True, exist_ok=True)

@@ -49,9 +49,7 @@ def untimed(file):
 
 class Slurm(unittest.TestCase):
     def setUp(self):
-        scratch = tempfile.TemporaryDirectory(prefix="lmdbench-slurm-")
-        self.addCleanup(scratch.cleanup)
-        self.folder = pathlib.Path(scratch.name)
+        self.folder = pathlib.Path(self.enterContext(tempfile.TemporaryDirectory(prefix="lmdbench-slurm-")))
         self.folder.chmod(0o755)
         (self.folder / "slurm").mkdir()
         self.work = self.folder / "work"

@@ -33,21 +33,17 @@ def run(*command, **options):
 class Installed(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
-        cls.scratch = tempfile.TemporaryDirectory()
-        cls.staged = os.path.join(cls.scratch.name, "staged")
-        cls.prefix = os.path.join(cls.scratch.name, "moved", "to here")
+        cls.folder = cls.enterClassContext(tempfile.TemporaryDirectory())
+        cls.staged = os.path.join(cls.folder, "staged")
+        cls.prefix = os.path.join(cls.folder, "moved", "to here")
         for component in ("Runtime", "Development"):
             done = run("cmake", "--install", BUILD, "--prefix", cls.staged, "--component", component)
             if done.returncode != 0:
                 raise RuntimeError(done.stdout + done.stderr)
         os.makedirs(os.path.dirname(cls.prefix))
         shutil.copytree(cls.staged, cls.prefix, symlinks=True)
-        cls.mesh = os.path.join(cls.scratch.name, "box.off")
+        cls.mesh = os.path.join(cls.folder, "box.off")
         Path(cls.mesh).write_text(BOX, encoding="ascii")
-
-    @classmethod
-    def tearDownClass(cls):
-        cls.scratch.cleanup()
 
     def libdir(self):
         return os.path.join(self.prefix, self.package_folder().split("/cmake/")[0])
@@ -59,7 +55,7 @@ class Installed(unittest.TestCase):
         self.fail("no lmdbenchConfig.cmake")
 
     def configure(self, prefix, name, *arguments):
-        folder = os.path.join(self.scratch.name, name)
+        folder = os.path.join(self.folder, name)
         return folder, run("cmake", "-S", CONSUMER, "-B", folder, "-G", "Ninja", f"-DCMAKE_PREFIX_PATH={prefix}", *arguments)
 
     def assert_answers(self, program):
@@ -112,7 +108,7 @@ class Installed(unittest.TestCase):
         self.assertEqual(done.returncode, 0, done.stderr)
         flags = shlex.split(done.stdout)  # the prefix has a space
         self.assertIn("-DEIGEN_MAX_ALIGN_BYTES=16", flags)
-        program = os.path.join(self.scratch.name, f"by-pkg-config-{compiler}")
+        program = os.path.join(self.folder, f"by-pkg-config-{compiler}")
         done = run(compiler, "-std=c++20", "-O1", os.path.join(CONSUMER, "main.cpp"), "-o", program, *flags)
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assert_answers(program)
@@ -138,7 +134,7 @@ class Installed(unittest.TestCase):
     def test_the_moved_program_runs_its_experiment_and_makes_its_page(self):
         program = os.path.join(self.prefix, "bin", "lmdbench")
         environment = {name: value for name, value in os.environ.items() if name != "LMDBENCH_SCRIPTS"}
-        work = os.path.join(self.scratch.name, "work")
+        work = os.path.join(self.folder, "work")
         os.makedirs(work, exist_ok=True)
         experiment = os.path.join(self.prefix, "share/lmdbench/experiments/shapes.json")
         done = run(program, "-q", "run", experiment, "--set", "/frames=40", cwd=work, env=environment)
@@ -154,10 +150,10 @@ class Installed(unittest.TestCase):
                 self.assertRegex(done.stderr, r"is not built yet", other)
 
     def test_the_program_without_its_data_says_what_it_lacks(self):
-        lonely = os.path.join(self.scratch.name, "lonely")
+        lonely = os.path.join(self.folder, "lonely")
         shutil.copy(os.path.join(self.prefix, "bin", "lmdbench"), lonely)
         environment = {name: value for name, value in os.environ.items() if name != "LMDBENCH_SCRIPTS"}
-        done = run(lonely, "report", "any.h5", "--out", "page", cwd=self.scratch.name, env=environment)
+        done = run(lonely, "report", "any.h5", "--out", "page", cwd=self.folder, env=environment)
         self.assertEqual(done.returncode, 4)
         self.assertRegex(done.stderr, r"report.py.*LMDBENCH_SCRIPTS")
 

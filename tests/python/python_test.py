@@ -7,13 +7,15 @@ import os
 import re
 import resource
 import signal
-import subprocess
 import sys
-import tempfile
 import threading
 import time
 import unittest
 from pathlib import Path
+
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "scripts", "figures", "tests"))
+
+from cases import ROOT, Scratch, call  # noqa: E402  (the figures' tests must be found first)
 
 PROGRAM, MODULE = sys.argv.pop(1), sys.argv.pop(1)
 sys.path.insert(0, MODULE)
@@ -21,8 +23,6 @@ sys.path.insert(0, MODULE)
 import lmdbench  # noqa: E402
 import numpy as np  # noqa: E402
 
-HERE = os.path.dirname(os.path.abspath(__file__))
-ROOT = os.path.abspath(os.path.join(HERE, "..", ".."))
 CORNERS = np.array([[x, y, z] for x in (0, 1) for y in (0, 1) for z in (0, 1)], dtype=float)
 SIDES = np.array([[0, 1, 3], [0, 3, 2], [4, 6, 7], [4, 7, 5], [0, 4, 5], [0, 5, 1],
                   [2, 3, 7], [2, 7, 6], [0, 2, 6], [0, 6, 4], [1, 5, 7], [1, 7, 3]])
@@ -62,19 +62,7 @@ def at(height):
     return pose
 
 
-class Files(unittest.TestCase):
-    def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = folder.name
-
-    def path(self, name):
-        return os.path.join(self.folder, name)
-
-    def write(self, name, text):
-        Path(self.path(name)).write_text(text, encoding="ascii")
-        return self.path(name)
-
+class Files(Scratch):
     def write_off(self, name, vertices, triangles):
         lines = [f"OFF\n{len(vertices)} {len(triangles)} 0\n"]
         lines += ["%r %r %r\n" % tuple(map(float, vertex)) for vertex in vertices]
@@ -82,7 +70,7 @@ class Files(unittest.TestCase):
         return self.write(name, "".join(lines))
 
     def program(self, *arguments):
-        return subprocess.run([PROGRAM, *arguments], cwd=self.folder, capture_output=True, text=True, timeout=120)
+        return call(PROGRAM, *arguments, cwd=self.folder, timeout=120)
 
 
 class AgainstTheProgram(Files):
@@ -211,9 +199,9 @@ class Arrays(Files):
                  (lambda: lmdbench.query(box, box, np.eye(4), float("nan")), lmdbench.UsageError, "cutoff"),
                  (lambda: lmdbench.query(box, [], np.eye(4), 0.1), lmdbench.UsageError, "fixed: names no mesh"),
                  (lambda: lmdbench.query(box, box, np.eye(4), 0.1, method=""), lmdbench.UsageError, "method"))
-        for call, kind, text in cases:
+        for attempt, kind, text in cases:
             with self.subTest(text=text), self.assertRaisesRegex(kind, text):
-                call()
+                attempt()
 
     def test_tum_files(self):
         path = self.write("path.tum", "0 1 2 3 0 0 0.6 0.8\n0.5 0 0 0 0 0 0 1\n")
@@ -392,29 +380,25 @@ class Examples(unittest.TestCase):
     def test_they_run(self):
         environment = {**os.environ, "PYTHONPATH": MODULE, "LMDBENCH_PROGRAM": PROGRAM,
                        "LMDBENCH_EXPERIMENT": os.path.join(ROOT, "experiments", "shapes.json")}
-        done = subprocess.run([sys.executable, os.path.join(ROOT, "src", "lmdbench", "python", "examples.py")], env=environment,
-                              capture_output=True, text=True, timeout=300)
+        done = call(sys.executable, ROOT / "src" / "lmdbench" / "python" / "examples.py", env=environment, timeout=300)
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertIn("certified: recall 1.00, precision 1.00", done.stdout)
         self.assertIn('did you mean "certified"', done.stdout)
 
 
-class Types(unittest.TestCase):
+class Types(Scratch):
     def test_stubs_match_the_module(self):
-        environment = {**os.environ, "PYTHONPATH": MODULE, "MYPYPATH": MODULE}
-        with tempfile.TemporaryDirectory() as folder:
-            # pybind11's classes have a metaclass and an initialiser of its own.
-            Path(folder, "allowed").write_text("lmdbench._lmdbench.(Mesh|Poses|Search|Sets)(.__init__)?\n", encoding="ascii")
-            done = subprocess.run([sys.executable, "-m", "mypy.stubtest", "lmdbench._lmdbench", "--ignore-missing-stub", "--allowlist",
-                                   "allowed"], cwd=folder, env=environment, capture_output=True, text=True, timeout=600)
-            self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
-            Path(folder, "user.py").write_text("import lmdbench\nimport numpy as np\nsets = lmdbench.query('a', 'b', np.eye(4), 0.1)\n"
-                         "distance: np.ndarray = sets[0]['distance']\ncount: int = lmdbench.Mesh('a').vertices\n", encoding="ascii")
-            done = subprocess.run([sys.executable, "-m", "mypy", "user.py"], cwd=folder, env=environment, capture_output=True, text=True,
-                                  timeout=600)
-            self.assertIn("user.py:5", done.stdout + done.stderr)
-            self.assertNotIn("user.py:3", done.stdout)
-            self.assertNotIn("user.py:4", done.stdout)
+        options = {"cwd": self.folder, "env": {**os.environ, "PYTHONPATH": MODULE, "MYPYPATH": MODULE}, "timeout": 600}
+        # pybind11's classes have a metaclass and an initialiser of its own.
+        self.write("allowed", "lmdbench._lmdbench.(Mesh|Poses|Search|Sets)(.__init__)?\n")
+        done = call(sys.executable, "-m", "mypy.stubtest", "lmdbench._lmdbench", "--ignore-missing-stub", "--allowlist", "allowed", **options)
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+        self.write("user.py", "import lmdbench\nimport numpy as np\nsets = lmdbench.query('a', 'b', np.eye(4), 0.1)\n"
+                   "distance: np.ndarray = sets[0]['distance']\ncount: int = lmdbench.Mesh('a').vertices\n")
+        done = call(sys.executable, "-m", "mypy", "user.py", **options)
+        self.assertIn("user.py:5", done.stdout + done.stderr)
+        self.assertNotIn("user.py:3", done.stdout)
+        self.assertNotIn("user.py:4", done.stdout)
 
 
 def load_tests(_loader, tests, _pattern):

@@ -5,36 +5,32 @@ Argument: the program."""
 
 import os
 import shutil
-import subprocess
 import sys
-import tempfile
 import unittest
 
-PROGRAM = sys.argv.pop(1)
-HERE = os.path.dirname(os.path.abspath(__file__))
-sys.path.insert(0, os.path.join(HERE, "..", "..", "scripts", "figures"))
+import h5py
+import numpy as np
 
-import h5py  # noqa: E402
-import numpy as np  # noqa: E402
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "scripts", "figures", "tests"))
+
+from cases import ROOT, Scratch, call  # noqa: E402  (the figures' tests must be found first)
 from lmdbench_results import FORMAT_VERSION, Result, ResultError  # noqa: E402
 
+PROGRAM = sys.argv.pop(1)
 INPUT_DATA = 3
 
 
 def kept(version):
-    return os.path.join(HERE, "formats", f"format-{version}.h5")
+    return str(ROOT / "tests" / "result_file" / "formats" / f"format-{version}.h5")
 
 
 def run(*arguments):
-    return subprocess.run([PROGRAM, *arguments], capture_output=True, text=True, timeout=120)
+    return call(PROGRAM, *arguments, timeout=120)
 
 
-class Formats(unittest.TestCase):
+class Formats(Scratch):
     def altered(self, version):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        file = os.path.join(folder.name, "altered.h5")
-        shutil.copy(kept(FORMAT_VERSION), file)
+        file = shutil.copy(kept(FORMAT_VERSION), self.path("altered.h5"))
         with h5py.File(file, "r+") as h5:
             h5.attrs["format_version"] = np.int64(version)
         return file

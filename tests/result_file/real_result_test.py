@@ -3,58 +3,32 @@
 """Runs the program on a small scene of its own and lets every script of scripts/figures read what it left: the result
 has the format that results/README.md describes, and holds what the scripts need. Argument: the program."""
 
-import contextlib
-import io
 import json
 import math
 import os
-import subprocess
 import sys
-import tempfile
 import unittest
 from pathlib import Path
 
-HERE = os.path.dirname(os.path.abspath(__file__))
-sys.path.insert(0, os.path.join(HERE, "..", "..", "scripts", "figures"))
+TESTS = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..")
+sys.path[:0] = [os.path.join(TESTS, "..", "scripts", "figures", "tests"), os.path.join(TESTS, "cli")]
 
+from cases import ROOT, SharedScratch, call, text_of  # noqa: E402  (the folders must be found first)
 import check_format  # noqa: E402
 import claims  # noqa: E402
 import figure7  # noqa: E402
 import numpy as np  # noqa: E402
 import summary  # noqa: E402
 import work_precision  # noqa: E402
+from init_pairs_test import grid_sphere, write_off  # noqa: E402
 from lmdbench_results import Result, truth_of  # noqa: E402
 
-EXPERIMENTS = os.path.join(HERE, "..", "..", "experiments")
-
 PROGRAM = None
-ROWS, COLUMNS = 12, 24  # of the bumpy sphere
 
 
-def write_bumpy_sphere(file):
-    """A closed sphere of radius 1 m with bumps of 5 %."""
-    vertices = [(0.0, 0.0, 1.0), (0.0, 0.0, -1.0)]
-    for i in range(1, ROWS):
-        for j in range(COLUMNS):
-            polar, turn = math.pi * i / ROWS, 2 * math.pi * j / COLUMNS
-            radius = 1.0 + 0.05 * math.cos(5 * polar) * math.cos(4 * turn)
-            vertices.append((radius * math.sin(polar) * math.cos(turn), radius * math.sin(polar) * math.sin(turn),
-                             radius * math.cos(polar)))
-
-    def vertex(i, j):
-        return 2 + (i - 1) * COLUMNS + j % COLUMNS
-
-    faces = []
-    for j in range(COLUMNS):
-        faces.append((0, vertex(1, j), vertex(1, j + 1)))
-        faces.append((1, vertex(ROWS - 1, j + 1), vertex(ROWS - 1, j)))
-        for i in range(1, ROWS - 1):
-            faces.append((vertex(i, j), vertex(i + 1, j), vertex(i + 1, j + 1)))
-            faces.append((vertex(i, j), vertex(i + 1, j + 1), vertex(i, j + 1)))
-    with open(file, "w", encoding="utf-8") as stream:
-        stream.write(f"OFF\n{len(vertices)} {len(faces)} 0\n")
-        stream.writelines(f"{x!r} {y!r} {z!r}\n" for x, y, z in vertices)
-        stream.writelines(f"3 {a} {b} {c}\n" for a, b, c in faces)
+def bumpy_sphere():
+    """Closed, of radius 1 m with bumps of 5 %."""
+    return grid_sphere(12, 24, lambda x, y, z: 1.0 + 0.05 * math.cos(5 * math.acos(max(-1.0, min(1.0, z)))) * math.cos(4 * math.atan2(y, x)))
 
 
 def write_path(file):
@@ -93,30 +67,28 @@ def experiment(name, cutoffs, everything):
     }
 
 
-class RealResultTest(unittest.TestCase):
+class RealResultTest(SharedScratch):
     @classmethod
     def setUpClass(cls):
-        cls.directory = tempfile.TemporaryDirectory()
-        write_bumpy_sphere(cls.path("sphere.off"))
-        write_path(cls.path("path.tum"))
+        super().setUpClass()
+        write_off(cls.at("sphere.off"), bumpy_sphere())
+        write_path(cls.at("path.tum"))
         cls.hard = cls.run_program("hard", [0.2], True)
         cls.soft = cls.run_program("soft", [0.4], False)
         cls.both = cls.run_program("both", [0.2, 0.4], False)
 
     @classmethod
-    def tearDownClass(cls):
-        cls.directory.cleanup()
-
-    @classmethod
-    def path(cls, name):
-        return os.path.join(cls.directory.name, name)
+    def at(cls, name):
+        return os.path.join(cls.folder, name)
 
     @classmethod
     def run_program(cls, name, cutoffs, everything):
-        Path(cls.path(name + ".json")).write_text(json.dumps(experiment(name, cutoffs, everything)), encoding="utf-8")
-        result = cls.path(name + ".h5")
-        done = subprocess.run([PROGRAM, "run", cls.path(name + ".json"), "--out", result], capture_output=True, text=True,
-                              check=False, stdin=subprocess.DEVNULL)
+        Path(cls.at(name + ".json")).write_text(json.dumps(experiment(name, cutoffs, everything)), encoding="utf-8")
+        return cls.result_of(cls.at(name + ".json"), cls.at(name + ".h5"))
+
+    @classmethod
+    def result_of(cls, experiment, result, *options):
+        done = call(PROGRAM, "run", experiment, "--out", result, *options)
         if done.returncode != 0:
             raise AssertionError(f"lmdbench run left with {done.returncode}:\n{done.stderr}")
         return result
@@ -124,12 +96,8 @@ class RealResultTest(unittest.TestCase):
     @classmethod
     def committed(cls, experiment, *options):
         """A short run of a committed experiment, for datasets that the spheres have no use for. Runs once."""
-        result = cls.path(f"{experiment}-{hash(options)}.h5")
-        if not os.path.exists(result):
-            file = os.path.join(EXPERIMENTS, experiment + ".json")
-            subprocess.run([PROGRAM, "run", file, "--out", result, *options], check=True, capture_output=True,
-                           stdin=subprocess.DEVNULL)
-        return result
+        result = cls.at(f"{experiment}-{hash(options)}.h5")
+        return result if os.path.exists(result) else cls.result_of(ROOT / "experiments" / f"{experiment}.json", result, *options)
 
     @classmethod
     def special(cls):
@@ -141,18 +109,12 @@ class RealResultTest(unittest.TestCase):
                 cls.committed("deforming", "--set", "/frames=20"),
                 cls.committed("movers", "--set", "/frames=60", "--set", "/driver/repetitions=2")]
 
-    def printed(self, main, *arguments):
-        stream = io.StringIO()
-        with contextlib.redirect_stdout(stream):
-            self.assertEqual(main(list(arguments)), 0, stream.getvalue())
-        return stream.getvalue()
-
     def test_results_have_the_described_format(self):
         text = self.printed(check_format.main, self.hard, self.soft, self.both, *self.special())
         self.assertIn(" 0 differences", text)
 
     def test_everything_described_is_there(self):
-        described = set(check_format.described(Path(check_format.README).read_text(encoding="utf-8")))
+        described = set(check_format.described(text_of(check_format.README)))
         found = set()
         for file in (self.hard, self.both, *self.special()):
             Result(file).h5.visit(lambda name: found.add(check_format.documented_path("/" + name)))
@@ -217,10 +179,8 @@ class RealResultTest(unittest.TestCase):
             self.assertTrue(np.all(times >= 0))
 
     def test_recipes_tell_the_programs_numbers(self):
-        examples = os.path.join(HERE, "..", "..", "results", "examples")
-
         def told(recipe, label):
-            done = subprocess.run([sys.executable, os.path.join(examples, recipe), self.hard], capture_output=True, text=True, check=True)
+            done = call(sys.executable, ROOT / "results" / "examples" / recipe, self.hard)
             (line,) = [line for line in done.stdout.splitlines() if line.startswith(label + ":")]
             return line
 
@@ -237,7 +197,7 @@ class RealResultTest(unittest.TestCase):
             content[place] ^= 1
         Path(damaged).write_bytes(content)
         for words in (["compare", self.hard, damaged], ["export", damaged, "--out", self.path("view")]):
-            done = subprocess.run([PROGRAM, *words], capture_output=True, text=True, check=False)
+            done = call(PROGRAM, *words)
             self.assertEqual(done.returncode, 3, done.stderr)
             self.assertIn("damaged.h5", done.stderr)
             self.assertIn("remedy", done.stderr)
