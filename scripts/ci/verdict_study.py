@@ -27,6 +27,7 @@ sys.path.insert(0, os.path.join(HERE, "..", "figures"))
 
 import intervals  # noqa: E402
 import regression  # noqa: E402
+import tables  # noqa: E402
 
 AGAIN = "again"
 # Every method has its turn, every stage of the improved one too.
@@ -110,8 +111,7 @@ def quantile(values, part):
 
 
 def table(rows):
-    lines = ["| condition | planted | comparisons | slower (95 % interval) | right stage named | unsure | same | faster | rounds, "
-             "mean | s a verdict: median, p99, worst | load |", "|---|---|---|---|---|---|---|---|---|---|---|"]
+    lines = []
     for condition in sorted({row["condition"] for row in rows}):
         for variant in sorted({row["variant"] for row in rows}, key=lambda name: 0 if name == AGAIN else int(name)):
             chosen = [row for row in rows if row["condition"] == condition and row["variant"] == variant]
@@ -122,11 +122,11 @@ def table(rows):
             named = "" if variant == AGAIN else sum(row["verdict"] == "slower" and row["named"] for row in chosen)
             seconds, loads = [row["seconds"] for row in chosen], [row["load"] for row in chosen]
             label = "nothing" if variant == AGAIN else variant + " %"
-            lines.append(f"| {condition} | {label} | {total} | {share(count['slower'], total)} | {named} | "
-                         f"{share(count['unsure'], total)} | {count['same']} | {count['faster']} | "
-                         f"{sum(row['rounds'] for row in chosen) / total:.1f} | {quantile(seconds, 0.5):.1f}, "
-                         f"{quantile(seconds, 0.99):.1f}, {max(seconds):.1f} | {min(loads):.1f} to {max(loads):.1f} |")
-    return "\n".join(lines) + "\n"
+            lines.append([condition, label, total, share(count["slower"], total), named, share(count["unsure"], total), count["same"], count["faster"],
+                          f"{sum(row['rounds'] for row in chosen) / total:.1f}",
+                          f"{quantile(seconds, 0.5):.1f}, {quantile(seconds, 0.99):.1f}, {max(seconds):.1f}", f"{min(loads):.1f} to {max(loads):.1f}"])
+    return "\n".join(tables.table(["condition", "planted", "comparisons", "slower (95 % interval)", "right stage named", "unsure", "same", "faster",
+                                   "rounds, mean", "s a verdict: median, p99, worst", "load"], lines))
 
 
 def draw(rows, file):

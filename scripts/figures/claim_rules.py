@@ -111,13 +111,13 @@ def k2(hard):
     for method in both(hard):
         counts[method.label] = {name: method.number(f"lmd_count_{name}") for name in ("median", "p99", "maximum")}
     share = {method.label: float(np.mean(method.read("lmd_count")[hard.in_contact()] < 10)) for method in both(hard)}
-    setting, because = judge({f"{label}'s set stays under 10": value["p99"] < 10 for label, value in counts.items()})
     text = "; ".join(f"{label} median {value['median']:.0f}, 99th percentile {value['p99']:.0f}, most "
                      f"{value['maximum']:.0f}, under 10 in {100 * share[label]:.1f} % of frames"
                      for label, value in counts.items())
     return Claim("K2", "Hard: the working set of LMDs is relatively small (under 10) (6.1).",
                  "LMDs within the cutoff, frames in contact: the 99th percentile is under 10 for both methods.",
-                 text + ".", setting, because, {"lmd_count": counts, "share_under_10": share})
+                 text + ".", *judge({f"{label}'s set stays under 10": value["p99"] < 10 for label, value in counts.items()}),
+                 {"lmd_count": counts, "share_under_10": share})
 
 
 def k3(soft):
@@ -158,11 +158,10 @@ def k4(results):
                      f"(ratio {ratio:.2f}); LMDs gained and lost per second original {change['original']:.0f}, "
                      f"improved {change['improved']:.0f}")
         numbers[result.name] = {"mean": mean, "changes_per_second": change}
-    setting, because = judge(parts)
     return Claim("K4", "Both methods maintain a similar number of LMD pairs, though the original fluctuates more wildly "
                  "(6.1).",
                  "Frames in contact: means within a factor of 1.5; the original gains and loses more LMDs per second.",
-                 "; ".join(texts) + ".", setting, because, numbers)
+                 "; ".join(texts) + ".", *judge(parts), numbers)
 
 
 def k5(results):
@@ -222,13 +221,12 @@ def k6(results):
             f"{total:.2f} {errors(result)}")
         numbers[result.name] = {"base_ratio": base, "reduction_share_median": median(share),
                                 "reduction_share_p99": quantile(share, 0.99), "total_ratio": total}
-    setting, because = judge(parts)
     return Claim("K6", "The base time of the global search is almost the same; the reduction after it can take the same time "
                  "as the search itself; search and first reduction are approximately two times longer than the "
                  "original (6.1).",
                  "Medians over searches in contact: base ratio 0.8 to 1.25; 99th percentile of reduction / search "
                  "at least 0.8; total ratio 1.5 to 2.5; undecided where repetitions disagree or there is one.",
-                 "; ".join(texts) + ".", setting, because, numbers)
+                 "; ".join(texts) + ".", *judge(parts), numbers)
 
 
 def local_ratio(result):
@@ -291,10 +289,9 @@ def k9(results):
                      f"1 kHz), {100 * late:.3f} % of updates above 1 ms; meshes of at least {triangles:,} triangles "
                      + errors(result))
         numbers[result.name] = {"local_update_p99_s": p99, "share_above_1ms": late, "smallest_mesh_triangles": triangles}
-    setting, because = judge(parts)
     return Claim("K9", "Update rates usually exceed 1 kHz (3), with bunnies of over 10,000 triangles each (6).",
                  "The 99th percentile of the improved local update is under 1 ms in every repetition (two at least) on meshes of more than 10,000 "
-                 "triangles.", "; ".join(texts) + ".", setting, because, numbers)
+                 "triangles.", "; ".join(texts) + ".", *judge(parts), numbers)
 
 
 def k10(results, unequal):

@@ -11,7 +11,7 @@ import json
 import numpy as np
 
 from lmdbench_results import EXIT_CHECK_FAILED, Result, run_script, truth_of
-from tables import table_text, write_text
+from tables import shown, table_text, write_text
 
 COMPLETE_SET = "complete-set"  # what a method promises that must have the true set
 HEADINGS = ("scene", "method", "contact frames", "LMDs", "recall [%]", "precision [%]", "frames wrong",
@@ -81,13 +81,9 @@ def cells(row):
         strict, adjacent = row[share], row[share + "_adjacent"]
         return NOT_MEASURED if not np.isfinite(strict) else f"{100 * strict:.1f} ({100 * adjacent:.1f})"
 
-    def number(value):
-        return NOT_MEASURED if not np.isfinite(value) else ("0" if value == 0 else f"{value:.2g}")
-
     return [row["scene"], row["method"], f"{row['frames_in_contact']} ({row['frames_touching']})", str(row["lmd_count_maximum"]),
             percent("recall"), percent("precision"), f"{row['frames_wrong']} of {row['frames_probed']}",
-            number(row["distance_error_cutoff"]), number(row["force_error_fmax"]), number(row["force_jump_fmax"]),
-            number(row["true_force_jump_fmax"]), str(row["not_a_number"]),
+            *(shown(row[name], 2) for name in ("distance_error_cutoff", "force_error_fmax", "force_jump_fmax", "true_force_jump_fmax")), str(row["not_a_number"]),
             ", ".join(f"{1e6 * row[name]:.3g}" for name in ("frame_median_s", "frame_p99_s", "frame_largest_s")),
             f"{row['frames_late']} of {row['frames']}", "yes" if row["stands"] else "no: " + ", ".join(row["why_not"])]
 

@@ -11,6 +11,7 @@ import matplotlib
 
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402  (the backend must be chosen first)
+from matplotlib.ticker import FixedLocator, FuncFormatter, NullFormatter  # noqa: E402
 
 TWO_COLUMNS_IN = 7.2  # text width of a page of two columns
 PNG_DPI = 300
@@ -130,6 +131,23 @@ def labelled_decades(low, high):
     powers = range(math.ceil(low), math.floor(high) + 1)
     step = max(1, -(-len(powers) // MOST_LABELLED))
     return [10.0**power for power in powers if power % step == 0]
+
+
+def lanes(axis, span, low, high, lane, has_zero, has_failed):
+    """On a logarithmic axis, beside the decades from `low` to `high`, shaded lanes so many decades wide where they are needed: for what is exactly
+    0, and for what failed.
+    @param span draws a stretch of the axis
+    @return the middles of the two lanes, and the ends of the whole axis"""
+    zero, failed = 10 ** (low - lane / 2), 10 ** (high + lane / 2)
+    begin, end = 10 ** (low - lane) if has_zero else 10**low, 10 ** (high + lane) if has_failed else 10**high
+    names = {zero: "0", failed: "failed"}
+    axis.set_major_locator(FixedLocator([zero] * has_zero + labelled_decades(low, high) + [failed] * has_failed))
+    axis.set_major_formatter(FuncFormatter(lambda value, _: names.get(value, f"{value:g}")))
+    axis.set_minor_formatter(NullFormatter())
+    for first, last in ((begin, 10**low), (10**high, end)):
+        if last > first:
+            span(first, last, color="#F0F0F0", lw=0, zorder=0)
+    return zero, failed, (begin, end)
 
 
 MOST_NOTED = 4  # failures at the foot of a figure

@@ -59,19 +59,11 @@ def events(before, after, true_before, true_after, step, cutoff):
     found = []
     for dead, born in hand_overs(births, deaths, step):
         found.append(("hand-over", float(np.linalg.norm(births.pop(born).force - deaths.pop(dead).force))))
-    for key, pair in births.items():
-        if key not in true_after:
-            kind = "false"
-        elif key in true_before:
-            kind = "age"
-        else:
-            kind = "cutoff" if cutoff - pair.distance <= step else "fold"
-        found.append((kind, float(np.linalg.norm(pair.force))))
-    for key, pair in deaths.items():
-        if key in true_after:
-            kind = "loss"
-        elif key not in true_before:
-            kind = "age"  # the reference lost it in an earlier frame, or never had it
+    for key, pair in [*births.items(), *deaths.items()]:
+        if (key in births) != (key in true_after):
+            kind = "false" if key in births else "loss"
+        elif (key in births) == (key in true_before):
+            kind = "age"  # the reference had it, or lost it in an earlier frame, or never had it
         else:
             kind = "cutoff" if cutoff - pair.distance <= step else "fold"
         found.append((kind, float(np.linalg.norm(pair.force))))

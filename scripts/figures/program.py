@@ -15,15 +15,15 @@ def settings_words(settings):
     return [word for pointer, value in settings.items() for word in ("--set", f"{pointer}={json.dumps(value)}")]
 
 
-def failure(command, done):
-    return ResultError(f"{' '.join(command)}: exit code {done.returncode}\n{done.stderr}")
+def failure(command, code, errors):
+    return ResultError(f"{' '.join(command)}: exit code {code}\n{errors}")
 
 
 def printed(command, allowed=(0,)):
     """What a command prints that leaves with one of these exit codes."""
     done = subprocess.run(command, capture_output=True, text=True, check=False, stdin=subprocess.DEVNULL)
     if done.returncode not in allowed:
-        raise failure(command, done)
+        raise failure(command, done.returncode, done.stderr)
     return done.stdout
 
 

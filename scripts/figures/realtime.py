@@ -243,22 +243,24 @@ def kept_grid(clock):
     return bool(on_grid and np.all(woken >= asked) and np.all(np.diff(frame) > 0) and np.all(frame == np.floor((woken + 1e-10) / period)))
 
 
+def run_with_a_stop(command, file, frames, seconds, **options):
+    """SIGSTOP of the whole program for so long once the part of the result has so many frames."""
+    with subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True, **options) as process:
+        while process.poll() is None and measured(file + ".part") < frames:
+            time.sleep(0.02)
+        process.send_signal(signal.SIGSTOP)
+        time.sleep(seconds)
+        process.send_signal(signal.SIGCONT)
+        errors = process.communicate()[1]
+    if process.returncode != 0:
+        raise failure(command, process.returncode, errors)
+
+
 def stopped_process(study, experiment, settings):
-    """SIGSTOP of the whole program for STOPPED_S in the middle of a run."""
     file = study.file("overload-sigstop")
     if not os.path.exists(file):
         study.spend()
-        command = study.command(experiment, file, {"/driver/kind": "realtime", **settings})
-        with subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True) as process:
-            part = file + ".part"
-            while process.poll() is None and measured(part) < 1000:
-                time.sleep(0.05)
-            process.send_signal(signal.SIGSTOP)
-            time.sleep(STOPPED_S)
-            process.send_signal(signal.SIGCONT)
-            process.stderr = process.communicate()[1]
-            if process.returncode != 0:
-                raise failure(command, process)
+        run_with_a_stop(study.command(experiment, file, {"/driver/kind": "realtime", **settings}), file, 1000, STOPPED_S)
     return clocks(Result(file))[0]
 
 

@@ -10,21 +10,14 @@ import os
 import numpy as np
 
 from lmdbench_results import Result, run_script, truth_of
+from tables import shown
 
 NOT_MEASURED = "-"
 
 
-def number(value, digits=2):
-    return NOT_MEASURED if not np.isfinite(value) else f"{value:.{digits}f}"
-
-
-def significant(value):
-    return NOT_MEASURED if not np.isfinite(value) else f"{value:.3g}"
-
-
 def median_and_p99(method, time):
     """'1.38 (2.10)' in milliseconds."""
-    return f"{significant(method.number(time + '_median_s') * 1e3)} ({significant(method.number(time + '_p99_s') * 1e3)})"
+    return f"{shown(method.number(time + '_median_s') * 1e3)} ({shown(method.number(time + '_p99_s') * 1e3)})"
 
 
 def percents(method, name):
@@ -33,7 +26,7 @@ def percents(method, name):
 
 
 def median_and_most(median, most):
-    return NOT_MEASURED if not np.isfinite(most) else f"{significant(median)} ({most:.0f})"
+    return NOT_MEASURED if not np.isfinite(most) else f"{shown(median)} ({most:.0f})"
 
 
 def row(method):
@@ -50,7 +43,7 @@ def row(method):
         median_and_most(method.number("lmd_count_median"), method.number("lmd_count_maximum")),
         percents(method, "recall"),
         percents(method, "precision"),
-        number(method.number("force_error_rms_n")),
+        f"{error:.2f}" if np.isfinite(error := method.number("force_error_rms_n")) else NOT_MEASURED,
         str(method.events("jumps")),
     ]
 

@@ -18,7 +18,7 @@ from tables import shown, table, write_text
 
 import matplotlib.pyplot as plt
 from matplotlib.lines import Line2D
-from matplotlib.ticker import FixedLocator, FuncFormatter, NullFormatter
+from matplotlib.ticker import FixedLocator, FuncFormatter
 
 MARKERS = ("o", "s", "D", "^", "v", "P", "X", "<")
 BUDGETS_MS = (3.0, 5.0, 10.0, 20.0, 50.0, 100.0, 200.0, 500.0)  # run time of a second of haptics
@@ -61,30 +61,22 @@ def colours_of(sweep):
 
 
 def levels(points, value):
-    """(low, high) decades of the positive errors, and the places of the two lanes."""
+    """(low, high) decades of the positive errors."""
     positive = [value(point) for point in points if not point.trouble and value(point) > 0 and np.isfinite(value(point))]
     low = math.floor(math.log10(min(positive)) * 2 - 0.2) / 2 if positive else -1.0
     high = math.log10(max(positive)) + 0.12 if positive else 2.0
-    return low, high, 10 ** (low - LANE / 2), 10 ** (high + LANE / 2)
+    return low, high
 
 
 def draw_panel(axes, points, value, colours, markers):
-    low, high, zero, failed = levels(points, value)
+    low, high = levels(points, value)
     has_zero = any(not point.trouble and value(point) == 0 for point in points)
     has_failed = any(point.trouble for point in points)
-    bottom = 10 ** (low - LANE) if has_zero else 10**low
-    top = 10 ** (high + LANE) if has_failed else 10**high
-    axes.set(xscale="log", yscale="log", ylim=(bottom, top))
-    for begin, end in ((bottom, 10**low), (10**high, top)):
-        if end > begin:
-            axes.axhspan(begin, end, color="#F0F0F0", lw=0, zorder=0)
-    decades = style.labelled_decades(low, high)
-    names = {zero: "0", failed: "failed"}
-    axes.yaxis.set_major_locator(FixedLocator([zero] * has_zero + decades + [failed] * has_failed))
-    axes.yaxis.set_major_formatter(FuncFormatter(lambda at, _: names.get(at, f"{at:g}")))
+    axes.set(xscale="log", yscale="log")
+    zero, failed, (bottom, top) = style.lanes(axes.yaxis, axes.axhspan, low, high, LANE, has_zero, has_failed)
+    axes.set_ylim(bottom, top)
     axes.yaxis.set_minor_locator(FixedLocator([step * 10.0**power for power in range(math.floor(low), math.floor(high) + 1)
                                                for step in range(2, 10) if 10**low <= step * 10.0**power < 10**high]))
-    axes.yaxis.set_minor_formatter(NullFormatter())
     axes.xaxis.set_major_formatter(FuncFormatter(lambda at, _: f"{at:g}"))
 
     def place(point):

@@ -17,7 +17,7 @@ from lmdbench_results import Result, ResultError, run_script, truth_of
 
 import matplotlib.pyplot as plt
 from matplotlib.lines import Line2D
-from matplotlib.ticker import FixedLocator, FuncFormatter, LogLocator, NullFormatter
+from matplotlib.ticker import FixedLocator, FuncFormatter, LogLocator
 
 MARKERS = ("o", "s", "^", "D", "v", "P")
 HAPTIC_BUDGET_MS = 1.0  # one frame at 1 kHz
@@ -65,23 +65,13 @@ def error_axis(axes, errors, any_failed):
     low = np.floor((np.log10(min(positive)) - 0.1) * 5) / 5 if positive else -3.0
     high = max(np.ceil(np.log10(max(positive)) * 20) / 20 + 0.1 if positive else 0.0, low + 1.0)
     lane = LANE_SHARE * (high - low)
-    zero, failed = 10 ** (low - lane / 2), 10 ** (high + lane / 2)
-    has_zero = any(error == 0 for error in errors)
-    left = 10 ** (low - lane) if has_zero else 10**low
-    right = 10 ** (high + lane) if any_failed else 10**high
-    axes.set(xscale="log", xlim=(left, right))
-    decades = style.labelled_decades(low, high)
-    names = {zero: "0", failed: "failed"}
-    axes.xaxis.set_major_locator(FixedLocator([zero] * has_zero + decades + [failed] * any_failed))
-    axes.xaxis.set_major_formatter(FuncFormatter(lambda value, _: names.get(value, f"{value:g}")))
+    axes.set_xscale("log")
+    zero, failed, limits = style.lanes(axes.xaxis, axes.axvspan, low, high, lane, any(error == 0 for error in errors), any_failed)
+    axes.set_xlim(limits)
     # Between labels that leave decades out, the unlabelled decades are the small marks.
     every = [10.0**power for power in range(math.floor(low), math.floor(high) + 1)]
     small = every if len(every) > style.MOST_LABELLED else [step * decade for decade in every for step in range(2, 10)]
     axes.xaxis.set_minor_locator(FixedLocator([mark for mark in small if 10**low <= mark < 10**high]))
-    axes.xaxis.set_minor_formatter(NullFormatter())
-    for begin, end in ((left, 10**low), (10**high, right)):
-        if end > begin:
-            axes.axvspan(begin, end, color="#F0F0F0", lw=0, zorder=0)
     return zero, failed, lane
 
 

@@ -16,8 +16,8 @@ ON_BOTH = {style.BLACK: "#777777"}
 RECALL_WINDOW = 40  # probed frames: a frame has so few LMDs that its own recall is mostly 0 or 1
 
 
-def encoded(values):
-    return base64.b64encode(np.ascontiguousarray(values, dtype="<f4").tobytes()).decode("ascii")
+def encoded(values, kind="<f4"):
+    return base64.b64encode(np.ascontiguousarray(values, dtype=kind).tobytes()).decode("ascii")
 
 
 def series(label, values, colour, **look):

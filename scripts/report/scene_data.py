@@ -5,19 +5,15 @@
 where the run recorded them, forces and intersection polylines. Coordinates of meshes become 16-bit integers over the mesh's
 box, a thousandth of a pixel; everything else is single precision."""
 
-import base64
 import json
 import os
 
 import numpy as np
 
 from mesh_drawing import read_off
+from page_data import encoded as packed
 
 LEVELS = 65535
-
-
-def packed(values, kind="<f4"):
-    return base64.b64encode(np.ascontiguousarray(values, dtype=kind).tobytes()).decode("ascii")
 
 
 def mesh_json(vertices, triangles):

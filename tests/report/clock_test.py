@@ -8,9 +8,7 @@ import json
 import os
 import resource
 import signal
-import subprocess
 import sys
-import time
 import unittest
 
 import numpy as np
@@ -20,7 +18,7 @@ sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), ".."
 from cases import ROOT, SharedScratch, call as call_in  # noqa: E402  (the figures' tests must be found first)
 from clock_results import clocks  # noqa: E402
 from lmdbench_results import Result  # noqa: E402
-from realtime import measured  # noqa: E402
+from realtime import run_with_a_stop  # noqa: E402
 
 PROGRAM = None
 FRAMES = 600
@@ -138,16 +136,7 @@ class Clock(SharedScratch):
 
     def test_a_stopped_program_loses_ticks_and_counts_them(self):
         out = self.path("stopped.h5")
-        with subprocess.Popen(command(out, "--set", '/methods=[{"name": "improved"}]', *NO_PROBES, seconds=4), cwd=ROOT,
-                              stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE) as process:
-            until = time.monotonic() + 60
-            while measured(out + ".part") < 500 and process.poll() is None and time.monotonic() < until:
-                time.sleep(0.02)
-            process.send_signal(signal.SIGSTOP)
-            time.sleep(0.4)
-            process.send_signal(signal.SIGCONT)
-            _, errors = process.communicate()
-            self.assertEqual(process.returncode, 0, errors)
+        run_with_a_stop(command(out, "--set", '/methods=[{"name": "improved"}]', *NO_PROBES, seconds=4), out, 500, 0.4, cwd=ROOT)
         clock = clocks(Result(out))[0]
         (ticks, skipped, lost), frames = counts(clock)
         self.assertEqual(ticks + skipped + lost, frames)

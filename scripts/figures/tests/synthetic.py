@@ -77,13 +77,9 @@ def write_result(file, name="hard", frames=2000, repetitions=5, methods=("origin
             dataset(reference, "minimum_distance", np.where(contacts[probed] > 0, 1e-3, np.nan), "m", "least true distance")
             for law in ("linear", "exponential"):
                 dataset(reference, f"force_{law}", true_force[probed], "N", "true force")
-                jump = np.linalg.norm(true_force[probed + 1] - true_force[probed], axis=1)
-                dataset(reference, f"force_jump_{law}", jump, "N", "change of the true force")
         fcl = h5.create_group("crosscheck/fcl")
         checked = probed if truth_stride else np.arange(0, frames, 100)
         dataset(fcl, "frame", checked, "1", "checked frames")
-        dataset(fcl, "distance", np.full(checked.size, 1e-3), "m", "FCL's distance")
-        dataset(fcl, "lmdbench_distance", np.full(checked.size, 1e-3), "m", "exact distance")
         dataset(fcl, "relative_difference", np.full(checked.size, 2e-9), "1", "relative difference")
         dataset(fcl, "separated", np.ones(checked.size, dtype="u1"), "1", "1 where separated")
         dataset(fcl, "agrees", np.ones(checked.size, dtype="u1"), "1", "1 where both agree")
@@ -113,19 +109,11 @@ def write_method(group, label, frames, repetitions, searches, contacts, true_for
     dataset(group, "local_update_time", local, "s", "time of each local update")
     if every_frame:
         return
-    before = count * (12.0 if label == "improved" else 1.0)
-    dataset(group, "lmd_count_before_reduction", before, "1", "candidates")
-    with np.errstate(invalid="ignore", divide="ignore"):
-        ratio = np.where(count > 0, before / count, np.nan)
-    dataset(group, "reduction_ratio", ratio, "1", "candidates / kept")
+    dataset(group, "lmd_count_before_reduction", count * (12.0 if label == "improved" else 1.0), "1", "candidates")
     dataset(group, "global_frame", started, "1", "frame of each search")
     dataset(group, "global_search_time", search, "s", "time of each search")
-    dataset(group, "candidates", count[started] * (12 if label == "improved" else 1), "1", "candidates")
-    if label != "improved":
-        return
-    dataset(group, "first_reduction_time", 0.8 * search, "s", "time of each first reduction")
-    dataset(group, "second_tracking_time", 0.08 * search, "s", "time of each second tracking")
-    dataset(group, "kept_after_reduction", count[started], "1", "kept")
+    if label == "improved":
+        dataset(group, "first_reduction_time", 0.8 * search, "s", "time of each first reduction")
 
 
 SUMMARY_UNITS = {"_m": "m", "_n": "N", "_rad": "rad", "_s": "s", "_per_second": "1/s"}
@@ -177,6 +165,3 @@ def write_truth(group, label, probed, contacts, true_force):
                          ("precision_adjacent", precision)):
         dataset(truth, name, values, "1", name)
     dataset(truth, "force_error", error, "N", "force error")
-    dataset(truth, "force_angle_error", np.where(error > 0, np.nan, 0.0), "rad", "angle")
-    dataset(truth, "minimum_distance_error", np.zeros(probed.size), "m", "error of the minimum distance")
-    dataset(truth, "force_jump", np.zeros(probed.size), "N", "change of the force")

@@ -203,6 +203,10 @@ def role_row(label, device_share, **more):
             "together_above_1ms": 0, **more}
 
 
+def jumping(series, every, switches, **more):
+    return row(series, every, switches=switches, true_switches=2.0, jumps=3.0 * switches, true_jumps=4.0, false_jumps=2.9 * switches, **more)
+
+
 class Verdicts(SweepScratch):
     def test_one_event_decides_nothing(self):
         self.assertEqual(region_rules.decide(0.5, 1.5, at_least=1.0), claim_regions.OPEN)
@@ -224,17 +228,14 @@ class Verdicts(SweepScratch):
                          ("holds where", "g (all 2 settings); h, 1"))
 
     def test_k1_compares_with_improved_under_the_same_schedule_and_cutoff(self):
-        many = [row("original", 20, switches=100.0, true_switches=2.0, jumps=300.0, true_jumps=4.0, false_jumps=290.0) for _ in range(3)]
-        few = [row("improved", 20, switches=1.0, true_switches=2.0, jumps=3.0, true_jumps=4.0, false_jumps=1.0) for _ in range(3)]
-        rare = [row("original", 100, switches=0.0, true_switches=2.0, jumps=3.0, true_jumps=4.0, false_jumps=1.0)]
-        also = [row("improved", 100, switches=1.0, true_switches=2.0, jumps=3.0, true_jumps=4.0, false_jumps=1.0)]
-        text, cells = claim_regions.k1(self.sweep(many + few + rare + also, "claim-k1"))
+        often = [jumping("original", 20, 100.0), jumping("improved", 20, 1.0)] * 3
+        rarely = [jumping("original", 100, 0.0), jumping("improved", 100, 1.0)]
+        text, cells = claim_regions.k1(self.sweep(often + rarely, "claim-k1"))
         self.assertEqual(list(cells.values()), [claim_regions.HOLDS, claim_regions.FAILS])
         self.assertIn("10 [", "\n".join(text))
 
     def test_what_was_not_swept_is_said_and_a_budget_sweep_judges_its_scene(self):
-        hard = [row("original", 20, scene="bunny-hard", switches=100.0, true_switches=2.0, jumps=300.0, true_jumps=4.0, false_jumps=290.0),
-                row("improved", 20, scene="bunny-hard", switches=0.0, true_switches=2.0, jumps=3.0, true_jumps=4.0, false_jumps=1.0)]
+        hard = [jumping("original", 20, 100.0, scene="bunny-hard"), jumping("improved", 20, 0.0, scene="bunny-hard")]
         other = [{**entry, "scene": "armadillo-bunny"} for entry in hard[:1]]
         budget = self.sweep(hard + other, "budget")
         self.assertEqual(len(budget.restricted("bunny-hard").points), 2)
