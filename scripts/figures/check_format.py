@@ -5,14 +5,14 @@
 and the number of axes that it has, and must say what it is. Exit code 1 when they differ."""
 
 import argparse
-import os
 import re
+from pathlib import Path
 
 import h5py
 
 from lmdbench_results import EXIT_CHECK_FAILED, Result, run_script
 
-README = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "results", "README.md")
+README = Path(__file__).resolve().parents[2] / "results" / "README.md"
 ROW = re.compile(r"^\| `([^`]+)` \| \(([^)]*)\) \| ([^|]+) \| ([^|]+) \|$")
 
 
@@ -66,8 +66,7 @@ def main(argv):
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("results", nargs="+", metavar="RESULT.h5")
     arguments = parser.parse_args(argv)
-    with open(README, encoding="utf-8") as stream:
-        rows = described(stream.read())
+    rows = described(README.read_text(encoding="utf-8"))
     count = 0
     for file in arguments.results:
         for line in differences(Result(file), rows):

@@ -10,12 +10,12 @@ Exit codes: 0 done, 3 the file has no such path."""
 
 import argparse
 import json
-import sys
+from pathlib import Path
 
 import numpy as np
 
 import figure_style as style
-from lmdbench_results import EXIT_INPUT_DATA, run_script
+from lmdbench_results import ResultError, run_script
 
 import matplotlib.pyplot as plt
 
@@ -39,12 +39,10 @@ def main(argv):
     parser.add_argument("--scene", default="bunny-hard")
     parser.add_argument("--out", default="results/figures")
     arguments = parser.parse_args(argv)
-    with open(arguments.file, encoding="utf-8") as stream:
-        paths = json.load(stream).get("paths", {})
+    paths = json.loads(Path(arguments.file).read_text(encoding="utf-8")).get("paths", {})
     if arguments.scene not in paths:
-        print(f"{arguments.file}: no path {arguments.scene} (remedy: lmdbench-study continuous-force --part paths "
-              f"--scene {arguments.scene} --json FILE)", file=sys.stderr)
-        return EXIT_INPUT_DATA
+        raise ResultError(f"{arguments.file}: no path {arguments.scene} (remedy: lmdbench-study continuous-force --part paths "
+                          f"--scene {arguments.scene} --json FILE)")
     forces = {law: np.array(paths[arguments.scene][law]["force"]) for law, _, _ in LAWS}
     first = busiest_second(forces["sum"])
     frames = slice(first, first + SECOND)
@@ -65,4 +63,4 @@ def main(argv):
 
 
 if __name__ == "__main__":
-    sys.exit(run_script(main))
+    raise SystemExit(run_script(main))

@@ -104,6 +104,10 @@ def main():
                f"/driver/repetitions={arguments.repetitions}"]
     for override in arguments.overrides:
         command += ["--set", override]
+
+    def resume(file):
+        subprocess.run(command + ["--out", file, "--resume"], check=True, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+
     folder = tempfile.mkdtemp(prefix="lmdbench-kills-")
     whole, out = os.path.join(folder, "whole.h5"), os.path.join(folder, "r.h5")
     part = out + ".part"
@@ -154,8 +158,7 @@ def main():
                 shutil.copyfile(part, copy + ".part")
                 kept = os.path.join(folder, "kept.h5")
                 shutil.copyfile(part, kept)
-                subprocess.run(command + ["--out", copy, "--resume"], check=True, stdout=subprocess.DEVNULL,
-                               stderr=subprocess.DEVNULL)
+                resume(copy)
                 failures += [f"kill {kill}: {name} differs after resuming" for name in differences(whole, copy)]
                 failures += [f"kill {kill}: {label}: known times were not kept"
                              for label in kept_times_differ(kept, copy)]
@@ -163,8 +166,7 @@ def main():
                     failures.append(f"kill {kill}: a part is left beside the finished result")
                 completed += 1
         if os.path.exists(part):
-            subprocess.run(command + ["--out", out, "--resume"], check=True, stdout=subprocess.DEVNULL,
-                           stderr=subprocess.DEVNULL)
+            resume(out)
             failures += [f"at the end: {name} differs" for name in differences(whole, out)]
             completed += 1
         print("| what | |\n|---|---|")

@@ -203,10 +203,8 @@ class Surroundings(unittest.TestCase):
 
     def hashes_of(self, result):
         with h5py.File(result) as file:
-            inputs = file["provenance/inputs"]
-            name = next(key for key in inputs if key in ("file", "path", "name"))
-            return {os.path.basename(path.decode()): digest.decode()
-                    for path, digest in zip(inputs[name][()], inputs["sha256"][()])}
+            files, digests = (file[f"provenance/inputs/{name}"].asstr()[()] for name in ("file", "sha256"))
+        return {os.path.basename(path): digest for path, digest in zip(files, digests)}
 
     def test_inputs_that_change_during_a_run(self):
         mesh, path = self.own_experiment()

@@ -177,6 +177,9 @@ class FormatTest(ScriptsTest):
 
 
 class FigureTest(ScriptsTest):
+    def tearDown(self):
+        figure_style.plt.close("all")
+
     def figure_bytes(self, main, names, *arguments):
         contents = []
         for turn in ("first", "second"):
@@ -205,13 +208,11 @@ class FigureTest(ScriptsTest):
         self.assertEqual(axes.get_shared_x_axes().joined(axes, figure.axes[0]), True)
         self.assertLess(axes.get_ylim()[1], 10.0)
         self.assertIn("1 above, up to 500 ms", [text.get_text() for text in axes.texts])
-        figure_style.plt.close(figure)
 
     def test_figure7_without_truth_says_so(self):
         figure = figure7.draw(Result(self.bare), Result(self.bare))
         texts = [text.get_text() for axes in figure.axes for text in axes.texts]
         self.assertIn("no truth probe in this run", texts)
-        figure_style.plt.close(figure)
 
     def test_figure7_takes_any_labels_profiles_and_methods(self):
         def profiles(h5):
@@ -232,7 +233,6 @@ class FigureTest(ScriptsTest):
         figure = figure7.draw(exact)
         self.assertEqual(len(figure.axes), len(figure7.ROWS))
         self.assertIn("no method searches at a rate of its own", figure.axes[2].texts[0].get_text())
-        figure_style.plt.close(figure)
         with self.assertRaisesRegex(ResultError, "5 columns are more than a page holds"):
             figure7.draw(*[exact] * 5)
 
@@ -269,7 +269,6 @@ class FigureTest(ScriptsTest):
         self.assertIn("failed", labels)
         self.assertIn("0", labels)
         self.assertIn("failed: improved in hard, force is not finite", [text.get_text() for text in figure.texts])
-        figure_style.plt.close(figure)
 
     def test_labels_of_an_axis_stay_apart_however_far_errors_reach(self):
         def shift(error):
@@ -285,7 +284,6 @@ class FigureTest(ScriptsTest):
                 self.assertGreaterEqual(len(boxes), 2)
                 for left, right in zip(boxes, boxes[1:]):
                     self.assertLessEqual(left.x1, right.x0, error)
-            figure_style.plt.close(figure)
         exact = shift(2e-14)
         self.assertEqual(work_precision.Point(exact, exact.method("certified")).force_error, 0.0)
         self.assertEqual(figure_style.labelled_decades(-14.0, 0.5), [1e-12, 1e-9, 1e-6, 1e-3, 1.0])
@@ -299,7 +297,6 @@ class FigureTest(ScriptsTest):
             for name in ("original", "improved", "certified", "exhaustive"):
                 self.assertEqual(any(key.startswith(name) for key in keys[row]), not searching or name in ("original", "improved"), (label, name))
         self.assertGreaterEqual(len(figure.axes[0].lines), 4 + 2, "methods and truths")
-        figure_style.plt.close(figure)
 
     def test_work_precision_refuses_times_without_errors(self):
         with self.assertRaisesRegex(ResultError, "no truth probe"):

@@ -51,6 +51,9 @@ def faults_of(figure):
 
 
 class LayoutTest(SharedScratch):
+    def tearDown(self):
+        figure_style.plt.close("all")
+
     def result(self, name, methods=4, seed=1):
         file = write_result(self.path(f"{name[:20]}-{methods}-{seed}.h5"), name, frames=600, repetitions=3, methods=METHODS[:methods], seed=seed)
         with h5py.File(file, "r+") as h5:
@@ -59,10 +62,7 @@ class LayoutTest(SharedScratch):
         return Result(file)
 
     def check(self, figure, what):
-        try:
-            self.assertEqual(faults_of(figure), [], what)
-        finally:
-            figure_style.plt.close(figure)
+        self.assertEqual(faults_of(figure), [], what)
 
     def test_two_to_six_methods_under_any_name(self):
         for methods, name in zip((2, 3, 4, 5, 6), (*NAMES, NAMES[-1])):
@@ -90,7 +90,6 @@ class LayoutTest(SharedScratch):
             h5["methods/original/local_update_time"][...] = 3e-8
         figure = figure7.draw(Result(file))
         self.assertLess(figure.axes[3].get_ylim()[0], 0.03)
-        figure_style.plt.close(figure)
 
     def test_a_short_name_is_kept_and_a_long_one_keeps_its_ends(self):
         self.assertEqual(figure_style.shortened("peg-hole"), "peg-hole")
@@ -105,4 +104,3 @@ class LayoutTest(SharedScratch):
         axes.text(0.5, 0.5, "the same", transform=axes.transAxes)
         axes.text(0.9, 0.2, "beyond the edge of the page", transform=axes.transAxes)
         self.assertEqual(len(faults_of(figure)), 2)
-        figure_style.plt.close(figure)

@@ -9,12 +9,10 @@ import h5py
 import numpy as np
 
 from cases import Scratch
+from figure1 import write_off
+from test_figure1 import CUBE, FACES
 import world
 from lmdbench_results import ResultError
-
-BOX = "OFF\n8 12 0\n" + "".join(f"{x} {y} {z}\n" for x in (0, 1) for y in (0, 1) for z in (0, 1)) + "".join(
-    f"3 {a} {b} {c}\n" for a, b, c in ((0, 1, 3), (0, 3, 2), (4, 6, 7), (4, 7, 5), (0, 4, 5), (0, 5, 1), (2, 3, 7), (2, 7, 6), (0, 2, 6), (0, 6, 4),
-                                       (1, 5, 7), (1, 7, 3)))
 
 
 def write(file, instances=True, lmds=True):
@@ -47,7 +45,7 @@ class WorldFigure(Scratch):
     def setUp(self):
         super().setUp()
         self.file = self.path("world.h5")
-        self.write("box.off", BOX)
+        write_off(self.path("box.off"), CUBE, FACES)
 
     def test_names_instances_and_finds_the_frame_of_most(self):
         write(self.file)
