@@ -95,8 +95,8 @@ part() {
       ;;
     kernel) sweep kernel kernel ;;
     leave-out)
-      study leave-out --processes 3 shapes.json dropouts.json bunny-hard.json extreme/flush-cubes.json extreme/start-inside.json \
-        extreme/sliding-faces.json
+      study leave-out --processes 3 experiments/{shapes,dropouts,bunny-hard}.json \
+        experiments/extreme/{flush-cubes,start-inside,sliding-faces}.json
       ;;
     ledger)
       local scene results=() OUT="$OUT/ledger" # with probes of its own, not in place of the others' runs
