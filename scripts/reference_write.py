@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-FileCopyrightText: The lmdbench authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Puts what scripts/reference.sh left in a folder into results/reference. A file of the same name is copied; a text that begins with
-a page's title becomes that page; else each table of PART.txt takes the place of the one with the same header in the page PART.md
+"""Puts what scripts/reference.sh left in a folder into results/reference. A file of the same name is copied; what stands
+under a page's title becomes that page; else each table of PART.txt takes the place of the one with the same header in the page PART.md
 or PART-*.md. What stands round the tables is written by hand: the pages that were touched are named, to be read. In the register a
 row whose pages were renewed as a whole names the new commit, any other keeps its commits and names it beside them."""
 
@@ -43,9 +43,11 @@ def with_tables_of(page, output):
     return "".join(written), kept
 
 
-def documents(output):
-    """Parts of an output that begin with a title, by title."""
-    return {part.split("\n", 1)[0]: part for part in re.split(r"^(?=# )", output, flags=re.MULTILINE) if part.startswith("# ")}
+def section(output, title):
+    """What an output says under a title, with it; None where the title is not there."""
+    marks = title.split(" ", 1)[0]
+    parts = re.split(f"^(?=#{{1,{len(marks)}}} )", output, flags=re.MULTILINE)
+    return next((part for part in parts if marks.startswith("#") and part.split("\n", 1)[0] == title), None)
 
 
 def part_of(name):
@@ -68,7 +70,7 @@ def renew(path, run):
         output = stream.read()
     with open(path, encoding="utf-8") as stream:
         page = stream.read()
-    whole = documents(output).get(page.split("\n", 1)[0])
+    whole = section(output, page.split("\n", 1)[0])
     text, kept = (whole, 0) if whole else with_tables_of(page, output)
     if text == page and kept:
         return None

@@ -9,7 +9,7 @@ import unittest
 
 from cases import ROOT, SCRIPTS, call, text_of
 from reference_ages import ADDED, FOLDER, age, git, rows, unmarked
-from reference_write import documents, part_of, with_tables_of
+from reference_write import part_of, section, with_tables_of
 
 
 class Register(unittest.TestCase):
@@ -88,7 +88,9 @@ class Writing(unittest.TestCase):
         self.assertEqual(with_tables_of(page, "| a |\n|---|\n| 5 |\n"), (page.replace("1", "5"), 1))
 
     def test_an_output_may_hold_several_pages(self):
-        self.assertEqual(documents("noise\n# One\nx\n## part\n# Two\n"), {"# One": "# One\nx\n## part\n", "# Two": "# Two\n"})
+        output = "noise\n# One\nx\n## part\n# Two\n"
+        self.assertEqual([section(output, title) for title in ("# One", "# Two", "## part", "# Three", "x")],
+                         ["# One\nx\n## part\n", "# Two\n", "## part\n", None, None])
 
     def test_a_page_is_of_the_longest_part_that_it_is_called_after(self):
         self.assertEqual([part_of(name) for name in ("stability-map.md", "stability.md", "recall-bunny-bunny.md", "README.md")],
