@@ -96,7 +96,7 @@ part() {
     kernel) sweep kernel kernel ;;
     leave-out)
       study leave-out --processes 3 experiments/{shapes,dropouts,bunny-hard}.json \
-        experiments/extreme/{flush-cubes,start-inside,sliding-faces}.json
+        experiments/extreme/{flush-cubes,start-inside,sliding-faces,rocking-box,deep}.json
       ;;
     ledger)
       local scene results=() OUT="$OUT/ledger" # with probes of its own, not in place of the others' runs
