@@ -29,6 +29,8 @@ sweep() {
   "$BUILD/lmdbench" work-precision "experiments/sweeps/$1.json" --out "$OUT/$2.h5"
   figure sweep "$OUT/$2.h5" --out "$OUT" --name "$2"
 }
+# Without machine parts, which are not cross-checked and are for the judge of flat contact: a bolt in a nut alone takes hours.
+extreme_scenes() { printf '%s\n' experiments/extreme/*.json | grep -vE '/(bolt|gears|peg|box-on-table)[^/]*$'; }
 # Open loops with LMD lists, which several parts read.
 runs_with_lmds() {
   local scene
@@ -102,7 +104,7 @@ part() {
       local scene results=() OUT="$OUT/ledger" # with probes of its own, not in place of the others' runs
       mkdir -p "$OUT"
       for scene in bunny-hard bunny-soft; do run "$scene" --set /probes/fcl/stride_frames=10; done
-      for scene in experiments/extreme/*.json; do
+      for scene in $(extreme_scenes); do
         scene="$(basename "$scene" .json)"
         run "extreme/$scene"
         results+=("$OUT/$scene.h5")
@@ -133,9 +135,8 @@ part() {
       judge accuracy --million
       ;;
     truth)
-      # Machine parts are for the judge of flat contact: a bolt in a nut alone takes hours here.
       local scenes=()
-      mapfile -t scenes < <(printf '%s\n' experiments/extreme/*.json | grep -vE '/(bolt|gears|peg|box-on-table)[^/]*$')
+      mapfile -t scenes < <(extreme_scenes)
       judge truth "${scenes[@]}"
       judge truth experiments/bunny-hard.json experiments/bunny-soft.json
       ;;
