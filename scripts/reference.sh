@@ -138,7 +138,7 @@ part() {
       local scenes=()
       mapfile -t scenes < <(extreme_scenes)
       judge truth "${scenes[@]}"
-      judge truth experiments/bunny-hard.json experiments/bunny-soft.json
+      judge truth experiments/{bunny-hard,bunny-soft,armadillo-bunny}.json --frames 201
       ;;
     tuned-constants) "$PYTHON" scripts/tuned_constants.py experiments/bunny-hard.json ;;
     work-precision)

@@ -2,7 +2,7 @@
 # SPDX-FileCopyrightText: The lmdbench authors
 # SPDX-License-Identifier: BSD-3-Clause
 """Puts what scripts/reference.sh left in a folder into results/reference. A file of the same name is copied; what stands
-under a page's title becomes that page; else each table of PART.txt takes the place of the one with the same header in the page PART.md
+under a page's title becomes that page where the page has no line of its own; else each table of PART.txt takes the place of the one with the same header in the page PART.md
 or PART-*.md. What stands round the tables is written by hand: the pages that were touched are named, to be read. In the register a
 row whose pages were renewed as a whole names the new commit, any other keeps its commits and names it beside them."""
 
@@ -50,6 +50,12 @@ def section(output, title):
     return next((part for part in parts if marks.startswith("#") and part.split("\n", 1)[0] == title), None)
 
 
+def holds_text_of(page, text):
+    """Whether a text has every line of a page that is of no table."""
+    lines = set(text.split("\n"))
+    return all(line in lines for block in blocks(page) if header(block) is None for line in block.split("\n"))
+
+
 def part_of(name):
     """The part of scripts/reference.sh that a page is of."""
     command = [os.path.join(reference_ages.ROOT, "scripts", "reference.sh"), "--list"]
@@ -71,7 +77,7 @@ def renew(path, run):
     with open(path, encoding="utf-8") as stream:
         page = stream.read()
     whole = section(output, page.split("\n", 1)[0])
-    text, kept = (whole, 0) if whole else with_tables_of(page, output)
+    text, kept = (whole, 0) if whole and holds_text_of(page, whole) else with_tables_of(page, output)
     if text == page and kept:
         return None
     with open(path, "w", encoding="utf-8") as stream:

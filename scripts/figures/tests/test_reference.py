@@ -9,7 +9,7 @@ import unittest
 
 from cases import ROOT, SCRIPTS, call, text_of
 from reference_ages import ADDED, FOLDER, age, git, rows, unmarked
-from reference_write import part_of, section, with_tables_of
+from reference_write import holds_text_of, part_of, section, with_tables_of
 
 
 class Register(unittest.TestCase):
@@ -91,6 +91,11 @@ class Writing(unittest.TestCase):
         output = "noise\n# One\nx\n## part\n# Two\n"
         self.assertEqual([section(output, title) for title in ("# One", "# Two", "## part", "# Three", "x")],
                          ["# One\nx\n## part\n", "# Two\n", "## part\n", None, None])
+
+    def test_what_is_written_by_hand_stays(self):
+        made = PAGE.replace("| bunny | 7 |", "| bunny | 5 |")
+        self.assertTrue(holds_text_of(PAGE, made))
+        self.assertFalse(holds_text_of(PAGE + "- Read by hand.\n", made))
 
     def test_a_page_is_of_the_longest_part_that_it_is_called_after(self):
         self.assertEqual([part_of(name) for name in ("stability-map.md", "stability.md", "recall-bunny-bunny.md", "README.md")],
