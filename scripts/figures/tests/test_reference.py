@@ -6,10 +6,12 @@ its code where it is."""
 import os
 import re
 import unittest
+import unittest.mock
 
-from cases import ROOT, SCRIPTS, call, text_of
+from cases import ROOT, SCRIPTS, Scratch, call, text_of
+import reference_ages
 from reference_ages import ADDED, FOLDER, age, git, rows, unmarked
-from reference_write import holds_text_of, part_of, section, with_tables_of
+from reference_write import holds_text_of, name_commit, part_of, renew, section, with_tables_of
 
 
 class Register(unittest.TestCase):
@@ -100,3 +102,20 @@ class Writing(unittest.TestCase):
     def test_a_page_is_of_the_longest_part_that_it_is_called_after(self):
         self.assertEqual([part_of(name) for name in ("stability-map.md", "stability.md", "recall-bunny-bunny.md", "README.md")],
                          ["stability-map", "stability", "recall", ""])
+
+
+class WrittenFiles(Scratch):
+    def test_a_page_takes_its_parts_tables_and_a_file_of_the_same_name_is_copied(self):
+        page, figure = self.write("deform.md", PAGE), self.write("jumps.png", "old")
+        self.write("run/deform.txt", "# Costs\n\n| mesh | us |\n|---|---|\n| bunny | 5 |\n")
+        self.write("run/jumps.png", "new")
+        self.assertEqual([renew(file, self.path("run")) for file in (page, figure, self.path("flat.md"))], [1, 0, None])
+        self.assertEqual(self.read("deform.md"), PAGE.replace("| bunny | 7 |", "| bunny | 5 |"))
+        self.assertEqual(self.read("jumps.png"), "new")
+
+    def test_a_row_names_the_commit_of_what_was_renewed_and_keeps_that_of_what_was_not(self):
+        register = self.write("README.md", "| `a.md`, `a.png` | c | 1111111 | lmd | older |\n| `b.md` | c | 2222222 | lmd | |\n")
+        with unittest.mock.patch.object(reference_ages, "REGISTER", register):
+            name_commit(["a.md", "a.png"], 0, "3333333")
+            name_commit(["b.md"], 1, "3333333")
+            self.assertEqual([row.commits for row in rows()], [["3333333"], ["2222222", "3333333"]])
