@@ -18,6 +18,7 @@ FOLDER = os.path.join(ROOT, "results", "reference")
 REGISTER = os.path.join(FOLDER, "README.md")
 ADDED = "the one that added it"  # a file cannot name the commit that it is in
 OLDER = "older"
+COMMITS, MARK = 2, 4  # columns
 
 
 class Row:
@@ -53,14 +54,23 @@ def unmarked(ages):
     return [row.files[0] for row, since in ages if since > 0 and row.mark != OLDER]
 
 
-def mark(ages):
-    older = {row.files[0]: since > 0 for row, since in ages}
+def rewrite(change):
+    """Writes the register again after change(row, cells) of each of its rows, with what stands in its cells."""
     lines = Path(REGISTER).read_text(encoding="utf-8").split("\n")
     for i, line in enumerate(lines):
         if line.startswith("| `"):
-            cells = line.strip().strip("|").split("|")[:-1]
-            lines[i] = "|" + "|".join([*cells, f" {OLDER} |" if older[Row(line).files[0]] else " |"])
+            cells = line.strip().strip("|").split("|")
+            change(Row(line), cells)
+            lines[i] = "|" + "|".join(cells) + "|"
     Path(REGISTER).write_text("\n".join(lines), encoding="utf-8")
+
+
+def mark(ages):
+    older = {row.files[0]: since > 0 for row, since in ages}
+
+    def change(row, cells):
+        cells[MARK] = f" {OLDER} " if older[row.files[0]] else " "
+    rewrite(change)
 
 
 def main():

@@ -2,15 +2,18 @@
 # SPDX-FileCopyrightText: The lmdbench authors
 # SPDX-License-Identifier: BSD-3-Clause
 """Puts what scripts/reference.sh left in a folder into results/reference. A file of the same name is copied; what stands
-under a page's title becomes that page where the page has no line of its own; else each table of PART.txt takes the place of the one with the same header in the page PART.md
-or PART-*.md. What stands round the tables is written by hand: the pages that were touched are named, to be read. In the register a
-row whose pages were renewed as a whole names the new commit, any other keeps its commits and names it beside them."""
+under a page's title becomes that page where the page has no line of its own; else each table of PART.txt takes the place of
+the one with the same header in the page PART.md or PART-*.md. What stands round the tables is written by hand: the pages that
+were touched are named, to be read. In the register a row whose pages were renewed as a whole names the new commit, any other
+keeps its commits and names it beside them."""
 
 import argparse
+import functools
 import os
 import re
 import shutil
 import subprocess
+from pathlib import Path
 
 import reference_ages
 
@@ -56,11 +59,16 @@ def holds_text_of(page, text):
     return all(line in lines for block in blocks(page) if header(block) is None for line in block.split("\n"))
 
 
-def part_of(name):
-    """The part of scripts/reference.sh that a page is of."""
+@functools.cache
+def parts():
+    """Those of scripts/reference.sh."""
     command = [os.path.join(reference_ages.ROOT, "scripts", "reference.sh"), "--list"]
-    parts = subprocess.run(command, capture_output=True, text=True, check=True).stdout.split()
-    return max((part for part in parts if name.startswith(part)), key=len, default="")
+    return subprocess.run(command, capture_output=True, text=True, check=True).stdout.split()
+
+
+def part_of(name):
+    """The part that a page is of."""
+    return max((part for part in parts() if name.startswith(part)), key=len, default="")
 
 
 def renew(path, run):
@@ -72,31 +80,21 @@ def renew(path, run):
     made = os.path.join(run, part_of(name) + ".txt")
     if not name.endswith(".md") or not os.path.exists(made):
         return None
-    with open(made, encoding="utf-8") as stream:
-        output = stream.read()
-    with open(path, encoding="utf-8") as stream:
-        page = stream.read()
+    output, page = (Path(file).read_text(encoding="utf-8") for file in (made, path))
     whole = section(output, page.split("\n", 1)[0])
     text, kept = (whole, 0) if whole and holds_text_of(page, whole) else with_tables_of(page, output)
     if text == page and kept:
         return None
-    with open(path, "w", encoding="utf-8") as stream:
-        stream.write(text)
+    Path(path).write_text(text, encoding="utf-8")
     return kept
 
 
 def name_commit(files, kept, commit):
     """Names the commit in the register's row of these files."""
-    with open(reference_ages.REGISTER, encoding="utf-8") as stream:
-        lines = stream.read().split("\n")
-    for i, line in enumerate(lines):
-        if not line.startswith("| `") or reference_ages.Row(line).files != files:
-            continue
-        cells = line.split("|")
-        cells[3] = f" {commit} " if kept == 0 else f"{cells[3].rstrip()}, {commit} "
-        lines[i] = "|".join(cells)
-    with open(reference_ages.REGISTER, "w", encoding="utf-8") as stream:
-        stream.write("\n".join(lines))
+    def change(row, cells):
+        if row.files == files:
+            cells[reference_ages.COMMITS] = f" {', '.join([commit] if kept == 0 else [*row.commits, commit])} "
+    reference_ages.rewrite(change)
 
 
 def main():
