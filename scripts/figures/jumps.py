@@ -60,10 +60,11 @@ def events(before, after, true_before, true_after, step, cutoff):
     for dead, born in hand_overs(births, deaths, step):
         found.append(("hand-over", float(np.linalg.norm(births.pop(born).force - deaths.pop(dead).force))))
     for key, pair in [*births.items(), *deaths.items()]:
-        if (key in births) != (key in true_after):
-            kind = "false" if key in births else "loss"
-        elif (key in births) == (key in true_before):
-            kind = "age"  # the reference had it, or lost it in an earlier frame, or never had it
+        is_birth, was_true, is_true = key in births, key in true_before, key in true_after
+        if is_birth != is_true:
+            kind = "false" if is_birth else "loss"
+        elif was_true == is_true:
+            kind = "age"  # the reference got or lost it in an earlier frame, or never had it
         else:
             kind = "cutoff" if cutoff - pair.distance <= step else "fold"
         found.append((kind, float(np.linalg.norm(pair.force))))
