@@ -10,6 +10,7 @@
 #include <cmath>
 #include <cstddef>
 #include <iterator>
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -43,13 +44,20 @@ struct Active {
   double x;
 };
 
+/// Corners of a convex piece from the bottom; the last of each side is at the top.
+struct Outline {
+  std::vector<Vec2> left, right;
+};
+
 /// A convex piece that may still grow upwards.
 struct OpenPiece {
-  std::vector<Vec2> left,
-      right;  ///< Corners from the bottom; the last of each is at the top. Empty once it has grown.
+  static constexpr std::size_t NONE = std::numeric_limits<std::size_t>::max();
+
+  const Climb *left, *right;  ///< Between which it is at the top.
   double left_slope, right_slope;
   double left_x, right_x;  ///< At the top.
-  std::size_t part;
+  std::size_t part = 0;
+  std::size_t outline = NONE;  ///< NONE once it has grown.
 };
 
 class Sweep {
@@ -152,37 +160,54 @@ class Sweep {
         right_top[0] - left_top[0] <= tolerance_)
       return;
     const double gap = CONTINUATION * tolerance_;
-    OpenPiece piece{{}, {}, left.slope, right.slope, left_top[0], right_top[0], part_count_++};
-    if (!open_.empty() &&
-        (left_bottom[0] - last_right_bottom_ <= gap || left_top[0] - open_.back().right_x <= gap))
-      meetings_.emplace_back(piece.part, open_.back().part);
+    const bool meets_neighbour = !open_.empty() && (left_bottom[0] - last_right_bottom_ <= gap ||
+                                                    left_top[0] - open_.back().right_x <= gap);
     last_right_bottom_ = right_bottom[0];
     while (first_before_ < before_.size() && before_[first_before_].right_x < left_bottom[0] - gap)
       ++first_before_;
-    bool has_grown = false;
+    OpenPiece piece{&left, &right, left.slope, right.slope, left_top[0], right_top[0]};
+    if (first_before_ < before_.size() && before_[first_before_].left == &left &&
+        before_[first_before_].right == &right && before_[first_before_].outline != OpenPiece::NONE) {
+      // Between the same sides as in the row below: what it meets there has met it there.
+      OpenPiece& below = before_[first_before_];
+      piece.part = below.part;
+      piece.outline = std::exchange(below.outline, OpenPiece::NONE);
+      piece.left_slope = below.left_slope;
+      piece.right_slope = below.right_slope;
+      outlines_[piece.outline].left.back() = left_top;
+      outlines_[piece.outline].right.back() = right_top;
+    } else {
+      grow_or_begin(piece, left_bottom, right_bottom, left_top, right_top);
+    }
+    if (meets_neighbour) meetings_.emplace_back(piece.part, open_.back().part);
+    open_.push_back(piece);
+  }
+
+  /// A piece goes on from the one below where the two together are convex.
+  void grow_or_begin(OpenPiece& piece, const Vec2& left_bottom, const Vec2& right_bottom,
+                     const Vec2& left_top, const Vec2& right_top) {
+    const double gap = CONTINUATION * tolerance_;
+    const double left_slope = piece.left_slope, right_slope = piece.right_slope;
+    piece.part = part_count_++;
     for (std::size_t k = first_before_; k < before_.size() && before_[k].left_x <= right_bottom[0] + gap;
          ++k) {
       OpenPiece& below = before_[k];
       meetings_.emplace_back(piece.part, below.part);
-      const bool goes_on = !has_grown && !below.left.empty() &&
+      const bool goes_on = piece.outline == OpenPiece::NONE && below.outline != OpenPiece::NONE &&
                            std::abs(below.left_x - left_bottom[0]) <= gap &&
                            std::abs(below.right_x - right_bottom[0]) <= gap &&
-                           left.slope >= below.left_slope - SLOPE_ROUNDING * (1.0 + std::abs(left.slope)) &&
-                           right.slope <= below.right_slope + SLOPE_ROUNDING * (1.0 + std::abs(right.slope));
+                           left_slope >= below.left_slope - SLOPE_ROUNDING * (1.0 + std::abs(left_slope)) &&
+                           right_slope <= below.right_slope + SLOPE_ROUNDING * (1.0 + std::abs(right_slope));
       if (!goes_on) continue;
-      has_grown = true;
-      piece.left = std::exchange(below.left, {});
-      piece.right = std::exchange(below.right, {});
+      piece.outline = std::exchange(below.outline, OpenPiece::NONE);
       piece.left_slope = below.left_slope;
       piece.right_slope = below.right_slope;
-      extend(piece.left, piece.left_slope, left_top, left.slope);
-      extend(piece.right, piece.right_slope, right_top, right.slope);
+      extend(outlines_[piece.outline].left, piece.left_slope, left_top, left_slope);
+      extend(outlines_[piece.outline].right, piece.right_slope, right_top, right_slope);
     }
-    if (!has_grown) {
-      piece.left = {left_bottom, left_top};
-      piece.right = {right_bottom, right_top};
-    }
-    open_.push_back(std::move(piece));
+    if (piece.outline != OpenPiece::NONE) return;
+    piece.outline = outlines_.size();
+    outlines_.push_back({{left_bottom, left_top}, {right_bottom, right_top}});
   }
 
   static void extend(std::vector<Vec2>& chain, double& slope, const Vec2& top, double next_slope) {
@@ -195,13 +220,16 @@ class Sweep {
   }
 
   void close(const OpenPiece& piece) {
+    if (piece.outline == OpenPiece::NONE) return;
+    const auto& [left, right] = outlines_[piece.outline];
     ConvexPolygon polygon;
+    polygon.corners.reserve(left.size() + right.size());
     const auto add = [&](const Vec2& x) {
       if (polygon.corners.empty() || (polygon.corners.back() - x).norm() > tolerance_)
         polygon.corners.push_back(x);
     };
-    std::for_each(piece.right.begin(), piece.right.end(), add);
-    std::for_each(piece.left.rbegin(), piece.left.rend(), add);
+    std::for_each(right.begin(), right.end(), add);
+    std::for_each(left.rbegin(), left.rend(), add);
     while (polygon.corners.size() > 1 &&
            (polygon.corners.back() - polygon.corners.front()).norm() <= tolerance_)
       polygon.corners.pop_back();
@@ -230,6 +258,7 @@ class Sweep {
   double tolerance_;
   std::vector<double> heights_;
   std::vector<Climb> climbs_;
+  std::vector<Outline> outlines_;
   std::vector<OpenPiece> open_, before_;  ///< Of this row and the one below, from left to right.
   std::size_t first_before_ = 0;          ///< The first of before_ that is not left of the row so far.
   double last_right_bottom_ = 0.0;        ///< Of the last trapezoid of the row.
