@@ -5,6 +5,7 @@
 #include <lmdbench/geometry/point_triangle.h>
 #include <lmdbench/geometry/segment_distance.h>
 #include <lmdbench/lmd/join_contacts.h>
+#include <lmdbench/mesh/flaws.h>
 
 #include <gtest/gtest.h>
 #include <support/lmd_text.h>
@@ -339,6 +340,27 @@ TEST(JoinContacts, WhereTrianglesIntersectNothingNearerThanRoundingIsLeft) {
   ASSERT_EQ(others.size(), 1u) << text(others);
   EXPECT_NEAR((others[0].direction + Vec3::UnitZ()).norm(), 0.0, 1e-15);
   EXPECT_NEAR((others[0].point_fixed - Vec3(0.1, 0.2, 0.0)).norm(), 0.0, 1e-13);
+}
+
+TEST(JoinContacts, TrianglesThatAddNothingChangeNoLmd) {
+  std::mt19937_64 random(7);
+  const TriangleMesh blob = make_blob(0.5, 0.1, 2), box = make_box({0.7, 0.7, 0.7}, 2);
+  ShapeScene clean(blob, box, 0.3), flawed(with_zero_areas(blob, 4), with_zero_areas(box, 3), 0.3);
+  std::size_t found = 0;
+  for (int k = 0; k < 20; ++k) {
+    const Pose pose = testing::pose_of_seed(random());
+    const Pose apart{1.05 * pose.translation.normalized(), pose.rotation};
+    LmdSet expected = clean.lmds(apart), lmds = flawed.lmds(apart);
+    std::ranges::sort(expected, lmd_less);
+    std::ranges::sort(lmds, lmd_less);
+    found += expected.size();
+    ASSERT_EQ(lmds.size(), expected.size()) << text(apart);
+    for (std::size_t i = 0; i < lmds.size(); ++i) {
+      EXPECT_TRUE(same_feature_pair(lmds[i], expected[i])) << text(lmds) << "expected\n" << text(expected);
+      EXPECT_NEAR((lmds[i].point_fixed - expected[i].point_fixed).norm(), 0.0, 1e-14);
+    }
+  }
+  EXPECT_GT(found, 12u);
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/catalogue/shapes.h>
+#include <lmdbench/mesh/flaws.h>
 #include <lmdbench/mesh/shape_complex.h>
 
 #include <gtest/gtest.h>
@@ -137,6 +138,42 @@ TEST(ShapeComplex, NamesTheFirstFaceAtAPoint) {
     EXPECT_EQ(shape.face_at(surface, region, corners[1] + Vec3(1e-13, -1e-13, 1e-13)), at_corner);
   }
   EXPECT_EQ(shape.face_at(surface, 2, Vec3(9.0, 9.0, 9.0)), shape.lead_of_region(2));
+}
+
+TEST(ShapeComplex, TrianglesThatAddNothingHaveNoFeatures) {
+  for (const TriangleMesh& clean : {make_blob(0.5, 0.1, 2), make_box({1.0, 1.0, 1.0}, 3)}) {
+    const Surface sound = build_surface(clean), flawed = build_surface(with_zero_areas(clean, 3));
+    const ShapeComplex other = ShapeComplex::of(flawed);
+    ASSERT_GT(flawed.mesh.triangles.size(), sound.mesh.triangles.size() + 50);
+    for (std::size_t v = sound.mesh.vertices.size(); v < flawed.mesh.vertices.size(); ++v)
+      EXPECT_FALSE(other.is_corner(static_cast<std::int32_t>(v))) << v;
+    for (std::size_t e = 0; e < flawed.adjacency.edges.size(); ++e) {
+      const auto& triangles = flawed.adjacency.edge_triangles[static_cast<std::int32_t>(e)];
+      if (std::ranges::none_of(triangles, [&](std::int32_t t) { return other.region_of(t) >= 0; })) {
+        EXPECT_LT(other.chain_of(static_cast<std::int32_t>(e)), 0) << e;
+      }
+    }
+  }
+}
+
+TEST(ShapeComplex, ATriangleWithoutAreaThatOthersHangOnIsCarriedByItself) {
+  // A square whose lower half ends at a vertex amid the diagonal: the triangle of the diagonal and that vertex fills the seam.
+  TriangleMesh mesh;
+  mesh.vertices = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0.5, 0.5, 0}};
+  mesh.triangles = {{0, 2, 3}, {0, 1, 4}, {1, 2, 4}, {0, 4, 2}};
+  const Surface surface = build_surface(mesh);
+  const ShapeComplex shape = ShapeComplex::of(surface);
+  ASSERT_TRUE(shape.regions.adds_nothing.empty() || !shape.regions.adds_nothing[3]);
+  EXPECT_TRUE(shape.is_corner(4));
+  std::vector<std::int32_t> of_half;
+  for (std::int32_t k = 0; k < 3; ++k) {
+    const std::int32_t chain =
+        shape.chain_of(surface.adjacency.triangle_edges[3][static_cast<std::size_t>(k)]);
+    ASSERT_GE(chain, 0);
+    of_half.clear();
+    shape.append_carriers(surface, {FeatureKind::EDGE, chain}, of_half);
+    EXPECT_EQ(std::ranges::count(of_half, -1 - 3), 1);
+  }
 }
 
 }  // namespace

@@ -6,6 +6,8 @@
 #include <lmdbench/mesh/planar_faces.h>
 
 #include <algorithm>
+#include <array>
+#include <span>
 #include <utility>
 
 namespace lmdbench {
@@ -65,8 +67,16 @@ class StraightEdgeFinder {
     return {std::min(region(0), region(1)), std::max(region(0), region(1))};
   }
 
+  /// Whether only triangles that add nothing meet somewhere.
+  bool adds_nothing(std::span<const std::int32_t> triangles) const {
+    return !regions_.adds_nothing.empty() && !triangles.empty() &&
+           std::ranges::all_of(
+               triangles, [&](std::int32_t t) { return regions_.adds_nothing[static_cast<std::size_t>(t)]; });
+  }
+
   bool is_inside(std::int32_t edge) const {
     const auto e = static_cast<std::size_t>(edge);
+    if (adds_nothing(surface_.adjacency.edge_triangles[edge])) return true;
     if (surface_.edge_is_boundary[e] || surface_.edge_is_non_manifold[e]) return false;
     const auto pair = regions_of(edge);
     return pair[0] >= 0 && pair[0] == pair[1];
@@ -156,6 +166,7 @@ class StraightEdgeFinder {
       const bool has_area = std::all_of(triangles.begin(), triangles.end(), [&](std::int32_t t) {
         return regions_.region_of_triangle[static_cast<std::size_t>(t)] >= 0;
       });
+      if (adds_nothing(triangles)) regions_.vertex_is_inside[i] = true;
       if (triangles.empty() || !has_area) continue;
       if (border_count_[i] == 0) {
         // Two sheets may meet in a vertex.
@@ -179,6 +190,36 @@ class StraightEdgeFinder {
   std::vector<std::uint8_t> border_count_;                      ///< Up to 3.
 };
 
+/// FlatRegions::adds_nothing, once regions are known.
+std::vector<bool> find_what_adds_nothing(const Surface& surface, const FlatRegions& regions) {
+  std::vector<std::int32_t> without_area;
+  for (std::size_t t = 0; t < regions.region_of_triangle.size(); ++t)
+    if (regions.region_of_triangle[t] < 0) without_area.push_back(static_cast<std::int32_t>(t));
+  if (without_area.empty()) return {};
+  std::vector<bool> found(regions.region_of_triangle.size(), false);
+  const auto has_area = [&](std::int32_t t) {
+    return regions.region_of_triangle[static_cast<std::size_t>(t)] >= 0;
+  };
+  const auto length_of = [&](std::int32_t e) {
+    const auto& ends = surface.adjacency.edges[static_cast<std::size_t>(e)];
+    return (surface.mesh.vertices[static_cast<std::size_t>(ends[1])] -
+            surface.mesh.vertices[static_cast<std::size_t>(ends[0])])
+        .norm();
+  };
+  for (const std::int32_t t : without_area) {
+    std::array<std::int32_t, 3> edges = surface.adjacency.triangle_edges[static_cast<std::size_t>(t)];
+    std::ranges::sort(edges, {}, length_of);
+    const std::int32_t longest = edges[2];
+    const bool lies_on_one =
+        length_of(longest) == 0.0 || std::ranges::any_of(surface.adjacency.edge_triangles[longest], has_area);
+    const bool carries_one = std::ranges::any_of(edges, [&](std::int32_t e) {
+      return e != longest && std::ranges::any_of(surface.adjacency.edge_triangles[e], has_area);
+    });
+    found[static_cast<std::size_t>(t)] = lies_on_one && !carries_one;
+  }
+  return found;
+}
+
 }  // namespace
 
 FlatRegions FlatRegions::of(const Surface& surface) {
@@ -197,6 +238,7 @@ FlatRegions FlatRegions::of(const Surface& surface) {
     }
   }
   regions.region_triangles = CsrRows(regions.region_count(), rows);
+  regions.adds_nothing = find_what_adds_nothing(surface, regions);
   regions.vertex_is_inside.assign(surface.mesh.vertices.size(), false);
   StraightEdgeFinder(surface, regions, tolerance).run();
   return regions;

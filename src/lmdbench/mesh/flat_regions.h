@@ -35,6 +35,9 @@ struct FlatRegions {
   /// #T; whether the triangle had a say in what a region of several triangles is. A move of the others makes and unmakes no
   /// region but theirs.
   std::vector<bool> decides_region;
+  /// #T, or empty where there are none: triangles without area that lie in one point or along an edge of others, where nothing else
+  /// hangs on them. They add nothing to the surface: what only they have is no feature.
+  std::vector<bool> adds_nothing;
 
   std::int32_t region_count() const { return static_cast<std::int32_t>(planes.size()); }
 

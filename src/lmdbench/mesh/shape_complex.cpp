@@ -246,16 +246,8 @@ void ShapeComplex::append_carriers(const Surface& surface, const FeatureId& feat
   const FeatureId of_mesh = feature.kind == FeatureKind::EDGE
                                 ? FeatureId{FeatureKind::EDGE, lead_of_chain(feature.index)}
                                 : feature;
-  for (const std::int32_t t : surface.incident_triangles(of_mesh)) {
-    if (region_of(t) >= 0) {
-      carriers.push_back(region_of(t));
-    } else if (feature.kind == FeatureKind::EDGE) {
-      carriers.push_back(-1 - feature.index);
-    } else {
-      for (const std::int32_t e : surface.adjacency.triangle_edges[static_cast<std::size_t>(t)])
-        if (chain_of(e) >= 0) carriers.push_back(-1 - chain_of(e));
-    }
-  }
+  for (const std::int32_t t : surface.incident_triangles(of_mesh))
+    carriers.push_back(region_of(t) >= 0 ? region_of(t) : -1 - t);
   const auto begin = carriers.begin() + static_cast<std::ptrdiff_t>(first);
   std::sort(begin, carriers.end());
   carriers.erase(std::unique(begin, carriers.end()), carriers.end());

@@ -111,8 +111,8 @@ class ShapeComplex {
   /// (NAMING_TOLERANCE), or the first of the region where none does.
   std::int32_t face_at(const Surface& surface, std::int32_t region, const Vec3& p_S) const;
 
-  /// Appends what a feature of the shape lies on: the regions that hold it, by index; of triangles without area, which
-  /// are in no region, the chains, as -1 - index.
+  /// Appends what a feature of the shape lies on: the regions that hold it, by index, and triangles without area, which
+  /// are in no region, as -1 - index.
   /// @param feature  index counts regions, chains or vertices
   void append_carriers(const Surface& surface, const FeatureId& feature,
                        std::vector<std::int32_t>& carriers) const;
