@@ -353,5 +353,71 @@ TEST(FacesAt, AreClosedAtTheReach) {
   }
 }
 
+TEST(RegionShape, SaysClearlyInsideAndOutsideOnlyWhereItIs) {
+  std::mt19937_64 random(5);
+  std::size_t inside = 0, outside = 0, unclear = 0;
+  for (const TriangleMesh& mesh : {slits(), perforated(), checkerboard(), gear(7)}) {
+    ShapeScene scene(mesh, mesh);
+    const ShapePair pair = scene.at(Pose{});
+    const std::int32_t region = pair.fixed.shape.region_of(0);
+    const RegionShape& shape = *pair.fixed.shape.shapes.of_region(region);
+    const double reach = 1e-3;
+    const auto place = [&](const Vec2& x) { return shape.frame.lifted(x); };
+    const auto holds = [&](const Vec2& x, double spare) {
+      return !for_each_face_at(pair.fixed, region, place(x), spare, [](std::int32_t) { return false; });
+    };
+    const auto is_near_border = [&](const Vec2& x) {
+      return std::ranges::any_of(shape.sides, [&](const PolygonSide& side) {
+        const Vec2 along = side.to - side.from;
+        const double s = std::clamp((x - side.from).dot(along) / along.squaredNorm(), 0.0, 1.0);
+        return (side.from + s * along - x).norm() <= reach;
+      });
+    };
+    for (int k = 0; k < 4000; ++k) {
+      const Vec2 x(1.4 * uniform(random) - 0.7, 1.4 * uniform(random) - 0.7);
+      const std::optional<bool> clear = shape.clearly_holds(x, reach);
+      if (!clear) {
+        ++unclear;
+        continue;
+      }
+      ++(*clear ? inside : outside);
+      EXPECT_EQ(*clear, holds(x, 1e-12));
+      EXPECT_FALSE(is_near_border(x) && *clear);
+      const Vec2 y = x + 0.3 * Vec2(uniform(random) - 0.5, uniform(random) - 0.5);
+      if (!shape.clearly_holds_segment(x, y, reach)) continue;
+      for (int i = 0; i <= 50; ++i)
+        EXPECT_TRUE(holds(x + i / 50.0 * (y - x), 1e-12) && !is_near_border(x + i / 50.0 * (y - x)));
+    }
+  }
+  EXPECT_GT(inside, 2000u);
+  EXPECT_GT(outside, 3000u);
+  EXPECT_LT(unclear, (inside + outside) / 10);
+}
+
+TEST(RegionShape, BesideAFinOnAFaceNothingIsClearlyInside) {
+  // A vertical triangle on the middle of a square: its lower side and corners are features amid the square's plane.
+  TriangleMesh mesh = sheet_of({"####", "####", "####", "####"}, 0.25);
+  const auto first = static_cast<std::int32_t>(mesh.vertices.size());
+  ShapeScene plain(mesh, mesh);
+  const RegionShape& whole = *plain.at(Pose{}).fixed.shape.shapes.of_region(0);
+  EXPECT_FALSE(whole.has_features_inside);
+  const auto index_at = [&](double x, double y) {
+    for (std::int32_t v = 0; v < first; ++v)
+      if ((mesh.vertices[static_cast<std::size_t>(v)] - Vec3(x, y, 0.0)).norm() < 1e-12) return v;
+    return -1;
+  };
+  const std::int32_t a = index_at(0.0, 0.0), b = index_at(0.25, 0.0);
+  ASSERT_GE(std::min(a, b), 0);
+  mesh.vertices.emplace_back(0.1, 0.0, 0.3);
+  mesh.triangles.push_back({a, b, first});
+  ShapeScene scene(mesh, mesh);
+  const ShapePair pair = scene.at(Pose{});
+  const std::int32_t region = pair.fixed.shape.region_of(0);
+  const RegionShape* shape = pair.fixed.shape.shapes.of_region(region);
+  ASSERT_NE(shape, nullptr);
+  EXPECT_TRUE(shape->has_features_inside);
+  EXPECT_FALSE(shape->clearly_holds(shape->frame.flat(Vec3(0.125, 0.0, 0.0)), 1e-12).value_or(false));
+}
+
 }  // namespace
 }  // namespace lmdbench

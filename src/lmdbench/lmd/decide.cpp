@@ -11,6 +11,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <span>
+#include <vector>
 
 namespace lmdbench {
 
@@ -18,6 +20,8 @@ namespace {
 
 /// A height over a plane, seen along a unit direction, is this many roundings accurate: plane and point are each to one.
 constexpr double HEIGHT_ROUNDINGS = 2.0;
+/// Points farther than this from the border of a region's pieces are where the pieces say, in roundings.
+constexpr double CLEAR_ROUNDINGS = 2.0;
 /// Part along a chain of the vector between two crossing ones that the clamping of their feet leaves, in roundings.
 constexpr double SIDEWAYS_ROUNDINGS = 4.0;
 /// The direction square to two chains that cross at a small angle is off by this part of rounding / (sine * length).
@@ -209,6 +213,9 @@ class Decision {
   /// Whether a point of a region's plane lies on the region, and no chain or corner there leads down along the region's normal.
   bool region_admits(const ShapeSide& side, std::int32_t region, const Vec3& p_S, const Vec3& n_W) const {
     const double reach = tolerance_.rounding;
+    if (const RegionShape* shape = side.shape.shapes.of_region(region))
+      if (const auto clear = shape->clearly_holds(shape->frame.flat(p_S), CLEAR_ROUNDINGS * reach))
+        return *clear;
     const PolarSlack slack{tolerance_.known, tolerance_.largest_tilt};
     bool holds = false;
     const bool leads_down = !for_each_face_at(side, region, p_S, reach, [&](std::int32_t face) {

@@ -13,6 +13,9 @@ namespace lmdbench {
 
 namespace {
 
+/// Areas of a region's triangles and of its pieces differ by more than this part where triangles lie on each other.
+constexpr double AREA_ROUNDING = 1e-6;
+
 RegionShape shape_of(const Surface& surface, const FlatRegions& regions, std::int32_t region,
                      double tolerance) {
   RegionShape shape;
@@ -28,10 +31,14 @@ RegionShape shape_of(const Surface& surface, const FlatRegions& regions, std::in
   // Each straight edge of the border once for each way that triangles run along it.
   std::set<std::pair<std::int32_t, bool>> directed;
   std::vector<Box2> boxes;
+  std::vector<std::int32_t> own_corners;
+  double area = 0.0;
   for (const std::int32_t t : triangles) {
     const auto& corners = surface.mesh.triangles[static_cast<std::size_t>(t)];
+    area += ConvexPolygon(shape.frame, surface.mesh.triangle(t)).measure().area;
     Box2& box = boxes.emplace_back();
     for (std::size_t k = 0; k < 3; ++k) {
+      if (!regions.vertex_is_inside[static_cast<std::size_t>(corners[k])]) own_corners.push_back(corners[k]);
       box.add(shape.frame.flat(vertex(corners[k])));
       const std::int32_t edge = surface.adjacency.triangle_edges[static_cast<std::size_t>(t)][k];
       const std::int32_t straight = regions.straight_of_edge[static_cast<std::size_t>(edge)];
@@ -44,15 +51,28 @@ RegionShape shape_of(const Surface& surface, const FlatRegions& regions, std::in
   }
   std::sort(shape.corners.begin(), shape.corners.end());
   shape.corners.erase(std::unique(shape.corners.begin(), shape.corners.end()), shape.corners.end());
+  shape.has_features_inside = std::ranges::any_of(
+      own_corners, [&](std::int32_t v) { return !std::ranges::binary_search(shape.corners, v); });
   for (const auto& [straight, forward] : directed) {
+    if (forward && directed.contains({straight, false})) shape.has_features_inside = true;
     const auto& ends = regions.straight_edges[static_cast<std::size_t>(straight)].ends;
     const Vec2 a = shape.frame.flat(vertex(ends[0])), b = shape.frame.flat(vertex(ends[1]));
     shape.sides.push_back(forward ? PolygonSide{a, b} : PolygonSide{b, a});
   }
+  std::vector<Box2> side_boxes;
+  for (const PolygonSide& side : shape.sides) {
+    Box2& box = side_boxes.emplace_back();
+    box.add(side.from);
+    box.add(side.to);
+  }
+  shape.side_grid = BoxGrid(std::move(side_boxes));
   shape.pieces = convex_pieces(shape.sides, tolerance);
   std::vector<Box2> piece_boxes;
   for (const ConvexPolygon& piece : shape.pieces) piece_boxes.push_back(piece.box());
   shape.piece_grid = BoxGrid(std::move(piece_boxes));
+  double area_of_pieces = 0.0;
+  for (const ConvexPolygon& piece : shape.pieces) area_of_pieces += piece.measure().area;
+  if (std::abs(area - area_of_pieces) > AREA_ROUNDING * area) shape.has_features_inside = true;
 
   shape.triangle_grid = BoxGrid(std::move(boxes));
   std::vector<Vec2> outline;
@@ -62,6 +82,41 @@ RegionShape shape_of(const Surface& surface, const FlatRegions& regions, std::in
 }
 
 }  // namespace
+
+std::optional<bool> RegionShape::clearly_holds(const Vec2& x, double reach) const {
+  if (pieces.empty()) return std::nullopt;  // Too narrow to have any.
+  Box2 box;
+  box.add(x);
+  bool is_near = false, is_inside = false;
+  piece_grid.for_each_near(box, reach, [&](std::int32_t index) {
+    const std::vector<Vec2>& piece = pieces[static_cast<std::size_t>(index)].corners;
+    bool is_clear = true;
+    for (std::size_t k = 0; k < piece.size(); ++k) {
+      const Vec2 side = piece[k + 1 < piece.size() ? k + 1 : 0] - piece[k];
+      const double inwards = cross(side, x - piece[k]);
+      if (inwards * inwards > reach * reach * side.squaredNorm()) {
+        if (inwards < 0.0) return true;
+      } else {
+        is_clear = false;
+      }
+    }
+    is_near = true;
+    is_inside = is_clear;
+    return !is_inside;
+  });
+  if (!is_near) return false;
+  if (is_inside && !has_features_inside) return true;
+  return std::nullopt;
+}
+
+bool RegionShape::clearly_holds_segment(const Vec2& a, const Vec2& b, double reach) const {
+  if (!clearly_holds(a, reach).value_or(false)) return false;
+  if (pieces.size() == 1) return clearly_holds(b, reach).value_or(false);
+  // No side comes near: all of it is where its first end is.
+  bool is_clear = true;
+  side_grid.for_each_near(a, b, reach, [&](std::int32_t) { is_clear = false; });
+  return is_clear;
+}
 
 RegionShapes region_shapes(const Surface& surface, const FlatRegions& regions) {
   RegionShapes result;

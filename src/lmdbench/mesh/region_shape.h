@@ -9,6 +9,7 @@
 #include <lmdbench/mesh/polygon_sweep.h>
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -22,9 +23,19 @@ struct RegionShape {
   std::vector<PolygonSide> sides;                  ///< Of the border.
   std::vector<ConvexPolygon> pieces;               ///< Side by side; together they are the region.
   BoxGrid piece_grid;                              ///< Of the pieces' boxes.
+  BoxGrid side_grid;                               ///< Of the sides' boxes.
   std::vector<std::int32_t> corners;  ///< Vertices where straight edges of its border end, ascending.
   std::vector<Vec2> hull;             ///< Convex hull of the corners, counter-clockwise.
   BoxGrid triangle_grid;  ///< Of the triangles' boxes, in the order of FlatRegions::region_triangles.
+  /// Chains or corners lie inside it (a fin that stands on it, a slit), or parts of it lie on each other.
+  bool has_features_inside = false;
+
+  /// Whether a point of the plane is inside by more than `reach`, away from every chain and corner: true, or outside by more: false.
+  /// Nothing where that takes a look at the triangles: near the border, and where pieces meet.
+  /// @param reach  at least what rounding does to the pieces, FLATNESS of the mesh's largest coordinate [m]
+  std::optional<bool> clearly_holds(const Vec2& x, double reach) const;
+  /// Whether all points of a segment are inside by more than `reach`, where that is easily told.
+  bool clearly_holds_segment(const Vec2& a, const Vec2& b, double reach) const;
 };
 
 /// Shapes of the regions of more than one triangle, each a pass over its triangles and a sweep over its
