@@ -50,6 +50,9 @@ struct Contact {
   std::array<Vec3, 2> ends_moving, ends_fixed;     ///< Of segments.
   std::uint32_t first_piece = 0, piece_count = 0;  ///< Of polygons: in ContactSet::pieces.
   std::uint32_t frame = 0;                         ///< Of polygons: in ContactSet::frames.
+  bool is_whole = false;  ///< Of polygons: all that the two regions share over each other.
+  /// Of polygons: some contact over it was taken out (covered_contacts.h), and one of them is a pair of points.
+  bool covers = false, covers_point = false;
   bool is_minimum = true;  ///< False for a critical pair that adds nothing but its index (critical_index.h).
   int index = 0;           ///< Of critical pairs, where they are asked for.
   bool is_basin = false;   ///< Nothing round either feature is nearer where the index was taken.

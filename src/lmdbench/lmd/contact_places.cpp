@@ -104,14 +104,16 @@ bool ContactPlaces::meet(const Contact& a, const Contact& b) {
     return any_piece_near(a, other.box(), reach,
                           [&](const ConvexPolygon& piece) { return piece.touches(other, reach); });
   };
-  if (b.dimension == 0) {
+  const auto holds = [&](const Vec2& x) {
     Box2 box;
-    const Vec2 x = frame.flat(b.point_fixed);
     box.add(x);
     return any_piece_near(a, box, reach, [&](const ConvexPolygon& piece) { return piece.holds(x, reach); });
+  };
+  if (b.dimension == 0) return holds(frame.flat(b.point_fixed));
+  if (b.dimension == 1) {
+    const Vec2 begin = frame.flat(b.ends_fixed[0]), end = frame.flat(b.ends_fixed[1]);
+    return holds(begin) || touches(ConvexPolygon({begin, end}));
   }
-  if (b.dimension == 1)
-    return touches(ConvexPolygon({frame.flat(b.ends_fixed[0]), frame.flat(b.ends_fixed[1])}));
   const PlanarFrame& other = set_.frames[b.frame];
   return std::ranges::any_of(set_.pieces_of(b), [&](ConvexPolygon piece) {
     for (Vec2& corner : piece.corners) corner = frame.flat(other.lifted(corner));

@@ -155,8 +155,10 @@ class Decision {
     const double spread = tolerance_.largest_tilt * 4.0 * tolerance_.coordinates;
     const double somewhere = gap_at(plane_f.point);
     if (somewhere < -tolerance_.rounding - spread || somewhere > tolerance_.reach + spread) return;
-    for (OverlapPart& part :
-         overlap_of_regions(moving_, r_moving, fixed_, r_fixed, frame, SLIVER * tolerance_.rounding)) {
+    const std::size_t first = found_.contacts.size();
+    std::vector<OverlapPart> parts =
+        overlap_of_regions(moving_, r_moving, fixed_, r_fixed, frame, SLIVER * tolerance_.rounding);
+    for (OverlapPart& part : parts) {
       Extent gaps;
       for (const ConvexPolygon& piece : part.pieces)
         for (const Vec2& corner : piece.corners) gaps.add(gap_at(frame.lifted(corner)));
@@ -181,6 +183,8 @@ class Decision {
       found_.frames.push_back(frame);
       std::ranges::move(part.pieces, std::back_inserter(found_.pieces));
     }
+    const auto polygons = std::span(found_.contacts).subspan(first);
+    if (polygons.size() == 1 && parts.size() == 1) polygons.front().is_whole = true;
   }
 
  private:

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/geometry/segment_distance.h>
+#include <lmdbench/lmd/covered_contacts.h>
 #include <lmdbench/lmd/drop_intersecting.h>
 #include <lmdbench/lmd/join_contacts.h>
 #include <lmdbench/lmd/overlap.h>
@@ -82,6 +83,19 @@ class Joining {
 
   void run(std::span<const Intersection> intersections) {
     drop_intersecting(pair_, body_, places_, intersections, contacts_);
+    std::vector<Contact> covered;
+    if (signs_ == nullptr) covered = take_covered(pair_, contacts_);
+    join_all();
+    if (!covered.empty() && !covers_are_alone()) {
+      for (Contact& contact : contacts_) contact.covers = contact.covers_point = false;
+      contacts_.insert(contacts_.end(), covered.begin(), covered.end());
+      join_all();
+    }
+    report_all();
+  }
+
+ private:
+  void join_all() {
     sort_contacts();
     // The same pair of features may have been asked for twice.
     contacts_.erase(std::unique(contacts_.begin(), contacts_.end(),
@@ -92,36 +106,58 @@ class Joining {
                                 }),
                     contacts_.end());
     find_ties();
-    if (ties_.empty()) {
-      for (std::size_t i = 0; i < contacts_.size(); ++i)
-        if (contacts_[i].dimension == 0 && (contacts_[i].is_minimum || contacts_[i].index != 0))
-          report(contacts_[i], contacts_[i], {&i, 1}, contacts_[i].is_minimum);
-      return;
-    }
+    if (ties_.empty()) return;
     ranks_.assign(contacts_.size(), 0);
     parents_.resize(contacts_.size());
     std::iota(parents_.begin(), parents_.end(), std::size_t{0});
     sets_ = {ranks_.data(), parents_.data()};
-    for (Carriers* carriers : {&carriers_moving_, &carriers_fixed_})
+    for (Carriers* carriers : {&carriers_moving_, &carriers_fixed_}) {
+      carriers->items.clear();
       carriers->rows.assign(contacts_.size(), {NOT_KNOWN, 0});
+    }
     if (signs_ == nullptr) {
       join_ties();
     } else {
       join_signed_ties();
     }
-    report_all();
   }
 
- private:
-  /// Contacts are large: they move once.
+  /// Whether what is about as far away as a polygon that covers others is of its LMD, and nothing else is.
+  bool covers_are_alone() {
+    const auto root_of = [&](std::size_t i) { return ties_.empty() ? i : sets_.find_set(i); };
+    std::pmr::vector<std::size_t> sizes(contacts_.size(), 0, &memory_);
+    for (std::size_t i = 0; i < contacts_.size(); ++i) ++sizes[root_of(i)];
+    for (std::size_t i = 0; i < contacts_.size(); ++i) {
+      if (!contacts_[i].covers) continue;
+      const double spread = covered_spread(tolerance_, contacts_[i]);
+      const auto is_near = [&](std::size_t k) {
+        return std::abs(contacts_[k].distance - contacts_[i].distance) <= spread;
+      };
+      std::size_t begin = i, end = i + 1;
+      while (begin > 0 && is_near(begin - 1)) --begin;
+      while (end < contacts_.size() && is_near(end)) ++end;
+      for (std::size_t k = begin; k < end; ++k)
+        if (root_of(k) != root_of(i)) return false;
+      if (sizes[root_of(i)] != end - begin) return false;
+    }
+    return true;
+  }
+
+  /// Contacts are large: they move once, and nearly always their distances say which comes first.
   void sort_contacts() {
-    ContactPointers order(&memory_);
+    struct Key {
+      double distance;
+      const Contact* contact;
+    };
+    std::pmr::vector<Key> order(&memory_);
     order.reserve(contacts_.size());
-    for (const Contact& contact : contacts_) order.push_back(&contact);
-    std::ranges::sort(order, [](const Contact* a, const Contact* b) { return contact_less(*a, *b); });
+    for (const Contact& contact : contacts_) order.push_back({contact.distance, &contact});
+    std::ranges::sort(order, [](const Key& a, const Key& b) {
+      return a.distance != b.distance ? a.distance < b.distance : contact_less(*a.contact, *b.contact);
+    });
     std::pmr::vector<Contact> sorted(&memory_);
     sorted.reserve(order.size());
-    for (const Contact* contact : order) sorted.push_back(*contact);
+    for (const Key& key : order) sorted.push_back(*key.contact);
     std::ranges::copy(sorted, contacts_.begin());
   }
 
@@ -129,6 +165,7 @@ class Joining {
 
   /// Contacts of which another one has the same distance: next to none but in flat contact.
   void find_ties() {
+    ties_.clear();
     const double spread = 2.0 * tolerance_.known;  // of the distance over two extended contacts
     double granted_below = 0.0;
     for (std::size_t i = 0; i < contacts_.size(); ++i) {
@@ -181,7 +218,9 @@ class Joining {
 
   void join_ties() {
     join_what_meets();
-    join_over_level_ways();
+    const auto root_of = [&](std::size_t i) { return sets_.find_set(i); };
+    if (std::ranges::adjacent_find(ties_, std::ranges::not_equal_to(), root_of) != ties_.end())
+      join_over_level_ways();
   }
 
   /// First the minima alone, so that they become the same LMDs as without the other critical pairs. Of these those that lie on an
@@ -221,25 +260,23 @@ class Joining {
       Eigen::AlignedBox3d box;
       std::size_t contact;
     };
-    std::pmr::vector<Entry> entries(&memory_);
+    std::pmr::vector<Entry> entries(&memory_), open(&memory_);
     entries.reserve(ties_.size());
     for (const std::size_t i : ties_) entries.push_back({places_.box_of(contacts_[i], tolerance_.known), i});
     std::ranges::sort(entries, [](const Entry& a, const Entry& b) {
       return std::pair(a.box.min().x(), a.contact) < std::pair(b.box.min().x(), b.contact);
     });
-    std::pmr::vector<std::size_t> open(&memory_);
-    for (std::size_t k = 0; k < entries.size(); ++k) {
-      std::erase_if(open, [&](std::size_t o) { return entries[o].box.max().x() < entries[k].box.min().x(); });
-      for (const std::size_t o : open) {
-        if (!entries[o].box.intersects(entries[k].box)) continue;
-        const std::size_t i = entries[o].contact, j = entries[k].contact;
-        const Contact &a = contacts_[i], &b = contacts_[j];
-        if (sets_.find_set(i) == sets_.find_set(j) ||
-            std::abs(a.distance - b.distance) > places_.granted(a, b))
-          continue;
-        if (are_one_place(i, j)) join(i, j);
+    for (const Entry& entry : entries) {
+      const std::size_t i = entry.contact;
+      const Contact& a = contacts_[i];
+      std::erase_if(open, [&](const Entry& o) { return o.box.max().x() < entry.box.min().x(); });
+      for (const Entry& o : open) {
+        if (!o.box.intersects(entry.box) || sets_.find_set(i) == sets_.find_set(o.contact)) continue;
+        const Contact& b = contacts_[o.contact];
+        if (std::abs(a.distance - b.distance) <= places_.granted(a, b) && are_one_place(o.contact, i))
+          join(o.contact, i);
       }
-      open.push_back(k);
+      open.push_back(entry);
     }
   }
 
@@ -352,6 +389,14 @@ class Joining {
   // --- what is reported
 
   void report_all() {
+    if (ties_.empty()) {
+      for (std::size_t i = 0; i < contacts_.size(); ++i)
+        if (contacts_[i].dimension > 0)
+          report_set({&i, 1});
+        else if (contacts_[i].is_minimum || contacts_[i].index != 0)
+          report(contacts_[i], contacts_[i], {&i, 1}, contacts_[i].is_minimum);
+      return;
+    }
     std::pmr::vector<std::size_t> order(contacts_.size(), &memory_);
     std::iota(order.begin(), order.end(), std::size_t{0});
     sets_.compress_sets(order.begin(), order.end());
@@ -371,7 +416,7 @@ class Joining {
     for (const std::size_t i : set) {
       if (!contacts_[i].is_minimum) continue;
       minima.push_back(&contacts_[i]);
-      has_points = has_points || contacts_[i].dimension == 0;
+      has_points = has_points || contacts_[i].dimension == 0 || contacts_[i].covers_point;
     }
     if (has_points) {
       const Representative whole = represent_contacts(pair_, places_, minima);
