@@ -208,8 +208,8 @@ void make_batch(const WideHierarchy& a, const WideHierarchy& b, const WideQuery&
     const WideKeptPair& pair = pairs[due[i]];
     const bool open_a = pair.open_a;
     const WideNode& node = (open_a ? a : b).nodes[pair.node];
-    const WideTransform& X_lanes = open_a ? query.b_in_a : query.a_in_b;
-    const WideProbe probe = make_probe(pair.child, X_lanes);
+    const WideTransform& child_in_open = open_a ? query.b_in_a : query.a_in_b;
+    const WideProbe probe = make_probe(pair.child, child_in_open);
     const KindBits kinds = kind_bits(node);
     // What can only touch matters for faces alone.
     const bool may_touch = !pair.child.ref.is_feature() || pair.child.ref.is_face();
@@ -228,7 +228,7 @@ void make_batch(const WideHierarchy& a, const WideHierarchy& b, const WideQuery&
       const std::uint32_t slot = open_a ? pair.slot_b : pair.slot_a;
       result = test_lifetime<VectorLanes>(
           node, probe, query.limits, forecast, lifetime,
-          make_width_test(open_a ? a : b, pair.node, open_a ? b : a, slot, X_lanes));
+          make_width_test(open_a ? a : b, pair.node, open_a ? b : a, slot, child_in_open));
     } else {
       result = test_lifetime<VectorLanes>(node, probe, query.limits, forecast, lifetime, NoWidths());
     }
