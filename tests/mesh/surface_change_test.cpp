@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/catalogue/deformation.h>
 #include <lmdbench/catalogue/shapes.h>
+#include <lmdbench/mesh/flaws.h>
 #include <lmdbench/mesh/shape_complex.h>
 #include <lmdbench/mesh/surface_change.h>
 
@@ -127,6 +128,27 @@ TEST(ShapeComplexFollow, ATriangleBesideARegionJoinsIt) {
     shape.follow(surface, mover.move(vertices, surface));
     EXPECT_EQ(shape.regions.region_count(), ShapeComplex::of(surface).regions.region_count()) << height;
     EXPECT_EQ(shape.regions.region_count() == 1, height < 2e-14) << height;
+  }
+}
+
+TEST(ShapeComplexFollow, ATriangleWithoutAreaThatGrowsBeyondItsEdgeHasFeatures) {
+  // Every third triangle has one along its first side; the vertex amid that side moves along the side, past its end.
+  const TriangleMesh mesh = with_zero_areas(make_blob(1.0, 0.3, 2), 3);
+  Surface surface = build_surface(mesh);
+  ShapeComplex shape = ShapeComplex::of(surface);
+  SurfaceMover mover(surface);
+  const std::size_t first = make_blob(1.0, 0.3, 2).vertices.size();
+  const auto& [a, b, c] = mesh.triangles[0];
+  ASSERT_FALSE(shape.is_corner(static_cast<std::int32_t>(first)));
+  for (const double share : {0.5, 0.5, 0.7, 1.5, 0.5}) {
+    std::vector<Vec3> vertices = mesh.vertices;
+    const Vec3 &from = vertices[static_cast<std::size_t>(a)], &to = vertices[static_cast<std::size_t>(b)];
+    vertices[first] = from + share * (to - from);
+    shape.follow(surface, mover.move(vertices, surface));
+    EXPECT_EQ(shape.is_corner(static_cast<std::int32_t>(first)),
+              ShapeComplex::of(surface).is_corner(static_cast<std::int32_t>(first)))
+        << share;
+    EXPECT_EQ(shape.is_corner(static_cast<std::int32_t>(first)), share > 1.0) << share;
   }
 }
 
