@@ -9,6 +9,7 @@
 #include <support/lmd_text.h>
 #include <support/rounded.h>
 #include <support/shape_scene.h>
+#include <support/sheets.h>
 
 #include <algorithm>
 #include <cmath>
@@ -126,6 +127,28 @@ TEST(CoveredContacts, TwoShouldersThatAWallJoinsAreOneLmd) {
   join_contacts(pair, 0, contacts, {}, lmds);
   ASSERT_EQ(lmds.size(), 1u) << text(lmds);
   EXPECT_NEAR((lmds[0].point_fixed - Vec3(1.5, 0.5, 1.125)).norm(), 0.0, 1e-12);
+}
+
+TEST(CoveredContacts, APolygonOverOneLegDoesNotSpeakForTheOther) {
+  // A bar over both legs of a U, tilted: level to the tolerance over the narrow one alone.
+  ShapeScene scene(
+      at_plane(make_box({0.8, 0.2, 0.1}), true),
+      testing::sheet_of({"##########", "#.########", "#.########", "#.########", "#.########"}, 0.1));
+  std::size_t of_one_leg = 0;
+  for (const double tilt : {-1e-8, 1e-8, -3e-9, 3e-9}) {
+    const ShapePair pair = scene.at(turned_by(tilt, Vec3::UnitY(), Vec3(-0.02, -0.05, 0.01)));
+    const ContactSet contacts = scene.contacts(pair);
+    const auto polygons = std::ranges::count(contacts.contacts, 2, &Contact::dimension);
+    of_one_leg += polygons == 1 ? 1 : 0;
+    if (polygons == 1) {
+      EXPECT_EQ(covered(pair, contacts), 0u) << tilt;
+    }
+    ContactSet own = contacts;
+    LmdSet lmds;
+    join_contacts(pair, 0, own, {}, lmds);
+    EXPECT_EQ(text(lmds), text(joined_whole(pair, contacts))) << tilt;
+  }
+  EXPECT_GT(of_one_leg, 1u);
 }
 
 TEST(CoveredContacts, WithoutAPairOfPointsThereIsNoLmd) {
