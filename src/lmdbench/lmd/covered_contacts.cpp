@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 
 namespace lmdbench {
@@ -13,6 +14,9 @@ namespace {
 
 /// What is covered lies inside the other face by more than this many tolerances: nothing on its border comes that near.
 constexpr double MARGIN_IN_TOLERANCES = 2.0;
+
+/// Fewer contacts a polygon are joined as soon as looked through, as on the walls of a peg (`lmdbench-study flat --parts --row peg`).
+constexpr std::size_t LEAST_CONTACTS_A_COVER = 8;
 
 /// A polygon with the two regions that share it.
 struct Cover {
@@ -63,7 +67,7 @@ double covered_spread(const ContactTolerance& tolerance, const Contact& polygon)
 std::vector<Contact> take_covered(const ShapePair& pair, std::vector<Contact>& contacts) {
   std::vector<Contact> taken;
   const std::vector<Cover> covers = covers_among(pair.tolerance, contacts);
-  if (covers.empty()) return taken;
+  if (covers.empty() || contacts.size() < LEAST_CONTACTS_A_COVER * covers.size()) return taken;
   std::vector<std::int32_t> carriers;
   /// The polygon that covers a contact.
   const auto cover_of = [&](const Contact& contact) -> Contact* {
