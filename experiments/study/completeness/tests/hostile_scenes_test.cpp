@@ -1,6 +1,8 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/mesh/validity.h>
+#include <lmdbench/methods/certified/certified.h>
+#include <lmdbench/methods/exhaustive/exhaustive.h>
 
 #include <gtest/gtest.h>
 #include <study/completeness/hostile_meshes.h>
@@ -59,6 +61,26 @@ TEST(HostileScenes, AreSearchedWithoutLoss) {
     EXPECT_EQ(wrong, "") << name_of(motion);
   }
   EXPECT_GT(lmds, 7000u);
+}
+
+TEST(HostileScenes, AContactOfShortPiecesApartHasItsMiddle) {
+  // Squashed meshes: pieces of 1e-9 of the size, far from each other, so that the middle is as good as the shares of their lengths.
+  const HostileScene hostile = make_hostile_scene(Motion::NONE, 9141, 290);
+  Certified certified(hostile.scene);
+  Exhaustive exhaustive(hostile.scene);
+  std::size_t contacts = 0;
+  for (const Pose& pose : hostile.poses) {
+    LmdSet lmds, truth;
+    WorkCounters of_certified, of_exhaustive;
+    certified.search(pose, lmds, of_certified);
+    exhaustive.search(pose, truth, of_exhaustive);
+    ASSERT_EQ(lmds.size(), truth.size());
+    for (std::size_t i = 0; i < lmds.size(); ++i) {
+      contacts += lmds[i].intersecting;
+      EXPECT_LT((lmds[i].point_fixed - truth[i].point_fixed).norm(), 1e-12 * hostile.scale);
+    }
+  }
+  EXPECT_GT(contacts, 20u);
 }
 
 }  // namespace
