@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/catalogue/shapes.h>
-#include <lmdbench/catalogue/sleeve.h>
 #include <lmdbench/lmd/covered_contacts.h>
 
 #include <gtest/gtest.h>
@@ -10,6 +9,7 @@
 #include <support/rounded.h>
 #include <support/shape_scene.h>
 #include <support/sheets.h>
+#include <support/sleeves.h>
 
 #include <algorithm>
 #include <cmath>
@@ -22,18 +22,14 @@
 namespace lmdbench {
 namespace {
 
+using testing::make_gear;
+using testing::make_ring;
 using testing::moved;
 using testing::ShapeScene;
 using testing::text;
 using testing::turned_by;
 using testing::uniform;
 
-TriangleMesh round_ring(double outer, double inner, int around) {
-  return make_sleeve(circle_outline(outer), circle_outline(inner), {0.2, around, 1, 1});
-}
-TriangleMesh toothed(int teeth) {
-  return make_sleeve(gear_outline(teeth, 1.0 / teeth, 0.01), circle_outline(0.2), {0.2, 8 * teeth, 1, 1});
-}
 TriangleMesh plate() {
   return make_box({3.0, 3.0, 0.2}, 1);
 }
@@ -62,10 +58,10 @@ TriangleMesh at_plane(TriangleMesh mesh, bool stands) {
 TEST(CoveredContacts, LmdsAreTheSameWithoutWhatIsCovered) {
   std::mt19937_64 random(1);
   const std::vector<std::pair<TriangleMesh, TriangleMesh>> pairs{
-      {round_ring(0.5, 0.3, 24), round_ring(0.45, 0.35, 30)},
-      {toothed(7), toothed(9)},
-      {toothed(11), plate()},
-      {plate(), round_ring(0.5, 0.3, 24)},
+      {make_ring(0.5, 0.3, 24, 1), make_ring(0.45, 0.35, 30, 1)},
+      {make_gear(7), make_gear(9)},
+      {make_gear(11), plate()},
+      {plate(), make_ring(0.5, 0.3, 24, 1)},
       {testing::make_voxels({{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {2, 1, 0}, {2, 1, 1}}), plate()},
       {testing::make_plate_with_holes(3), make_box({0.7, 0.6, 0.3})}};
   std::size_t less = 0, all = 0;

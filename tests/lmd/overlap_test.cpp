@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/catalogue/shapes.h>
-#include <lmdbench/catalogue/sleeve.h>
 #include <lmdbench/lmd/overlap.h>
 
 #include <boost/multiprecision/cpp_int.hpp>
@@ -9,6 +8,7 @@
 #include <support/rounded.h>
 #include <support/shape_scene.h>
 #include <support/sheets.h>
+#include <support/sleeves.h>
 
 #include <algorithm>
 #include <cmath>
@@ -20,6 +20,8 @@
 namespace lmdbench {
 namespace {
 
+using testing::make_gear;
+using testing::make_ring;
 using testing::ShapeScene;
 using testing::sheet_of;
 using testing::uniform;
@@ -185,12 +187,6 @@ Pose in_plane(double x, double y, double angle, bool is_upside_down) {
   return pose;
 }
 
-TriangleMesh ring(double outer, double inner, int around) {
-  return make_sleeve(circle_outline(outer), circle_outline(inner), {0.2, around, 1, 2});
-}
-TriangleMesh gear(int teeth) {
-  return make_sleeve(gear_outline(teeth, 1.0 / teeth, 0.01), circle_outline(0.2), {0.2, 8 * teeth, 1, 1});
-}
 TriangleMesh comb() {
   return sheet_of({"#.#.#.#.#", "#.#.#.#.#", "#.#.#.#.#", "#########"}, 0.125);
 }
@@ -206,13 +202,14 @@ TriangleMesh checkerboard() {
 
 TEST(Overlap, IsThatOfTheTrianglesAtRandomPosesInThePlane) {
   std::mt19937_64 random(1);
-  const std::vector<std::pair<TriangleMesh, TriangleMesh>> pairs{{ring(0.5, 0.3, 24), ring(0.45, 0.35, 30)},
-                                                                 {gear(7), gear(9)},
-                                                                 {comb(), comb()},
-                                                                 {perforated(), slits()},
-                                                                 {slits(), ring(0.5, 0.4, 20)},
-                                                                 {comb(), gear(8)},
-                                                                 {checkerboard(), perforated()}};
+  const std::vector<std::pair<TriangleMesh, TriangleMesh>> pairs{
+      {make_ring(0.5, 0.3, 24, 2), make_ring(0.45, 0.35, 30, 2)},
+      {make_gear(7), make_gear(9)},
+      {comb(), comb()},
+      {perforated(), slits()},
+      {slits(), make_ring(0.5, 0.4, 20, 2)},
+      {comb(), make_gear(8)},
+      {checkerboard(), perforated()}};
   Checked checked;
   for (const auto& [moving, fixed] : pairs) {
     const Pose whole = testing::pose_of_seed(random());
@@ -268,7 +265,7 @@ TEST(PartsOverRegion, AreThoseOfTheTriangles) {
   std::mt19937_64 random(3);
   std::size_t several = 0;
   for (const TriangleMesh& mesh :
-       {comb(), perforated(), slits(), checkerboard(), ring(0.5, 0.3, 24), gear(9)}) {
+       {comb(), perforated(), slits(), checkerboard(), make_ring(0.5, 0.3, 24, 2), make_gear(9)}) {
     ShapeScene scene(mesh, mesh);
     const std::int32_t region = region_towards(scene.shape_moving(), Vec3::UnitZ());
     for (int i = 0; i < 80; ++i) {
@@ -356,7 +353,7 @@ TEST(FacesAt, AreClosedAtTheReach) {
 TEST(RegionShape, SaysClearlyInsideAndOutsideOnlyWhereItIs) {
   std::mt19937_64 random(5);
   std::size_t inside = 0, outside = 0, unclear = 0;
-  for (const TriangleMesh& mesh : {slits(), perforated(), checkerboard(), gear(7)}) {
+  for (const TriangleMesh& mesh : {slits(), perforated(), checkerboard(), make_gear(7)}) {
     ShapeScene scene(mesh, mesh);
     const ShapePair pair = scene.at(Pose{});
     const std::int32_t region = pair.fixed.shape.region_of(0);

@@ -61,7 +61,7 @@ bool is_inside(const Contact& contact, const ShapeSide& side, std::int32_t regio
 
 double covered_spread(const ContactTolerance& tolerance, const Contact& polygon) {
   // Over the polygon; granted to two that are joined, of which the other one may be extended.
-  return 2.0 * (tolerance.same_distance(std::max(polygon.least_gap, 0.0)) + 2.0 * tolerance.known);
+  return 2.0 * (tolerance.same_distance(polygon.least_gap) + 2.0 * tolerance.known);
 }
 
 std::vector<Contact> take_covered(const ShapePair& pair, std::vector<Contact>& contacts) {

@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/geometry/triangle_sides.h>
 #include <lmdbench/lmd/critical_index.h>
 #include <lmdbench/lmd/surface_samples.h>
 #include <lmdbench/snch/minimum_distance.h>
@@ -23,10 +24,6 @@ PatchBall ball_of(const Triangle& t) {
   double radius = 0.0;
   for (const Vec3& corner : t) radius = std::max(radius, (corner - centre).norm());
   return {centre, radius};
-}
-
-double longest_edge(const Triangle& t) {
-  return std::max({(t[1] - t[0]).norm(), (t[2] - t[1]).norm(), (t[0] - t[2]).norm()});
 }
 
 }  // namespace
@@ -85,7 +82,7 @@ struct SurfaceSampler::Search {
   }
 
   void patch(std::int32_t triangle, const Triangle& t, const Vec3& normal) {
-    const bool is_small = longest_edge(t) <= longest_patch_edge;
+    const bool is_small = longest_side(t) <= longest_patch_edge;
     const PatchBall ball = ball_of(t);
     const NearestPoint found = nearest(ball.centre, is_small ? cutoff : cutoff + ball.radius);
     if (found.triangle < 0) return;

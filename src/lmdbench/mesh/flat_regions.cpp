@@ -192,11 +192,7 @@ class StraightEdgeFinder {
 
 /// FlatRegions::adds_nothing, once regions are known.
 std::vector<bool> find_what_adds_nothing(const Surface& surface, const FlatRegions& regions) {
-  std::vector<std::int32_t> without_area;
-  for (std::size_t t = 0; t < regions.region_of_triangle.size(); ++t)
-    if (regions.region_of_triangle[t] < 0) without_area.push_back(static_cast<std::int32_t>(t));
-  if (without_area.empty()) return {};
-  std::vector<bool> found(regions.region_of_triangle.size(), false);
+  std::vector<bool> found;
   const auto has_area = [&](std::int32_t t) {
     return regions.region_of_triangle[static_cast<std::size_t>(t)] >= 0;
   };
@@ -206,8 +202,9 @@ std::vector<bool> find_what_adds_nothing(const Surface& surface, const FlatRegio
             surface.mesh.vertices[static_cast<std::size_t>(ends[0])])
         .norm();
   };
-  for (const std::int32_t t : without_area) {
-    std::array<std::int32_t, 3> edges = surface.adjacency.triangle_edges[static_cast<std::size_t>(t)];
+  for (std::size_t t = 0; t < regions.region_of_triangle.size(); ++t) {
+    if (regions.region_of_triangle[t] >= 0) continue;
+    std::array<std::int32_t, 3> edges = surface.adjacency.triangle_edges[t];
     std::ranges::sort(edges, {}, length_of);
     const std::int32_t longest = edges[2];
     const bool lies_on_one =
@@ -215,7 +212,8 @@ std::vector<bool> find_what_adds_nothing(const Surface& surface, const FlatRegio
     const bool carries_one = std::ranges::any_of(edges, [&](std::int32_t e) {
       return e != longest && std::ranges::any_of(surface.adjacency.edge_triangles[e], has_area);
     });
-    found[static_cast<std::size_t>(t)] = lies_on_one && !carries_one;
+    found.resize(regions.region_of_triangle.size());
+    found[t] = lies_on_one && !carries_one;
   }
   return found;
 }

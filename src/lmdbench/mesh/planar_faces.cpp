@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/geometry/triangle_sides.h>
 #include <lmdbench/mesh/planar_faces.h>
 
 #include <algorithm>
@@ -26,7 +27,7 @@ struct TriangleSize {
 
 TriangleSize size_of(const Triangle& t) {
   const double double_area = (t[1] - t[0]).cross(t[2] - t[0]).norm();
-  const double longest = std::max({(t[1] - t[0]).norm(), (t[2] - t[1]).norm(), (t[0] - t[2]).norm()});
+  const double longest = longest_side(t);
   return {0.5 * double_area, longest > 0.0 ? double_area / longest : 0.0};
 }
 
@@ -199,8 +200,7 @@ struct FaceStart {
       : normal(surface.face_normals[static_cast<std::size_t>(triangle)]) {
     const Triangle t = surface.mesh.triangle(triangle);
     point = t[0];
-    const double squared_longest =
-        std::max({(t[1] - t[0]).squaredNorm(), (t[2] - t[1]).squaredNorm(), (t[0] - t[2]).squaredNorm()});
+    const double squared_longest = squared_longest_side(t);
     if (squared_longest > 0.0)
       squared_altitude = (t[1] - t[0]).cross(t[2] - t[0]).squaredNorm() / squared_longest;
   }

@@ -166,14 +166,12 @@ class Sweep {
     while (first_before_ < before_.size() && before_[first_before_].right_x < left_bottom[0] - gap)
       ++first_before_;
     OpenPiece piece{&left, &right, left.slope, right.slope, left_top[0], right_top[0]};
-    if (first_before_ < before_.size() && before_[first_before_].left == &left &&
-        before_[first_before_].right == &right && before_[first_before_].outline != OpenPiece::NONE) {
+    OpenPiece* below = first_before_ < before_.size() ? &before_[first_before_] : nullptr;
+    if (below != nullptr && below->left == &left && below->right == &right &&
+        below->outline != OpenPiece::NONE) {
       // Between the same sides as in the row below: what it meets there has met it there.
-      OpenPiece& below = before_[first_before_];
-      piece.part = below.part;
-      piece.outline = std::exchange(below.outline, OpenPiece::NONE);
-      piece.left_slope = below.left_slope;
-      piece.right_slope = below.right_slope;
+      piece.part = below->part;
+      take_outline(piece, *below);
       outlines_[piece.outline].left.back() = left_top;
       outlines_[piece.outline].right.back() = right_top;
     } else {
@@ -199,15 +197,19 @@ class Sweep {
                            left_slope >= below.left_slope - SLOPE_ROUNDING * (1.0 + std::abs(left_slope)) &&
                            right_slope <= below.right_slope + SLOPE_ROUNDING * (1.0 + std::abs(right_slope));
       if (!goes_on) continue;
-      piece.outline = std::exchange(below.outline, OpenPiece::NONE);
-      piece.left_slope = below.left_slope;
-      piece.right_slope = below.right_slope;
+      take_outline(piece, below);
       extend(outlines_[piece.outline].left, piece.left_slope, left_top, left_slope);
       extend(outlines_[piece.outline].right, piece.right_slope, right_top, right_slope);
     }
     if (piece.outline != OpenPiece::NONE) return;
     piece.outline = outlines_.size();
     outlines_.push_back({{left_bottom, left_top}, {right_bottom, right_top}});
+  }
+
+  static void take_outline(OpenPiece& piece, OpenPiece& below) {
+    piece.outline = std::exchange(below.outline, OpenPiece::NONE);
+    piece.left_slope = below.left_slope;
+    piece.right_slope = below.right_slope;
   }
 
   static void extend(std::vector<Vec2>& chain, double& slope, const Vec2& top, double next_slope) {

@@ -35,11 +35,13 @@ RegionShape shape_of(const Surface& surface, const FlatRegions& regions, std::in
   double area = 0.0;
   for (const std::int32_t t : triangles) {
     const auto& corners = surface.mesh.triangles[static_cast<std::size_t>(t)];
-    area += ConvexPolygon(shape.frame, surface.mesh.triangle(t)).measure().area;
+    const Vec2 a = shape.frame.flat(vertex(corners[0])), b = shape.frame.flat(vertex(corners[1])),
+               c = shape.frame.flat(vertex(corners[2]));
+    area += 0.5 * std::abs(cross(b - a, c - a));
     Box2& box = boxes.emplace_back();
+    for (const Vec2& corner : {a, b, c}) box.add(corner);
     for (std::size_t k = 0; k < 3; ++k) {
       if (!regions.vertex_is_inside[static_cast<std::size_t>(corners[k])]) own_corners.push_back(corners[k]);
-      box.add(shape.frame.flat(vertex(corners[k])));
       const std::int32_t edge = surface.adjacency.triangle_edges[static_cast<std::size_t>(t)][k];
       const std::int32_t straight = regions.straight_of_edge[static_cast<std::size_t>(edge)];
       if (straight < 0) continue;
@@ -81,6 +83,20 @@ RegionShape shape_of(const Surface& surface, const FlatRegions& regions, std::in
   return shape;
 }
 
+/// Whether a point is inside a convex polygon by more than `reach` of every side: true, or beyond one by more: false.
+std::optional<bool> is_clearly_in(const std::vector<Vec2>& polygon, const Vec2& x, double reach) {
+  bool is_clear = true;
+  for (std::size_t k = 0; k < polygon.size(); ++k) {
+    const Vec2 side = polygon[k + 1 < polygon.size() ? k + 1 : 0] - polygon[k];
+    const double inwards = cross(side, x - polygon[k]);
+    const bool is_near = inwards * inwards <= reach * reach * side.squaredNorm();
+    if (!is_near && inwards < 0.0) return false;
+    is_clear = is_clear && !is_near;
+  }
+  if (is_clear) return true;
+  return std::nullopt;
+}
+
 }  // namespace
 
 std::optional<bool> RegionShape::clearly_holds(const Vec2& x, double reach) const {
@@ -89,19 +105,10 @@ std::optional<bool> RegionShape::clearly_holds(const Vec2& x, double reach) cons
   box.add(x);
   bool is_near = false, is_inside = false;
   piece_grid.for_each_near(box, reach, [&](std::int32_t index) {
-    const std::vector<Vec2>& piece = pieces[static_cast<std::size_t>(index)].corners;
-    bool is_clear = true;
-    for (std::size_t k = 0; k < piece.size(); ++k) {
-      const Vec2 side = piece[k + 1 < piece.size() ? k + 1 : 0] - piece[k];
-      const double inwards = cross(side, x - piece[k]);
-      if (inwards * inwards > reach * reach * side.squaredNorm()) {
-        if (inwards < 0.0) return true;
-      } else {
-        is_clear = false;
-      }
-    }
-    is_near = true;
-    is_inside = is_clear;
+    const std::optional<bool> in_piece =
+        is_clearly_in(pieces[static_cast<std::size_t>(index)].corners, x, reach);
+    is_near = is_near || in_piece != false;
+    is_inside = in_piece == true;
     return !is_inside;
   });
   if (!is_near) return false;

@@ -4,6 +4,7 @@
 #include <lmdbench/geometry/point_triangle.h>
 #include <lmdbench/geometry/triangle_contact_batch.h>
 #include <lmdbench/geometry/triangle_distance.h>
+#include <lmdbench/geometry/triangle_sides.h>
 #include <lmdbench/methods/certified/touch.h>
 #include <lmdbench/methods/certified/touching_pairs.h>
 
@@ -28,11 +29,6 @@ constexpr double MARGIN_IN_TOUCHES = 2.0;
 /// Of two triangles that cross along less than this part of their longest side the exact kernel says how long that is: pieces weigh in a
 /// contact's middle by their lengths, and where all of them are short and lie apart, so do the errors of these.
 constexpr double LEAST_CROSSING_LENGTH = 1e-4;
-
-double longest_side(const Triangle& t) {
-  return std::sqrt(
-      std::max({(t[1] - t[0]).squaredNorm(), (t[2] - t[1]).squaredNorm(), (t[0] - t[2]).squaredNorm()}));
-}
 
 Vec3 face_normal(const ShapeSide& side, std::int32_t face) {
   return side.direction(side.surface.face_normals[static_cast<std::size_t>(face)]);
@@ -190,9 +186,10 @@ void TouchingPairs::decide_batch(Frame& frame, Batch& batch, Batch& not_crossing
                        std::span(crossings).first(batch.count));
   for (std::size_t k = 0; k < batch.count; ++k) {
     const Batch::Entry& entry = batch.entries[k];
-    if (crossings[k].length > 0.0 &&
-        crossings[k].length >
-            LEAST_CROSSING_LENGTH * std::max(longest_side(batch.moving[k]), longest_side(batch.fixed[k]))) {
+    const double length = crossings[k].length;
+    if (length > 0.0 && length * length > LEAST_CROSSING_LENGTH * LEAST_CROSSING_LENGTH *
+                                              std::max(squared_longest_side(batch.moving[k]),
+                                                       squared_longest_side(batch.fixed[k]))) {
       ++frame.triangle_distances;
       frame.intersections.push_back({{FeatureKind::FACE, entry.moving},
                                      {FeatureKind::FACE, entry.fixed},
@@ -200,7 +197,7 @@ void TouchingPairs::decide_batch(Frame& frame, Batch& batch, Batch& not_crossing
                                      entry.fixed,
                                      frame.body,
                                      1,
-                                     crossings[k].length,
+                                     length,
                                      crossings[k].middle});
       frame.crossing_pairs.push_back({frame.body, entry.moving, entry.fixed});
       continue;

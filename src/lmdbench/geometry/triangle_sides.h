@@ -1,0 +1,22 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <lmdbench/geometry/types.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace lmdbench {
+
+/// Square of `longest_side` [m^2].
+inline double squared_longest_side(const Triangle& t) {
+  return std::max({(t[1] - t[0]).squaredNorm(), (t[2] - t[1]).squaredNorm(), (t[0] - t[2]).squaredNorm()});
+}
+
+/// Length of a triangle's longest side [m].
+inline double longest_side(const Triangle& t) {
+  return std::sqrt(squared_longest_side(t));
+}
+
+}  // namespace lmdbench
