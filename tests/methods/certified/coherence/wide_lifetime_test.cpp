@@ -41,7 +41,8 @@ TEST(WideLifetime, VectorAndScalarAgreeBitForBit) {
     const WideLifetimeTest test{
         moving_lanes,
         {random_float(0.01, random), random_float(0.01, random), -random_float(0.01, random)},
-        static_cast<std::uint32_t>(random() & 0xFFu)};
+        static_cast<std::uint32_t>(random() & 0xFFu),
+        random_float(3.0, random)};
     forecast.horizon = random_float(4.0, random);
     const WideLifetimes scalar =
         test_lanes_lifetime_scalar(node, probe, query.limits, forecast, test, widths);
@@ -56,10 +57,12 @@ TEST(WideLifetime, VectorAndScalarAgreeBitForBit) {
 /// Two children that hold an LMD at the end of a motion, with the motion of the first one's mesh.
 struct EndsAsLmd {
   LaneSample a, b;  ///< As they are at the end, in one frame.
-  double cutoff, frames, angle, deviation;
-  Mat3 turn;          ///< From the start to the end.
-  Vec3 displacement;  ///< Of a's centre.
-  Vec3 velocity;      ///< That was forecast for it; the rest has deviated.
+  double cutoff, frames, angle;
+  double turn_deviation;  ///< Angle that was not forecast.
+  double deviation;       ///< How far the centre is from its forecast.
+  Mat3 turn;              ///< From the start to the end.
+  Vec3 displacement;      ///< Of a's centre.
+  Vec3 velocity;          ///< That was forecast for it; the rest has deviated.
 
   explicit EndsAsLmd(std::mt19937_64& random) : a(random), b(random) {
     cutoff = 0.2 * uniform(random);
@@ -71,6 +74,7 @@ struct EndsAsLmd {
     turn = Eigen::AngleAxisd(angle, random_direction(random)).toRotationMatrix();
     displacement = 0.5 * uniform(random) * random_direction(random);
     deviation = 0.1 * uniform(random) * uniform(random) * uniform(random);
+    turn_deviation = std::min(angle, deviation / a.centre.norm()) * uniform(random);
     velocity = (displacement + deviation * random_direction(random)) / frames;
   }
 };
@@ -108,13 +112,13 @@ TEST(WideLifetime, NothingIsAnLmdBeforeItsFramesAreOver) {
     WideForecast forecast;
     const Vec3 velocity_M = to_moving * pair.velocity;
     forecast.in_moving = WideTransform(Mat3::Zero(), velocity_M);
-    forecast.spin = static_cast<float>(pair.angle / pair.frames * 1.0001);
+    forecast.spin = static_cast<float>((pair.angle - pair.turn_deviation) / pair.frames * 1.0001);
     forecast.creep = static_cast<float>(1e-5 * pair.velocity.norm());
     forecast.cutoff = static_cast<float>(pair.cutoff * 1.0001);
     forecast.base = random_float(0.01, random);
     forecast.drift = random_float(0.01, random);
-    forecast.reach = 4.0F;
-    WideLifetimeTest test{moving_lanes, {}, 0u};
+    forecast.reach = i / 4 % 2 == 0 ? 4.0F : 0.4F;
+    WideLifetimeTest test{moving_lanes, {}, 0u, static_cast<float>(pair.a.centre.norm())};
     for (int k = 0; k < 3; ++k) test.probe_velocity[k] = static_cast<float>(pair.velocity[k]);
     const bool with_widths = i / 2 % 2 == 1;
     const WideLifetimes result =
@@ -122,7 +126,10 @@ TEST(WideLifetime, NothingIsAnLmdBeforeItsFramesAreOver) {
     if (result.lmd != 0) continue;
     ++rejected;
     if (with_widths && test_lanes_lifetime(node, probe, limits, forecast, test).lmd != 0) ++by_width;
-    if (pair.deviation > static_cast<double>(result.deviation_budget)) {
+    // The turn displaces the centre; the origin has deviated by the rest.
+    const double deviation = pair.deviation - pair.turn_deviation * pair.a.centre.norm() +
+                             pair.turn_deviation * static_cast<double>(forecast.reach);
+    if (deviation > static_cast<double>(result.deviation_budget)) {
       ++beyond;
       continue;
     }
@@ -255,9 +262,36 @@ TEST(WideLifetime, DirectionOfTheMotionCounts) {
   const auto frames = [&](float speed) {
     return test_lanes_lifetime(node, probe, limits, forecast, {false, {speed, 0.0F, 0.0F}, 0u}).frames;
   };
-  EXPECT_GE(frames(0.01F), 0.99F * 0.6F * (1.0F - DEVIATION_SHARE) / 0.01F);
-  EXPECT_LT(frames(0.01F), 1e3F);
-  EXPECT_GT(frames(-0.01F), 1e6F);
+  EXPECT_GE(frames(0.02F), 0.99F * 0.6F * (1.0F - DEVIATION_SHARE) / 0.02F);
+  EXPECT_LE(frames(0.02F), 0.6F / 0.02F);
+  EXPECT_EQ(frames(-0.02F), static_cast<float>(MotionForecast::LONGEST_PLAN));
+}
+
+TEST(WideLifetime, WhatTremblesIsPlannedByDeviationsAlone) {
+  // Lately it deviated by more than the slack: where nothing is forecast that does not shorten the plan, which stands all of the slack.
+  std::mt19937_64 random(1);
+  LaneSample a(random), b(random);
+  a.centre = Vec3::Zero();
+  b.centre = {1.0, 0.0, 0.0};
+  a.axis = Vec3::UnitX();
+  b.axis = -Vec3::UnitX();
+  a.radius = b.radius = a.thickness = b.thickness = 0.1;
+  WideNode home{}, node{};
+  a.store(home, 0);
+  b.store(node, 0);
+  const WideProbe probe = make_probe(WideChild(home, 0), WideTransform(Mat3::Identity(), Vec3::Zero()));
+  WideForecast forecast;
+  forecast.cutoff = 0.2F;
+  forecast.base = forecast.drift = 1.0F;
+  forecast.reach = 4.0F;
+  const auto plan = [&](float speed) {
+    return test_lanes_lifetime(node, probe, {0.2F, 0.0F, 1e-6F}, forecast, {false, {speed, 0.0F, 0.0F}, 0u});
+  };
+  EXPECT_EQ(plan(0.0F).frames, static_cast<float>(MotionForecast::LONGEST_PLAN));
+  EXPECT_NEAR(plan(0.0F).deviation_budget, 0.6F, 1e-4F);
+  // Else the slack is shared.
+  EXPECT_NEAR(plan(0.02F).frames, LEAST_SHARE * 0.6F / 0.02F, 0.01F);
+  EXPECT_NEAR(plan(0.02F).deviation_budget, (1.0F - LEAST_SHARE) * 0.6F, 1e-4F);
 }
 
 }  // namespace

@@ -4,38 +4,44 @@
 #include <lmdbench/methods/certified/coherence/certificate_queue.h>
 
 #include <algorithm>
+#include <bit>
+#include <cmath>
 #include <limits>
 
 namespace lmdbench {
 
 namespace {
 
-constexpr float UNLIMITED = std::numeric_limits<float>::infinity();
 /// Plans end earlier by this part: rounding of single precision.
 constexpr double FRAME_ROUNDING = 1e-4;
-/// When a deviation ends plans, it ends those as well that would stand little more: looking at the others of
-/// the epoch again a frame later costs more.
-constexpr float HEADROOM = 1.5F;
 
 }  // namespace
 
+std::uint32_t CertificateQueue::class_of(double deviation, const MotionForecast& forecast) {
+  // The exponent and the first bit of the mantissa; what is negative has the sign's bit.
+  constexpr int SHIFT = std::numeric_limits<float>::digits - 2;
+  constexpr int HIGHEST = static_cast<int>(CLASSES) - 1, OF_HIGHEST = std::bit_cast<int>(1.0F) >> SHIFT;
+  const int bits = std::bit_cast<int>(static_cast<float>(deviation / forecast.reach())) >> SHIFT;
+  return static_cast<std::uint32_t>(std::clamp(bits - OF_HIGHEST + HIGHEST, 0, HIGHEST));
+}
+
 void CertificateQueue::clear() {
-  budgets_.clear();
+  if (size_ == 0) return;
+  size_ = 0;
   free_.clear();
   by_frame_.clear();
   next_.clear();
   place_in_next_.clear();
-  by_epoch_.clear();
-  least_budgets_.fill(UNLIMITED);
+  by_class_.clear();
+  least_class_.fill(CLASSES);
 }
 
 std::uint32_t CertificateQueue::add() {
   if (free_.empty()) {
-    budgets_.push_back(UNLIMITED);
     by_frame_.add();
-    by_epoch_.add();
+    by_class_.add();
     place_in_next_.push_back(NONE);
-    return static_cast<std::uint32_t>(budgets_.size() - 1);
+    return size_++;
   }
   const std::uint32_t index = free_.back();
   free_.pop_back();
@@ -43,9 +49,9 @@ std::uint32_t CertificateQueue::add() {
 }
 
 void CertificateQueue::drop(std::uint32_t index) {
-  LMDBENCH_EXPECTS(index < budgets_.size() && count() > 0, "a thing dropped twice");
+  LMDBENCH_EXPECTS(index < size_ && count() > 0, "a thing dropped twice");
   by_frame_.remove(index);
-  by_epoch_.remove(index);
+  by_class_.remove(index);
   if (place_in_next_[index] != NONE) next_[place_in_next_[index]] = NONE;
   place_in_next_[index] = NONE;
   free_.push_back(index);
@@ -53,7 +59,7 @@ void CertificateQueue::drop(std::uint32_t index) {
 
 void CertificateQueue::plan(std::uint32_t index, double frames, double deviation_budget,
                             const MotionForecast& forecast) {
-  LMDBENCH_EXPECTS(index < budgets_.size(), "a thing of another queue");
+  LMDBENCH_EXPECTS(index < size_, "a thing of another queue");
   LMDBENCH_EXPECTS(!std::isnan(frames) && !std::isnan(deviation_budget),
                    "a certificate whose slack or gradient is not a number");
   const double whole = std::clamp(frames * (1.0 - FRAME_ROUNDING), 0.0, forecast.longest_plan());
@@ -63,26 +69,19 @@ void CertificateQueue::plan(std::uint32_t index, double frames, double deviation
   }
   by_frame_.move_to(index, (forecast.frame() + 1 + static_cast<std::uint32_t>(whole)) % FRAMES);
   const std::size_t epoch = forecast.epoch();
-  by_epoch_.move_to(index, static_cast<std::uint32_t>(epoch));
-  budgets_[index] =
-      static_cast<float>((deviation_budget - forecast.used_at_start()) * (1.0 - FRAME_ROUNDING));
-  least_budgets_[epoch] = std::min(least_budgets_[epoch], budgets_[index]);
+  const std::uint32_t budget_class =
+      class_of((deviation_budget - forecast.used_at_start()) * (1.0 - FRAME_ROUNDING), forecast);
+  by_class_.move_to(index, static_cast<std::uint32_t>(epoch) * CLASSES + budget_class);
+  least_class_[epoch] = std::min(least_class_[epoch], budget_class);
 }
 
 void CertificateQueue::collect(const MotionForecast& forecast, std::vector<std::uint32_t>& due) {
   for (std::size_t epoch = 0; epoch < MotionForecast::EPOCHS; ++epoch) {
-    const auto deviation = static_cast<float>(forecast.deviation(epoch));
-    if (!(deviation > least_budgets_[epoch])) continue;
-    const float limit = deviation * HEADROOM;
-    float least = UNLIMITED;
-    by_epoch_.for_each(static_cast<std::uint32_t>(epoch), [&](std::uint32_t index) {
-      if (budgets_[index] < limit) {
-        plan_now(index, forecast);
-      } else {
-        least = std::min(least, budgets_[index]);
-      }
-    });
-    least_budgets_[epoch] = least;
+    if (least_class_[epoch] == CLASSES) continue;
+    const std::uint32_t reached = class_of(forecast.deviation(epoch), forecast);
+    for (; least_class_[epoch] <= reached; ++least_class_[epoch])
+      by_class_.for_each(static_cast<std::uint32_t>(epoch) * CLASSES + least_class_[epoch],
+                         [&](std::uint32_t index) { plan_now(index, forecast); });
   }
   due.clear();
   for (const std::uint32_t index : next_) {
@@ -93,7 +92,7 @@ void CertificateQueue::collect(const MotionForecast& forecast, std::vector<std::
   next_.clear();
   by_frame_.for_each(forecast.frame() % FRAMES, [&](std::uint32_t index) {
     by_frame_.remove(index);
-    by_epoch_.remove(index);
+    by_class_.remove(index);
     due.push_back(index);
   });
 }

@@ -17,10 +17,10 @@ namespace lmdbench {
 /// deviates too far. Named by indices, which are used again once dropped.
 class CertificateQueue {
  public:
-  CertificateQueue() { clear(); }
+  CertificateQueue() { least_class_.fill(CLASSES); }
 
   void clear();
-  std::size_t count() const { return budgets_.size() - free_.size(); }
+  std::size_t count() const { return size_ - free_.size(); }
 
   /// A new thing, without a plan.
   std::uint32_t add();
@@ -28,10 +28,11 @@ class CertificateQueue {
 
   /// @param frames    of the forecast after which the thing is due; at least the next frame is
   /// @param deviation_budget deviation that it stands [m]
+  /// @param forecast  the same one, not reset, until everything is forgotten
   void plan(std::uint32_t index, double frames, double deviation_budget, const MotionForecast& forecast);
   /// In the forecast's frame, which is not collected yet.
   void plan_now(std::uint32_t index, const MotionForecast& forecast) {
-    LMDBENCH_EXPECTS(index < budgets_.size(), "a thing of another queue");
+    LMDBENCH_EXPECTS(index < size_, "a thing of another queue");
     if (place_in_next_[index] == NONE) by_frame_.move_to(index, forecast.frame() % FRAMES);
   }
 
@@ -52,14 +53,20 @@ class CertificateQueue {
   static_assert(MotionForecast::LONGEST_PLAN + 1 < FRAMES);
   static constexpr std::uint32_t NONE = 0xFFFFFFFFU;
 
-  std::vector<float> budgets_;  ///< Deviations from their epoch's forecast that plans stand [m].
+  /// Classes of budgets, two an octave, from the forecast's reach down to 6e-8 of it: when a deviation reaches a class, its plans
+  /// end, without a look at each.
+  static constexpr std::uint32_t CLASSES = 48;
+  static std::uint32_t class_of(double deviation, const MotionForecast& forecast);
+
+  std::uint32_t size_ = 0;  ///< Indices that were ever given.
   std::vector<std::uint32_t> free_;
   IndexLists by_frame_{FRAMES};
   /// Due in the next frame whatever the motion: in deep contact thousands are, frame after frame, and lists that
   /// lose any of their links at any time would cost more than the decisions.
   std::vector<std::uint32_t> next_, place_in_next_;
-  IndexLists by_epoch_{static_cast<std::uint32_t>(MotionForecast::EPOCHS)};
-  std::array<float, MotionForecast::EPOCHS> least_budgets_{};  ///< Over the plans of an epoch, or less.
+  IndexLists by_class_{static_cast<std::uint32_t>(MotionForecast::EPOCHS) *
+                       CLASSES};                                     ///< epoch * CLASSES + class
+  std::array<std::uint32_t, MotionForecast::EPOCHS> least_class_{};  ///< Over the plans of an epoch, or less.
 };
 
 }  // namespace lmdbench

@@ -26,6 +26,8 @@ constexpr double EPOCH_MEMORY = 0.75;
 /// asin(norm / sqrt(8)), and asin(x) <= 1.01 x for x <= 0.23.
 constexpr double LARGEST_EPOCH_TURN = 0.32;
 constexpr double ANGLE_ROUNDING = 1.01;
+/// The difference of two rotations has two equal singular values and no third.
+constexpr double OPERATOR_NORM_OF_ROTATIONS = 1.0 / std::numbers::sqrt2;
 /// Speeds are at least this where something is divided by them.
 constexpr double LEAST = 1e-30;
 /// What a test has let through is kept until its plan ends: over motions of more cutoffs than this, too much
@@ -45,7 +47,7 @@ void MotionForecast::reset(const RigidTransform& X_WH, double radius, double cut
   LMDBENCH_EXPECTS(radius >= 0.0 && cutoff > 0.0, "a mesh without extent is searched from scratch");
   radius_ = radius;
   cutoff_ = cutoff;
-  reach_ = 2.0 * (radius + cutoff);
+  reach_ = radius + 2.0 * cutoff;
   frame_ = 0;
   epoch_ = EPOCHS - 1;
   started_ = false;
@@ -60,13 +62,17 @@ double MotionForecast::deviation_of(const Epoch& epoch, const RigidTransform& X_
   LMDBENCH_EXPECTS(frame_ >= epoch.start, "an epoch of before the last reset");
   const double tau = frame_ - epoch.start;
   const Mat3 turned = X_WH.rotation - epoch.X_WH.rotation;
-  const double rest = (turned - tau * (epoch.turn + 0.5 * tau * epoch.curve)).norm();
-  if (!(turned.norm() <= LARGEST_EPOCH_TURN)) return UNKNOWN;
-  return (X_WH.translation - epoch.X_WH.translation - tau * epoch.velocity).norm() + rest * reach_;
+  const double norm = turned.norm();
+  if (!(norm <= LARGEST_EPOCH_TURN)) return UNKNOWN;
+  const double rest = epoch.goes_on ? (turned - tau * (epoch.turn + 0.5 * tau * epoch.curve)).norm()
+                                    : OPERATOR_NORM_OF_ROTATIONS * norm;
+  return (X_WH.translation - epoch.X_WH.translation - tau * epoch.velocity).norm() +
+         ANGLE_ROUNDING * rest * reach_;
 }
 
 void MotionForecast::judge_last_epoch(const RigidTransform& X_WH) {
   Epoch staying;
+  staying.goes_on = false;
   staying.start = going_on_.start;
   staying.X_WH = going_on_.X_WH;
   const auto note = [&](double& faded, const Epoch& epoch) {
@@ -90,8 +96,10 @@ void MotionForecast::start_epoch(const RigidTransform& X_WH) {
   epoch.turn = last_turn + 0.5 * epoch.curve;
   // Plans are no longer over a motion that trembles than over one that goes on.
   const double speed = epoch.velocity.norm() + epoch.turn.norm() * radius_;
+  epoch.goes_on = true;
   going_on_ = epoch;
   if (deviation_staying_ < deviation_going_on_) {
+    epoch.goes_on = false;
     epoch.velocity.setZero();
     epoch.turn.setZero();
     epoch.curve.setZero();
@@ -101,9 +109,9 @@ void MotionForecast::start_epoch(const RigidTransform& X_WH) {
 
   const double turn = epoch.turn.norm(), curve = epoch.curve.norm();
   // With half of LARGEST_EPOCH_TURN for what deviates.
-  longest_plan_ =
-      std::min({static_cast<double>(LONGEST_PLAN), PLAN_CUTOFFS * cutoff_ / std::max(speed, LEAST),
-                0.5 * LARGEST_EPOCH_TURN / std::max(turn + LONGEST_PLAN * curve, LEAST)});
+  longest_plan_ = std::min({static_cast<double>(epoch.goes_on ? LONGEST_PLAN : LONGEST_TREMBLING_PLAN),
+                            PLAN_CUTOFFS * cutoff_ / std::max(speed, LEAST),
+                            0.5 * LARGEST_EPOCH_TURN / std::max(turn + LONGEST_PLAN * curve, LEAST)});
   // A plan from frame s to frame t of an epoch: (t^2 - s^2) / 2 = (t - s) (t + s) / 2.
   const double frames = EPOCH_FRAMES + 0.5 * longest_plan_;
   creep_ = frames * curve * radius_ + SINGLE_ROUNDING * speed;
@@ -134,7 +142,8 @@ void MotionForecast::advance(const RigidTransform& X_WH, double rounding) {
   // Plans start with what their epoch has deviated by, and count it twice.
   base_ = 2.0 * early_;
   motion_ = (X_WH.translation - last_.translation).norm() + (X_WH.rotation - last_.rotation).norm() * radius_;
-  if (epoch_count_ == 0 || frame_ - epochs_[epoch_].start >= EPOCH_FRAMES) {
+  const std::uint32_t epoch_frames = epochs_[epoch_].goes_on ? EPOCH_FRAMES : TREMBLING_EPOCH_FRAMES;
+  if (epoch_count_ == 0 || frame_ - epochs_[epoch_].start >= epoch_frames) {
     if (epoch_count_ > 0) judge_last_epoch(X_WH);
     start_epoch(X_WH);
   }

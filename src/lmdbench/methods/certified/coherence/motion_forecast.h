@@ -21,21 +21,23 @@ namespace lmdbench {
 /// with v the last frame's motion of the origin, and W and Q those of a steady turn; or, where the last epochs show a motion that
 /// trembles about a place rather than goes on, v = W = Q = 0. The deviation
 ///
-///   |o_t - o_e - tau v| + |R_t - R_e - tau W - tau^2 / 2 Q| * reach        (Frobenius norm)
+///   |o_t - o_e - tau v| + 1.01 |R_t - R_e - tau W - tau^2 / 2 Q| * reach        (operator norm, or a bound of it)
 ///
-/// bounds how far any point of the mesh is from its forecast, and leaves room for the angle that the mesh has
-/// turned beyond it, times a lever arm of the mesh's radius and two cutoffs: reach = 2 (radius + cutoff).
+/// with reach = radius + 2 cutoff bounds how far any point c of the mesh is from its forecast together with the angle that the mesh
+/// has turned beyond it, times a lever arm L, wherever |c| + L <= reach: L is the radius of what is below a node and two cutoffs.
 ///
 /// So everything that is planned by the forecast and stands that deviation is safe (PROOF.md, lemma 17), whatever the motion; a
 /// bad forecast costs time, nothing else. New epochs start every few frames.
 class MotionForecast {
  public:
-  /// No plan is longer than this [frames].
-  static constexpr std::uint32_t LONGEST_PLAN = 60;
-  /// Frames after which a new epoch starts.
-  static constexpr std::uint32_t EPOCH_FRAMES = 4;
-  /// Epochs that are remembered: none is forgotten before its plans have ended.
+  /// No plan is longer than this [frames]: of a motion that goes on, and of one that trembles.
+  static constexpr std::uint32_t LONGEST_PLAN = 60, LONGEST_TREMBLING_PLAN = 30;
+  /// Frames after which a new epoch starts: of a motion that goes on, and of one that trembles, where what deviated before a plan
+  /// counts as much as what comes after it.
+  static constexpr std::uint32_t EPOCH_FRAMES = 4, TREMBLING_EPOCH_FRAMES = 2;
+  /// Epochs that are remembered: none is forgotten before its plans have ended, but where a motion begins to tremble; they end then.
   static constexpr std::size_t EPOCHS = LONGEST_PLAN / EPOCH_FRAMES + 2;
+  static_assert(EPOCHS >= LONGEST_TREMBLING_PLAN / TREMBLING_EPOCH_FRAMES + 2);
 
   /// Forgets everything; the next frame is the first.
   /// @param radius of the moving mesh about the hierarchy's origin [m]
@@ -74,6 +76,7 @@ class MotionForecast {
  private:
   struct Epoch {
     std::uint32_t start = 0;
+    bool goes_on = true;  ///< Else all that follows the pose is zero.
     RigidTransform X_WH;
     Vec3 velocity = Vec3::Zero();
     Mat3 turn = Mat3::Zero();

@@ -67,21 +67,22 @@ void TraversalFront::plan_leaf(const WideHierarchy& a, const MotionForecast& mot
   const Vec3 velocity = motion.turn() * c + motion.origin_velocity();
   const double loss = certificate.gradient.dot(velocity) + certificate.spread * velocity.norm() +
                       certificate.lever_arm * motion.spin() + (1.0 + certificate.spread) * motion.creep();
-  // As the node test does it (PROOF.md, lemma 18).
-  // A deviation of t + a * reach (MotionForecast::deviation) displaces the centre
-  // by t + a * radius at most and turns by 0.72 a; for lever arms above half the reach that is not all, and the
-  // spread counts it again: `weight` makes up for both.
-  const double share = static_cast<double>(DEVIATION_SHARE);
+  // As the node test does it; a deviation displaces the centre as well as it turns (PROOF.md, lemma 18).
   const double weight =
-      (1.0 + certificate.spread) * std::max(1.0, 2.0 * certificate.lever_arm / motion.reach());
+      std::max(1.0 + certificate.spread,
+               ((1.0 + certificate.spread) * c.norm() + certificate.lever_arm) / motion.reach());
   const auto frames_of = [&](double slack, double loss_a_frame) {
-    return (slack * (1.0 - share) - motion.base()) / (std::max(loss_a_frame, LEAST_LOSS) + motion.drift());
+    const double wanted = (slack * (1.0 - static_cast<double>(DEVIATION_SHARE)) - motion.base()) /
+                          (loss_a_frame + motion.drift());
+    return std::min(std::max(wanted, static_cast<double>(LEAST_SHARE) * slack / loss_a_frame),
+                    static_cast<double>(MotionForecast::LONGEST_PLAN));
   };
-  const double slack = certificate.slack / weight, turn = certificate.turn * motion.reach();
-  const double frames =
-      std::min({frames_of(slack, loss / weight), frames_of(turn, motion.spin() * motion.reach()),
-                static_cast<double>(MotionForecast::LONGEST_PLAN)});
-  const double deviation_budget = share * std::min(slack, turn) + motion.base() + motion.drift() * frames;
+  const double turn = certificate.turn * motion.reach();
+  const double loss_of_length = std::max(loss, LEAST_LOSS);
+  const double loss_of_turn = std::max(motion.spin() * motion.reach(), LEAST_LOSS);
+  const double frames = std::min(frames_of(certificate.slack, loss_of_length), frames_of(turn, loss_of_turn));
+  const double deviation_budget =
+      std::min((certificate.slack - loss_of_length * frames) / weight, turn - loss_of_turn * frames);
   leaf_queue_.plan(index, frames, deviation_budget, motion);
 }
 

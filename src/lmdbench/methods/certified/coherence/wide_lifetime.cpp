@@ -65,7 +65,8 @@ HWY_INLINE WideLifetimes test_lifetime(const WideNode& node, const WideProbe& pr
   const Number zero = set(0.0F), least = set(LEAST_LENGTH), cutoff = set(limits.cutoff);
   const Number base = set(forecast.base), drift = set(forecast.drift), reach = set(forecast.reach);
   const Number horizon = set(forecast.horizon), half_diagonal = set(HALF_DIAGONAL);
-  const Number share = set(DEVIATION_SHARE), rest = set(1.0F - DEVIATION_SHARE);
+  const Number rest = set(1.0F - DEVIATION_SHARE), least_share = set(LEAST_SHARE);
+  const Number longest_plan = set(static_cast<float>(MotionForecast::LONGEST_PLAN));
   const Number infinite = set(std::numeric_limits<float>::infinity());
   const Number angle_loss = largest_of(set(forecast.spin * forecast.reach), least);
   const WideTransform& X = forecast.in_moving;
@@ -78,7 +79,7 @@ HWY_INLINE WideLifetimes test_lifetime(const WideNode& node, const WideProbe& pr
     Number ex = set(-test.probe_velocity[0]);
     Number ey = set(-test.probe_velocity[1]);
     Number ez = set(-test.probe_velocity[2]);
-    Number lever_arm = set(probe.radius + 2.0F * forecast.cutoff);
+    Number lever_arm = set(probe.radius + 2.0F * forecast.cutoff), from_origin = set(test.probe_distance);
     if (test.moving_lanes) {
       const auto row = [&](int i) HWY_ATTR {
         return ((set(X.columns[0][i]) * bounds.cx + set(X.columns[1][i]) * bounds.cy) +
@@ -89,6 +90,7 @@ HWY_INLINE WideLifetimes test_lifetime(const WideNode& node, const WideProbe& pr
       ey = row(1);
       ez = row(2);
       lever_arm = bounds.radius + set(2.0F * forecast.cutoff);
+      from_origin = root(Bounds::dot(bounds.cx, bounds.cy, bounds.cz, bounds.cx, bounds.cy, bounds.cz));
     }
     const Number extra = set(forecast.spin) * lever_arm + set(forecast.creep);
 
@@ -151,11 +153,17 @@ HWY_INLINE WideLifetimes test_lifetime(const WideNode& node, const WideProbe& pr
     // The share of the slack, the base and the drift are left when the loss has used up the rest.
     const auto frames = [&](Number slack, Number loss)
                             HWY_ATTR { return (slack * rest - base) / (loss + drift); };
+    const auto planned = [&](Number slack, Number loss, Number wanted) HWY_ATTR {
+      return least_of(largest_of(wanted, slack * least_share / loss), longest_plan);
+    };
     const Number length_frames = frames(length.slack, length.loss);
     const Number angle_frames = frames(angle_slack, angle_loss);
     const Number touch_frames = frames(touching.slack, touching.loss);
-    const Number lmd_frames = largest_of(length_frames, angle_frames);
-    const Number lmd_slack = select(length_frames >= angle_frames, length.slack, angle_slack);
+    const auto by_length = length_frames >= angle_frames;
+    const Number lmd_slack = select(by_length, length.slack, angle_slack);
+    const Number lmd_loss = select(by_length, length.loss, angle_loss);
+    const Number lmd_plan = planned(lmd_slack, lmd_loss, largest_of(length_frames, angle_frames));
+    const Number touch_plan = planned(touching.slack, touching.loss, touch_frames);
 
     const auto used = Lanes::not_zero(node.child, first);
     const auto touch_matters = both_of(used, Lanes::of_bits(test.touch_lanes, first));
@@ -166,13 +174,15 @@ HWY_INLINE WideLifetimes test_lifetime(const WideNode& node, const WideProbe& pr
     result.lmd |= Lanes::bits(lmd, first);
     result.touch |= Lanes::bits(touch, first);
     const auto dead = but_not(used, lmd), touch_dead = but_not(touch_matters, touch);
-    const auto allowed = [&](Number slack, Number for_frames)
-                             HWY_ATTR { return (slack * share + base) + drift * for_frames; };
-    least_frames = least_of(least_frames, select(dead, lmd_frames, infinite));
-    least_frames = least_of(least_frames, select(touch_dead, touch_frames, infinite));
-    least_budget = least_of(least_budget, select(dead, allowed(lmd_slack, lmd_frames), infinite));
+    // Lemma 17: as much as a deviation counts for, or more where the lane reaches farther.
+    const Number weight = largest_of((from_origin + lever_arm) / reach, set(1.0F));
+    const auto left = [&](Number slack, Number loss, Number for_frames)
+                          HWY_ATTR { return (slack - loss * for_frames) / weight; };
+    least_frames = least_of(least_frames, select(dead, lmd_plan, infinite));
+    least_frames = least_of(least_frames, select(touch_dead, touch_plan, infinite));
+    least_budget = least_of(least_budget, select(dead, left(lmd_slack, lmd_loss, lmd_plan), infinite));
     least_budget =
-        least_of(least_budget, select(touch_dead, allowed(touching.slack, touch_frames), infinite));
+        least_of(least_budget, select(touch_dead, left(touching.slack, touching.loss, touch_plan), infinite));
   }
   result.frames = Lanes::least(least_frames);
   result.deviation_budget = Lanes::least(least_budget);
@@ -216,12 +226,14 @@ void make_batch(const WideHierarchy& a, const WideHierarchy& b, const WideQuery&
     WideLifetimeTest lifetime;
     lifetime.moving_lanes = open_a;
     lifetime.touch_lanes = may_touch ? kinds.faces | (0xFFu & ~kinds.features) : 0u;
+    const float* const centre = pair.child.centre;
+    lifetime.probe_distance =
+        std::sqrt(centre[0] * centre[0] + centre[1] * centre[1] + centre[2] * centre[2]);
     const WideTransform& X = forecast.in_fixed;
     for (int k = 0; k < 3; ++k) {
       lifetime.probe_velocity[k] = open_a ? 0.0F
-                                          : X.columns[0][k] * pair.child.centre[0] +
-                                                X.columns[1][k] * pair.child.centre[1] +
-                                                X.columns[2][k] * pair.child.centre[2] + X.translation[k];
+                                          : X.columns[0][k] * centre[0] + X.columns[1][k] * centre[1] +
+                                                X.columns[2][k] * centre[2] + X.translation[k];
     }
     WideLifetimes result;
     if constexpr (std::is_same_v<Widths, WideWidthTest>) {

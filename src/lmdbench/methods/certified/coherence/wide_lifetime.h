@@ -32,8 +32,8 @@
 ///   F(D) - grad F . Delta - theta * lever_arm > 0
 ///
 /// whatever the size of Delta; and the one of angles while theta is below its slack. Delta and
-/// theta grow by the forecast (motion_forecast.h), which gives a number of frames; what the motion
-/// may deviate by is subtracted first.
+/// theta grow by the forecast (motion_forecast.h) and by what the motion deviates from it: a plan is a number of frames, and the
+/// deviation that it stands is what they leave of the slack.
 namespace lmdbench {
 
 /// The forecast as one query needs it, in single precision.
@@ -44,7 +44,7 @@ struct WideForecast {
   float creep = 0.0F;   ///< Added to the velocity of any point, for what is not in `turn`; metres a frame.
   float spin = 0.0F;    ///< Radians a frame.
   float cutoff = 0.0F;  ///< Of the lever arms [m].
-  /// Every plan of tau frames stands a deviation of base + drift * tau at least.
+  /// Plans of tau frames shall stand a deviation of base + drift * tau, and a share of the slack.
   float base = 0.0F;     ///< metres
   float drift = 0.0F;    ///< metres a frame
   float reach = 0.0F;    ///< A turn by an angle counts as that deviation times this [m].
@@ -56,8 +56,11 @@ struct WideForecast {
   WideForecast(const MotionForecast& forecast, const RigidTransform& X_FM, double cutoff);
 };
 
-/// Share of a slack that a plan leaves for what deviates from the forecast.
+/// Share of a slack that a plan leaves for what deviates from the forecast, beside what lately did.
 inline constexpr float DEVIATION_SHARE = 0.125F;
+/// No plan is shorter than this share of the slack lasts, however much deviated lately: where a motion trembles that is more than
+/// most slacks, and is not deviated by again in the next frames. What stands still is planned by deviations alone.
+inline constexpr float LEAST_SHARE = 0.5F;
 /// Frames for which a lane's best criterion is chosen.
 inline constexpr float CHOICE_FRAMES = 16.0F;
 /// Larger than any slack, and than what is lost: takes criteria that do not reject now out of the choice.
@@ -83,6 +86,7 @@ struct WideLifetimeTest {
   bool moving_lanes;          ///< The lanes are the moving mesh's, the probe the fixed one's.
   float probe_velocity[3];    ///< Of a moving probe's centre, in the lanes' frame; metres a frame.
   std::uint32_t touch_lanes;  ///< Lanes for which touching matters.
+  float probe_distance = 0;   ///< Of a moving probe's centre from its hierarchy's origin [m].
 };
 
 /// @param widths  null: NoWidths
