@@ -180,6 +180,17 @@ TEST_F(CertificateQueueTest, GoOffWhenTheMotionDeviates) {
   EXPECT_EQ(next(0.2), std::vector<std::uint32_t>{wide});
 }
 
+TEST_F(CertificateQueueTest, WhatAnEpochDeviatedByBeforeAPlanIsTakenFromItsBudget) {
+  for (int frame = 0; frame < 9; ++frame) next(0.0);
+  // Ahead of the forecast by more than the plan stands from there to as far behind it.
+  const std::size_t epoch = forecast.epoch();
+  next(0.010);
+  ASSERT_EQ(forecast.epoch(), epoch) << "in the middle of an epoch";
+  const std::uint32_t only = queue.add();
+  queue.plan(only, 50.0, 0.015, forecast);
+  EXPECT_EQ(next(-0.0075), std::vector<std::uint32_t>{only}) << "0.0175 from where it was planned";
+}
+
 TEST_F(CertificateQueueTest, NoPlanStandsMoreThanItsBudgetNorMuchLess) {
   next(0.0);
   std::mt19937_64 random(3);

@@ -144,6 +144,31 @@ TEST_F(TraversalFrontTest, ADecisionStandsUntilItsSlackIsUsedUp) {
   EXPECT_TRUE(std::includes(again.begin(), again.end(), wanted.begin(), wanted.end()));
 }
 
+TEST_F(TraversalFrontTest, ATurnUsesUpADecisionByHowFarItMovesThePairAndByItsLeverArm) {
+  std::mt19937_64 random(21);
+  Pose pose = testing::grazing_pose(scene_, 0.02, random);
+  go_to(pose);
+  const double reach = motion_.reach(), slack = 0.064 * reach;
+  // With the lever arm alone a deviation of the slack is stood; with how far the pair is from the origin, no more than 0.6 of it.
+  const Certificate stands = {
+      .slack = slack, .gradient = Vec3::UnitX(), .spread = 0.0, .lever_arm = reach, .turn = 1.0};
+  for (int frame = 0; frame < 4; ++frame) {
+    due(stands);
+    go_to(pose);
+  }
+  EXPECT_LT(due(stands).size(), front_.pair_count()) << "at rest they stand";
+  const Vec3 origin_W = RigidTransform(pose).point(moving().origin);
+  const Eigen::Quaterniond turn(Eigen::AngleAxisd(0.0425, Vec3::UnitZ()));
+  pose.rotation = turn * pose.rotation;
+  pose.translation = origin_W + turn * (pose.translation - origin_W);
+  const std::size_t epoch = motion_.epoch();
+  go_to(pose);
+  ASSERT_LT(motion_.deviation(epoch), 0.98 * slack);
+  ASSERT_GT(motion_.deviation(epoch), 0.8 * slack);
+  const std::set<Key> again = due(stands);
+  EXPECT_EQ(again.size(), front_.pair_count());
+}
+
 TEST_F(TraversalFrontTest, ForgetsWhatIsLeftBehind) {
   std::mt19937_64 random(20);
   Pose pose = testing::grazing_pose(scene_, 0.02, random);

@@ -267,6 +267,33 @@ TEST(WideLifetime, DirectionOfTheMotionCounts) {
   EXPECT_EQ(frames(-0.02F), static_cast<float>(MotionForecast::LONGEST_PLAN));
 }
 
+TEST(WideLifetime, ATurnCountsByHowFarItMovesTheChild) {
+  // The moving child is farther from its mesh's origin than `reach`: a turn that was not forecast moves it by more than it counts as.
+  constexpr double FROM_ORIGIN = 1.0, REACH = 0.4, GAP = 0.7, CUTOFF = 0.1, RADIUS = 0.1;
+  std::mt19937_64 random(1);
+  LaneSample moving(random), fixed(random);
+  moving.centre = {FROM_ORIGIN, 0.0, 0.0};
+  fixed.centre = {FROM_ORIGIN + GAP + 2.0 * RADIUS, 0.0, 0.0};
+  moving.axis = Vec3::UnitX();
+  fixed.axis = -Vec3::UnitX();
+  moving.radius = fixed.radius = moving.thickness = fixed.thickness = RADIUS;
+  WideForecast forecast;
+  forecast.cutoff = static_cast<float>(CUTOFF);
+  forecast.reach = static_cast<float>(REACH);
+  for (const bool moving_lanes : {false, true}) {
+    WideNode home{}, node{};
+    (moving_lanes ? fixed : moving).store(home, 0);
+    (moving_lanes ? moving : fixed).store(node, 3);
+    const WideProbe probe = make_probe(WideChild(home, 0), WideTransform(Mat3::Identity(), Vec3::Zero()));
+    const WideLimits limits{static_cast<float>(CUTOFF), 0.0F, 1e-6F};
+    const WideLifetimes result = test_lanes_lifetime(node, probe, limits, forecast,
+                                                     {moving_lanes, {}, 0u, static_cast<float>(FROM_ORIGIN)});
+    // An angle a moves the centre by a FROM_ORIGIN, and counts as a REACH.
+    const double angle = (GAP - CUTOFF) / (FROM_ORIGIN + RADIUS + 2.0 * CUTOFF);
+    EXPECT_NEAR(static_cast<double>(result.deviation_budget), angle * REACH, 1e-4);
+  }
+}
+
 TEST(WideLifetime, WhatTremblesIsPlannedByDeviationsAlone) {
   // Lately it deviated by more than the slack: where nothing is forecast that does not shorten the plan, which stands all of the slack.
   std::mt19937_64 random(1);
