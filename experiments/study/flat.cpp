@@ -282,6 +282,8 @@ void lmdbench::study::add_flat(CLI::App& app, Run& chosen) {
     times->seed = choice->seed;
     times->passes = choice->repetitions;
     times->json = choice->json;
+    times->scan = choice->bunny;
+    times->meshes = choice->meshes;
     chosen.work = [choice, parts, times] {
       if (!*parts) return flat::run(*choice);
       return flat_parts::time_parts(*times, {{"format", "lmdbench-flat-parts"},

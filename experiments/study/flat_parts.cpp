@@ -10,7 +10,9 @@
 #include <nlohmann/json.hpp>
 #include <study/flat_parts.h>
 #include <study/scaling/slide.h>
+#include <support/bodies.h>
 #include <support/parts/machine_parts.h>
+#include <support/poses.h>
 #include <support/program.h>
 #include <support/random.h>
 #include <support/timing.h>
@@ -29,6 +31,7 @@ namespace lmdbench::flat_parts {
 namespace {
 
 using experiments::Random;
+using experiments::trembling_poses;
 
 constexpr double TAU = 2.0 * std::numbers::pi;
 /// Of the moving mesh's diagonal, where a design has no cutoff of its own.
@@ -36,6 +39,8 @@ constexpr double CUTOFF = 0.005;
 /// The same, a frame.
 constexpr double STEP = scaling::SLIDE_DIAGONALS_PER_FRAME;
 constexpr std::size_t FRAMES = 21;
+/// Of a motion that trembles: it takes some frames until that is known.
+constexpr std::size_t TREMBLING_FRAMES = 121;
 
 /// Where the moving mesh is after a number of frames.
 using Motion = std::function<Pose(double frame)>;
@@ -44,6 +49,7 @@ struct Design {
   TriangleMesh moving, fixed;
   std::function<Motion(Random&)> draw;
   double cutoff = CUTOFF;
+  std::size_t frames = FRAMES;
 };
 
 Eigen::Quaterniond about_z(double angle) {
@@ -132,14 +138,23 @@ Design bolt_in_nut() {
           0.004};
 }
 
+/// Of a frame of a hand that trembles, with a new direction and axis in each: a ninth of a slide's, or as much.
+constexpr double TREMBLE = STEP / 9.0, TREMBLE_RAD = 5e-5;
+constexpr double WALK = STEP, WALK_RAD = 3e-4;
+
+Motion trembling(const Pose& begin, double step, double turn, Random& random) {
+  const auto poses = trembling_poses(begin, step, turn, TREMBLING_FRAMES, random);
+  return [poses](double frame) { return poses[static_cast<std::size_t>(frame)]; };
+}
+
 enum class Crates { HILL_ON_HILL, NESTED, TREMBLING };
 
 /// Two wavy sheets of 20,000 triangles, 3 mm a metre apart: one upside down, hill on hill; or nested, farther apart than the cutoff, which
-/// slide or are held by a hand that trembles, with a new direction and a new turn in every frame.
+/// slide or tremble.
 Design egg_crates(Crates how) {
   constexpr int CELLS = 100, CELLS_A_WAVE = 25;
-  constexpr double HEIGHT = 0.02, GAP = 0.003, WAY = 0.0025, TREMBLE = 2.8e-5, TREMBLE_RAD = 5e-5;
-  const bool is_nested = how != Crates::HILL_ON_HILL;
+  constexpr double HEIGHT = 0.02, GAP = 0.003, WAY = 0.0025;
+  const bool is_nested = how != Crates::HILL_ON_HILL, trembles = how == Crates::TREMBLING;
   TriangleMesh lower = make_patch(1.0, CELLS, 0.0);
   for (std::size_t v = 0; v < lower.vertices.size(); ++v) {
     const int i = static_cast<int>(v) / (CELLS + 1), j = static_cast<int>(v) % (CELLS + 1);
@@ -149,26 +164,32 @@ Design egg_crates(Crates how) {
   for (auto& corners : upper.triangles) std::swap(corners[1], corners[2]);
   if (!is_nested)
     for (Vec3& p : upper.vertices) p.z() = 2.0 * HEIGHT - p.z();
-  const double diagonal = bounding_box_diagonal(upper), step = STEP * diagonal;
+  const double diagonal = bounding_box_diagonal(upper);
   return {std::move(upper), std::move(lower),
           [=](Random& random) -> Motion {
-            const double angle = random.uniform(0.0, TAU);
-            const Pose begin{-WAY * level(angle) + GAP * Vec3::UnitZ(), Eigen::Quaterniond::Identity()};
-            std::vector<Pose> poses{begin};
-            while (poses.size() < FRAMES) {
-              Pose next = poses.back();
-              if (how != Crates::TREMBLING) {
-                next.translation += step * level(angle);
-              } else {
-                next.translation += TREMBLE * random.direction();
-                next.rotation =
-                    (Eigen::AngleAxisd(TREMBLE_RAD, random.direction()) * next.rotation).normalized();
-              }
-              poses.push_back(next);
-            }
-            return [poses](double frame) { return poses[static_cast<std::size_t>(frame)]; };
+            const Vec3 way = level(random.uniform(0.0, TAU));
+            const Pose begin{-WAY * way + GAP * Vec3::UnitZ(), Eigen::Quaterniond::Identity()};
+            if (trembles) return trembling(begin, TREMBLE * diagonal, TREMBLE_RAD, random);
+            return [=](double frame) {
+              return Pose{begin.translation + frame * STEP * diagonal * way, begin.rotation};
+            };
           },
-          is_nested ? 0.5 * GAP / diagonal : CUTOFF};
+          is_nested ? 0.5 * GAP / diagonal : CUTOFF, trembles ? TREMBLING_FRAMES : FRAMES};
+}
+
+/// A scan that grazes itself in the hand.
+/// @param step  diagonals a frame
+/// @param turn  radians a frame
+Design scan_in_hand(const PartsTimes& choice, double step, double turn) {
+  const std::shared_ptr<const Body> scan = experiments::load_body(choice.scan, choice.meshes, 1.0);
+  const TriangleMesh& mesh = scan->surface().mesh;
+  return {mesh, mesh,
+          [=](Random& random) {
+            const auto seed = static_cast<std::uint64_t>(random.index(1000000));
+            const Pose begin = experiments::grazing_poses(*scan, *scan, 0.3 * CUTOFF, 1, seed).front();
+            return trembling(begin, step, turn, random);
+          },
+          CUTOFF, TREMBLING_FRAMES};
 }
 
 /// A block that covers as many holes, or the same share of the sheet.
@@ -180,12 +201,12 @@ Design block_on_sheet(int count, int covered) {
 }
 
 struct Row {
-  const char* name;
+  std::string name;
   std::function<Design()> design;
 };
 
-const std::vector<Row>& rows() {
-  static const std::vector<Row> all{
+std::vector<Row> rows(const PartsTimes& choice) {
+  return {
       {"box on a box",
        [] {
          return laid_on(make_box({1, 0.8, 0.6}), make_box({1, 0.8, 0.6}), 0.4);
@@ -204,8 +225,9 @@ const std::vector<Row>& rows() {
       {"block over 4 x 4 of 71 x 71 holes", [] { return block_on_sheet(71, 4); }},
       {"block over 9 x 9 of 18 x 18 holes", [] { return block_on_sheet(18, 9); }},
       {"block over 18 x 18 of 36 x 36 holes", [] { return block_on_sheet(36, 18); }},
+      {choice.scan + ", trembling", [&choice] { return scan_in_hand(choice, TREMBLE, TREMBLE_RAD); }},
+      {choice.scan + ", random walk", [&choice] { return scan_in_hand(choice, WALK, WALK_RAD); }},
   };
-  return all;
 }
 
 /// How one of the two ways fared: of every frame the least of the passes.
@@ -254,7 +276,7 @@ bool measure(const Row& row, bool floats, const PartsTimes& choice, nlohmann::js
   std::vector<Pose> poses;
   for (std::size_t path = 0; path < choice.paths; ++path) {
     const Motion motion = design.draw(random);
-    for (std::size_t frame = 0; frame < FRAMES; ++frame) {
+    for (std::size_t frame = 0; frame < design.frames; ++frame) {
       const Pose pose = motion(static_cast<double>(frame));
       poses.push_back(floats ? turn_fixed * pose * turn_moving.inverse() : pose);
     }
@@ -282,7 +304,7 @@ bool measure(const Row& row, bool floats, const PartsTimes& choice, nlohmann::js
   // The first frame of a path keeps nothing of the last one of the path before.
   std::vector<double> coherent;
   for (std::size_t i = 0; i < poses.size(); ++i)
-    if (i % FRAMES != 0) coherent.push_back(ways[1].seconds[i]);
+    if (i % design.frames != 0) coherent.push_back(ways[1].seconds[i]);
   fmt::print("| {} | {} | {} + {} | {:g} | {} | {} |\n", row.name, floats ? "floats" : "exact",
              scene.moving->surface().mesh.triangles.size(), scene.fixed[0]->surface().mesh.triangles.size(),
              median(counts), columns(ways[0].seconds), columns(coherent));
@@ -301,16 +323,16 @@ bool measure(const Row& row, bool floats, const PartsTimes& choice, nlohmann::js
 int time_parts(const PartsTimes& choice, nlohmann::json report) {
   fmt::print(
       "Cutoff {:g} % of the moving mesh's diagonal (bolt: 0.4; nested crates: half the gap); {} paths of {} "
-      "frames, seed {}; of every frame the least "
+      "frames (trembling: {}), seed {}; of every frame the least "
       "of {} "
       "runs, processor time of one thread [us]\n\n",
-      100.0 * CUTOFF, choice.paths, FRAMES, choice.seed, choice.passes);
+      100.0 * CUTOFF, choice.paths, FRAMES, TREMBLING_FRAMES, choice.seed, choice.passes);
   fmt::print(
       "| parts | coordinates | triangles | LMDs | from scratch: median | p99 | largest | above 1 ms | "
       "coherent: median | p99 | largest | above 1 ms |\n|---|---|---|---|---|---|---|---|---|---|---|---|\n");
   bool agree = true;
-  for (const Row& row : rows()) {
-    if (std::string_view(row.name).find(choice.row) == std::string_view::npos) continue;
+  for (const Row& row : rows(choice)) {
+    if (row.name.find(choice.row) == std::string_view::npos) continue;
     for (const bool floats : {false, true}) agree = measure(row, floats, choice, report) && agree;
   }
   experiments::write_report(choice.json, report);

@@ -52,4 +52,16 @@ std::vector<Pose> path_poses(const std::filesystem::path& file, std::size_t firs
   return poses;
 }
 
+std::vector<Pose> trembling_poses(const Pose& begin, double step, double turn, std::size_t count,
+                                  Random& random) {
+  std::vector<Pose> poses{begin};
+  while (poses.size() < count) {
+    Pose next = poses.back();
+    next.translation += step * random.direction();
+    next.rotation = (Eigen::AngleAxisd(turn, random.direction()) * next.rotation).normalized();
+    poses.push_back(next);
+  }
+  return poses;
+}
+
 }  // namespace lmdbench::experiments

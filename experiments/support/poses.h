@@ -26,6 +26,12 @@ std::vector<Pose> grazing_poses(const Body& moving, const Body& fixed, double ga
 /// @throws InputError when the file cannot be read; std::runtime_error when the path has not that many frames
 std::vector<Pose> path_poses(const std::filesystem::path& file, std::size_t first, std::size_t count);
 
+/// Frames of a hand that trembles: each is a step in a random direction and a turn about a random axis away from the one before.
+/// @param step  metres a frame
+/// @param turn  radians a frame, about the moving mesh's origin
+std::vector<Pose> trembling_poses(const Pose& begin, double step, double turn, std::size_t count,
+                                  Random& random);
+
 /// Relative to the gap: far below what any method resolves.
 inline constexpr double GAP_TOLERANCE = 1e-6;
 
