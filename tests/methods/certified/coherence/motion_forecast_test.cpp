@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 #include <support/scenes.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <random>
@@ -196,14 +197,14 @@ TEST_F(CertificateQueueTest, NoPlanStandsMoreThanItsBudgetNorMuchLess) {
   std::mt19937_64 random(3);
   std::vector<double> budgets;
   for (int i = 0; i < 1000; ++i) {
-    budgets.push_back(forecast.reach() * std::exp2(-20.0 * uniform(random)));
+    budgets.push_back(forecast.reach() * std::exp2(-14.0 * uniform(random)));
     queue.plan(queue.add(), 50.0, budgets.back(), forecast);
   }
   // The motion stood still when they were planned.
   std::size_t ended = 0;
   double x = 0.0, before = 0.0;
-  for (int frame = 0; frame < 40; ++frame) {
-    x = forecast.reach() * std::exp2(0.5 * frame - 19.75);
+  for (int frame = 0; frame < 28; ++frame) {
+    x = forecast.reach() * std::exp2(0.5 * frame - 13.75);
     for (const std::uint32_t index : next(x)) {
       EXPECT_LT(budgets[index], 1.51 * x);
       EXPECT_GT(budgets[index], before);
@@ -214,6 +215,24 @@ TEST_F(CertificateQueueTest, NoPlanStandsMoreThanItsBudgetNorMuchLess) {
     for (const double budget : budgets) EXPECT_GT(budget, x);
   }
   EXPECT_EQ(ended, budgets.size());
+}
+
+TEST_F(CertificateQueueTest, WhatStandsLongestDoesNotEndInOneFrame) {
+  next(0.0);
+  constexpr std::size_t THINGS = 4096;
+  for (std::size_t i = 0; i < THINGS; ++i) queue.plan(queue.add(), 1e9, 1.0, forecast);
+  std::size_t most = 0, ended = 0;
+  for (std::uint32_t frame = 1; frame <= MotionForecast::LONGEST_PLAN + 1; ++frame) {
+    const std::vector<std::uint32_t> due = next(0.0);
+    if (frame <= MotionForecast::LONGEST_PLAN / 2) {
+      EXPECT_TRUE(due.empty()) << "no plan is shorter than half";
+    }
+    EXPECT_TRUE(std::is_sorted(due.begin(), due.end()));
+    most = std::max(most, due.size());
+    ended += due.size();
+  }
+  EXPECT_EQ(ended, THINGS);
+  EXPECT_LE(most, THINGS / 8);
 }
 
 TEST_F(CertificateQueueTest, PlansEndBeforeTheirEpochIsForgotten) {

@@ -4,8 +4,10 @@
 #include <lmdbench/methods/certified/coherence/certificate_queue.h>
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
+#include <cstring>
 #include <limits>
 
 namespace lmdbench {
@@ -14,6 +16,10 @@ namespace {
 
 /// Plans end earlier by this part: rounding of single precision.
 constexpr double FRAME_ROUNDING = 1e-4;
+/// What is kept begins in one frame, and most of it stands longer than any plan: so that it does not end in one frame as well, the
+/// longest plans differ, by half in so many steps.
+constexpr double SPREAD_OF_ENDS = 0.5;
+constexpr std::uint32_t ENDS = 16, TOGETHER = 64;
 
 }  // namespace
 
@@ -26,22 +32,17 @@ std::uint32_t CertificateQueue::class_of(double deviation, const MotionForecast&
 }
 
 void CertificateQueue::clear() {
-  if (size_ == 0) return;
-  size_ = 0;
+  frames_.clear();
+  budgets_.clear();
   free_.clear();
-  by_frame_.clear();
-  next_.clear();
-  place_in_next_.clear();
-  by_class_.clear();
   least_class_.fill(CLASSES);
 }
 
 std::uint32_t CertificateQueue::add() {
   if (free_.empty()) {
-    by_frame_.add();
-    by_class_.add();
-    place_in_next_.push_back(NONE);
-    return size_++;
+    frames_.push_back(NO_FRAME);
+    budgets_.push_back(NO_BUDGET);
+    return static_cast<std::uint32_t>(frames_.size() - 1);
   }
   const std::uint32_t index = free_.back();
   free_.pop_back();
@@ -49,52 +50,61 @@ std::uint32_t CertificateQueue::add() {
 }
 
 void CertificateQueue::drop(std::uint32_t index) {
-  LMDBENCH_EXPECTS(index < size_ && count() > 0, "a thing dropped twice");
-  by_frame_.remove(index);
-  by_class_.remove(index);
-  if (place_in_next_[index] != NONE) next_[place_in_next_[index]] = NONE;
-  place_in_next_[index] = NONE;
+  LMDBENCH_EXPECTS(index < frames_.size() && count() > 0, "a thing dropped twice");
+  frames_[index] = NO_FRAME;
+  budgets_[index] = NO_BUDGET;
   free_.push_back(index);
 }
 
 void CertificateQueue::plan(std::uint32_t index, double frames, double deviation_budget,
                             const MotionForecast& forecast) {
-  LMDBENCH_EXPECTS(index < size_, "a thing of another queue");
   LMDBENCH_EXPECTS(!std::isnan(frames) && !std::isnan(deviation_budget),
                    "a certificate whose slack or gradient is not a number");
-  const double whole = std::clamp(frames * (1.0 - FRAME_ROUNDING), 0.0, forecast.longest_plan());
-  if (whole < 1.0) {
-    plan_next(index);
-    return;
-  }
-  by_frame_.move_to(index, (forecast.frame() + 1 + static_cast<std::uint32_t>(whole)) % FRAMES);
+  const double longest =
+      forecast.longest_plan() * (1.0 - SPREAD_OF_ENDS / ENDS * static_cast<double>(index / TOGETHER % ENDS));
+  const double whole = std::clamp(frames * (1.0 - FRAME_ROUNDING), 0.0, longest);
+  end_at(index, forecast.frame() + 1 + static_cast<std::uint32_t>(whole));
   const std::size_t epoch = forecast.epoch();
   const std::uint32_t budget_class =
       class_of((deviation_budget - forecast.used_at_start()) * (1.0 - FRAME_ROUNDING), forecast);
-  by_class_.move_to(index, static_cast<std::uint32_t>(epoch) * CLASSES + budget_class);
+  budgets_[index] = static_cast<std::uint16_t>(epoch * CLASSES + budget_class);
   least_class_[epoch] = std::min(least_class_[epoch], budget_class);
 }
 
 void CertificateQueue::collect(const MotionForecast& forecast, std::vector<std::uint32_t>& due) {
+  using Eight = std::uint64_t;
+  const std::size_t count = frames_.size();
+  // The last eight may look beyond the end. What grows does so with the plans: once they are all there, nothing is allocated.
+  if (is_due_.capacity() < count + sizeof(Eight)) is_due_.reserve(frames_.capacity() + sizeof(Eight));
+  is_due_.assign(count + sizeof(Eight), 0);
+  due.reserve(frames_.capacity());
+  // Plain loops over local pointers: the compiler makes them work on many at once.
+  std::uint8_t* const frames = frames_.data();
+  std::uint16_t* const budgets = budgets_.data();
+  std::uint8_t* const is_due = is_due_.data();
+  const auto now = static_cast<std::uint8_t>(forecast.frame() % FRAMES);
+  for (std::size_t i = 0; i < count; ++i) is_due[i] = frames[i] == now;
   for (std::size_t epoch = 0; epoch < MotionForecast::EPOCHS; ++epoch) {
     if (least_class_[epoch] == CLASSES) continue;
     const std::uint32_t reached = class_of(forecast.deviation(epoch), forecast);
-    for (; least_class_[epoch] <= reached; ++least_class_[epoch])
-      by_class_.for_each(static_cast<std::uint32_t>(epoch) * CLASSES + least_class_[epoch],
-                         [&](std::uint32_t index) { plan_now(index, forecast); });
+    if (least_class_[epoch] > reached) continue;
+    least_class_[epoch] = reached + 1;
+    const auto first = static_cast<std::uint16_t>(epoch * CLASSES);
+    const auto width = static_cast<std::uint16_t>(reached);
+    for (std::size_t i = 0; i < count; ++i)
+      is_due[i] |= static_cast<std::uint16_t>(budgets[i] - first) <= width;
   }
   due.clear();
-  for (const std::uint32_t index : next_) {
-    if (index == NONE) continue;
-    place_in_next_[index] = NONE;
-    due.push_back(index);
+  for (std::size_t begin = 0; begin < count; begin += sizeof(Eight)) {
+    Eight eight = 0;
+    std::memcpy(&eight, is_due + begin, sizeof(eight));
+    for (; eight != 0; eight &= eight - 1) {
+      const std::size_t index = begin + static_cast<std::size_t>(std::countr_zero(eight)) / 8;
+      frames[index] = NO_FRAME;
+      budgets[index] = NO_BUDGET;
+      due.push_back(static_cast<std::uint32_t>(index));
+    }
   }
-  next_.clear();
-  by_frame_.for_each(forecast.frame() % FRAMES, [&](std::uint32_t index) {
-    by_frame_.remove(index);
-    by_class_.remove(index);
-    due.push_back(index);
-  });
 }
 
 }  // namespace lmdbench

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <lmdbench/base/contract.h>
-#include <lmdbench/methods/certified/coherence/index_lists.h>
 #include <lmdbench/methods/certified/coherence/motion_forecast.h>
 
 #include <array>
@@ -15,12 +14,15 @@ namespace lmdbench {
 
 /// Things that must be done again after a number of frames, if the motion goes as forecast, or as soon as it
 /// deviates too far. Named by indices, which are used again once dropped.
+///
+/// Who is due is found by a look at everyone, many at a time: cheaper than lists, whose links lead all over the memory, and what
+/// is due comes in the order in which it lies there.
 class CertificateQueue {
  public:
   CertificateQueue() { least_class_.fill(CLASSES); }
 
   void clear();
-  std::size_t count() const { return size_ - free_.size(); }
+  std::size_t count() const { return frames_.size() - free_.size(); }
 
   /// A new thing, without a plan.
   std::uint32_t add();
@@ -31,42 +33,35 @@ class CertificateQueue {
   /// @param forecast  the same one, not reset, until everything is forgotten
   void plan(std::uint32_t index, double frames, double deviation_budget, const MotionForecast& forecast);
   /// In the forecast's frame, which is not collected yet.
-  void plan_now(std::uint32_t index, const MotionForecast& forecast) {
-    LMDBENCH_EXPECTS(index < size_, "a thing of another queue");
-    if (place_in_next_[index] == NONE) by_frame_.move_to(index, forecast.frame() % FRAMES);
-  }
-
+  void plan_now(std::uint32_t index, const MotionForecast& forecast) { end_at(index, forecast.frame()); }
   /// In the next frame, whatever the motion.
-  /// @pre not planned yet, or collected or dropped since
-  void plan_next(std::uint32_t index) {
-    LMDBENCH_EXPECTS(place_in_next_[index] == NONE, "planned twice: it would be decided twice");
-    place_in_next_[index] = static_cast<std::uint32_t>(next_.size());
-    next_.push_back(index);
-  }
+  void plan_next(std::uint32_t index, const MotionForecast& forecast) { end_at(index, forecast.frame() + 1); }
 
-  /// What is due at the forecast's frame. Every frame must be collected.
+  /// What is due at the forecast's frame, which is then without a plan. Every frame must be collected.
   void collect(const MotionForecast& forecast, std::vector<std::uint32_t>& due);
 
  private:
   /// More than the longest plan, and a power of two.
   static constexpr std::uint32_t FRAMES = 64;
   static_assert(MotionForecast::LONGEST_PLAN + 1 < FRAMES);
-  static constexpr std::uint32_t NONE = 0xFFFFFFFFU;
-
   /// Classes of budgets, two an octave, from the forecast's reach down to 6e-8 of it: when a deviation reaches a class, its plans
-  /// end, without a look at each.
+  /// end.
   static constexpr std::uint32_t CLASSES = 48;
   static std::uint32_t class_of(double deviation, const MotionForecast& forecast);
 
-  std::uint32_t size_ = 0;  ///< Indices that were ever given.
+  void end_at(std::uint32_t index, std::uint32_t frame) {
+    LMDBENCH_EXPECTS(index < frames_.size(), "a thing of another queue");
+    frames_[index] = static_cast<std::uint8_t>(frame % FRAMES);
+  }
+
+  // Of every index that was ever given: the frame in which its plan ends, modulo FRAMES, and epoch * CLASSES + class of its budget.
+  static constexpr std::uint8_t NO_FRAME = FRAMES;
+  static constexpr std::uint16_t NO_BUDGET = MotionForecast::EPOCHS * CLASSES;
+  std::vector<std::uint8_t> frames_;
+  std::vector<std::uint16_t> budgets_;
+  std::array<std::uint32_t, MotionForecast::EPOCHS> least_class_;  ///< Of an epoch's budgets, or less.
   std::vector<std::uint32_t> free_;
-  IndexLists by_frame_{FRAMES};
-  /// Due in the next frame whatever the motion: in deep contact thousands are, frame after frame, and lists that
-  /// lose any of their links at any time would cost more than the decisions.
-  std::vector<std::uint32_t> next_, place_in_next_;
-  IndexLists by_class_{static_cast<std::uint32_t>(MotionForecast::EPOCHS) *
-                       CLASSES};                                     ///< epoch * CLASSES + class
-  std::array<std::uint32_t, MotionForecast::EPOCHS> least_class_{};  ///< Over the plans of an epoch, or less.
+  std::vector<std::uint8_t> is_due_;  ///< Scratch.
 };
 
 }  // namespace lmdbench

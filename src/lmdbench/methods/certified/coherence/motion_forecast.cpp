@@ -142,7 +142,9 @@ void MotionForecast::advance(const RigidTransform& X_WH, double rounding) {
   // Plans start with what their epoch has deviated by, and count it twice.
   base_ = 2.0 * early_;
   motion_ = (X_WH.translation - last_.translation).norm() + (X_WH.rotation - last_.rotation).norm() * radius_;
-  const std::uint32_t epoch_frames = epochs_[epoch_].goes_on ? EPOCH_FRAMES : TREMBLING_EPOCH_FRAMES;
+  // The first epoch is short: until it is judged, nothing is known of the motion's kind.
+  const bool is_long = epoch_count_ > 1 && epochs_[epoch_].goes_on;
+  const std::uint32_t epoch_frames = is_long ? EPOCH_FRAMES : TREMBLING_EPOCH_FRAMES;
   if (epoch_count_ == 0 || frame_ - epochs_[epoch_].start >= epoch_frames) {
     if (epoch_count_ > 0) judge_last_epoch(X_WH);
     start_epoch(X_WH);

@@ -59,7 +59,7 @@ double TraversalFront::lever_arm_of(const WideHierarchy& a, std::uint32_t index,
 void TraversalFront::plan_leaf(const WideHierarchy& a, const MotionForecast& motion, std::uint32_t index,
                                const Certificate& certificate) {
   if (!(certificate.slack > 0.0 && certificate.turn > 0.0)) {
-    leaf_queue_.plan_next(index);
+    leaf_queue_.plan_next(index, motion);
     return;
   }
   const Leaf& leaf = leaves_[index];
@@ -197,6 +197,8 @@ void TraversalFront::make_requested_tests(const Work& work) {
     std::erase_if(requested_, [&](std::uint32_t index) {
       return !records_[index].in_use || !std::exchange(records_[index].is_requested, false);
     });
+    // No batch is larger: one that is larger than all before must not allocate.
+    tests_.reserve(records_.capacity());
     test_batch(work.a, work.b, work.query, work.forecast, pairs_, requested_, tests_);
     requested_.clear();
     for (const WideKeptTest& test : tests_) {
