@@ -22,6 +22,8 @@ ROOT = os.path.abspath(os.path.join(os.path.dirname(os.path.abspath(__file__)), 
 TREE = os.path.join(ROOT, "build", "tuned", "tree")
 FORECAST = "src/lmdbench/methods/certified/coherence/motion_forecast.cpp"
 TOUCHING = "src/lmdbench/methods/certified/touching_pairs.cpp"
+LIFETIME = "src/lmdbench/methods/certified/coherence/wide_lifetime.h"
+POLICY = "src/lmdbench/methods/certified/coherence/coherence_policy.h"
 REFIT = "src/lmdbench/methods/certified/hierarchy/wide_refit.cpp"
 TRAVERSAL = "src/lmdbench/methods/certified/hierarchy/wide_traversal.h"
 # name: file, text around the value, values
@@ -32,6 +34,8 @@ CONSTANTS = {
     "MOST_CORNER_PAIRS": (TOUCHING, "MOST_CORNER_PAIRS = {};", ("0", "16", "64", "1024")),  # experiments/extreme/peg-square.json moves it
     # Of meshes that deform: --only MOST_GROWTH experiments/deforming.json
     "MOST_GROWTH": (REFIT, "MOST_GROWTH = {};", ("1.05", "1.15", "1.3", "1.6", "4.0")),
+    "LEAST_SHARE": (LIFETIME, "LEAST_SHARE = {}F;", ("0.0", "0.25", "0.5", "0.75")),
+    "LARGEST_SHARE": (POLICY, "LARGEST_SHARE = {};", ("0.3", "0.4", "0.6")),
     "HORIZON_TURN": (FORECAST, "HORIZON_TURN = {};", ("0.0025", "0.005", "0.01", "0.02", "0.04")),
 }
 SCENE = ("--set", '/methods=[{"name":"certified","force_law":"exponential"}]', "--set", "/driver/repetitions=1", "--set",

@@ -36,10 +36,10 @@ TEST(CoherencePolicy, KeepsWhereLittleIsRepeated) {
   }
 }
 
-TEST(CoherencePolicy, ThirdOfTheTestsIsTheLimit) {
+TEST(CoherencePolicy, TwoFifthsOfTheTestsAreTheLimit) {
   CoherencePolicy below, above;
-  EXPECT_EQ(frames_until_pause(below, 299, 200), -1);
-  EXPECT_EQ(frames_until_pause(above, 301, 200), 3) << "not on the strength of one or two frames";
+  EXPECT_EQ(frames_until_pause(below, 399, 200), -1);
+  EXPECT_EQ(frames_until_pause(above, 401, 200), 3) << "not on the strength of one or two frames";
 }
 
 TEST(CoherencePolicy, PausesLongerEachTimeUpToALimit) {

@@ -8,8 +8,8 @@
 
 namespace lmdbench {
 
-/// Tells whether it pays to keep a search from frame to frame. A kept test costs about three fresh ones, so
-/// where a third of them is repeated in every frame (motions that are large for the geometry) a search from
+/// Tells whether it pays to keep a search from frame to frame. A kept test costs two to three fresh ones, so
+/// where two fifths of them are repeated in every frame (motions that are large for the geometry) a search from
 /// scratch is as cheap. Then nothing is kept for a while, longer each time; work counters alone decide, so
 /// that results and counters do not depend on the machine.
 class CoherencePolicy {
@@ -36,7 +36,7 @@ class CoherencePolicy {
   }
 
  private:
-  static constexpr double LARGEST_SHARE = 0.3;
+  static constexpr double LARGEST_SHARE = 0.4;
   static constexpr double MEMORY = 0.7;
   /// Frames before which nothing is concluded, and after which earlier pauses are forgotten.
   static constexpr std::uint32_t LEAST_FRAMES = 3, FORGIVING_FRAMES = 100;
