@@ -232,10 +232,16 @@ void Certified::find(const Pose& X_WM, WorkCounters& counters, Join&& join) {
   follow_deformations();
   double coordinates =
       transform.point(hierarchy_moving_.origin).cwiseAbs().maxCoeff() + hierarchy_moving_.radius;
-  for (const FixedBody& body : fixed_)
-    coordinates = std::max(coordinates, body.hierarchy.origin.cwiseAbs().maxCoeff() + body.hierarchy.radius);
-  // The same in neighbouring frames, so that what was kept with it stays valid.
-  const double touch = RELATIVE_TOUCH * std::exp2(std::ceil(std::log2(coordinates)));
+  double where_anything_is_near = 0.0;
+  for (const FixedBody& body : fixed_) {
+    const double of_fixed = body.hierarchy.origin.cwiseAbs().maxCoeff() + body.hierarchy.radius;
+    coordinates = std::max(coordinates, of_fixed);
+    where_anything_is_near =
+        std::max(where_anything_is_near, of_fixed + 2.0 * hierarchy_moving_.radius + scene_.cutoff);
+  }
+  // The same wherever something can be found, so that what was kept with it stays valid.
+  const double touch =
+      RELATIVE_TOUCH * std::exp2(std::ceil(std::log2(std::max(coordinates, where_anything_is_near))));
   const bool keep = follow_motion(transform, touch);
   const ShapeSide moving{scene_.moving->surface(), shape_moving_, transform, true};
   for (std::size_t i = 0; i < fixed_.size(); ++i) {

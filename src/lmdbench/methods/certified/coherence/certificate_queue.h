@@ -22,6 +22,7 @@ class CertificateQueue {
   CertificateQueue() { least_class_.fill(CLASSES); }
 
   void clear();
+  std::size_t size() const { return frames_.size(); }  ///< Indices are below this.
   std::size_t count() const { return frames_.size() - free_.size(); }
 
   /// A new thing, without a plan.

@@ -18,10 +18,7 @@ constexpr double LEAST_LOSS = 1e-30;
 }  // namespace
 
 void TraversalFront::clear() {
-  pairs_.clear();
-  records_.clear();
   test_queue_.clear();
-  leaves_.clear();
   leaf_queue_.clear();
   requested_.clear();
 }
@@ -31,7 +28,7 @@ std::uint32_t TraversalFront::add_record(const Work& work, std::uint32_t slot_a,
   const WideKeptPair pair(work.a, work.b, slot_a, slot_b);
   if (index == records_.size()) {
     pairs_.push_back(pair);
-    records_.emplace_back();
+    records_.push_back({});
   } else {
     pairs_[index] = pair;
     records_[index] = Record{};
@@ -44,7 +41,7 @@ std::uint32_t TraversalFront::add_record(const Work& work, std::uint32_t slot_a,
 std::uint32_t TraversalFront::add_leaf(const Work& work, std::uint32_t slot_a, const WidePair& pair,
                                        bool touches) {
   const std::uint32_t index = leaf_queue_.add();
-  if (index == leaves_.size()) leaves_.emplace_back();
+  if (index == leaves_.size()) leaves_.push_back({});
   leaves_[index] = {pair, slot_a, touches};
   leaf_queue_.plan_now(index, work.motion);
   return index;
@@ -113,7 +110,7 @@ void TraversalFront::drop_record(std::uint32_t record) {
 void TraversalFront::follow(const WideHierarchy& a, std::uint32_t seen_a, const WideHierarchy& b,
                             std::uint32_t seen_b, const MotionForecast& motion) {
   if (a.changes.now == seen_a && b.changes.now == seen_b) return;
-  for (std::uint32_t i = 0; i < records_.size(); ++i) {
+  for (std::uint32_t i = 0; i < test_queue_.size(); ++i) {
     Record& record = records_[i];
     if (!record.in_use) continue;
     WideKeptPair& pair = pairs_[i];
@@ -198,7 +195,7 @@ void TraversalFront::make_requested_tests(const Work& work) {
       return !records_[index].in_use || !std::exchange(records_[index].is_requested, false);
     });
     // No batch is larger: one that is larger than all before must not allocate.
-    tests_.reserve(records_.capacity());
+    tests_.reserve(std::bit_ceil(records_.size()));
     test_batch(work.a, work.b, work.query, work.forecast, pairs_, requested_, tests_);
     requested_.clear();
     for (const WideKeptTest& test : tests_) {

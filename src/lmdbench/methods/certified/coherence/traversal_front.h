@@ -6,6 +6,7 @@
 #include <lmdbench/methods/certified/coherence/certificate.h>
 #include <lmdbench/methods/certified/coherence/certificate_queue.h>
 #include <lmdbench/methods/certified/coherence/motion_forecast.h>
+#include <lmdbench/methods/certified/coherence/steady_array.h>
 #include <lmdbench/methods/certified/coherence/wide_lifetime.h>
 #include <lmdbench/methods/certified/hierarchy/wide_hierarchy.h>
 #include <lmdbench/methods/certified/hierarchy/wide_traversal.h>
@@ -24,7 +25,7 @@ class TraversalFront {
  public:
   /// Forgets everything.
   void clear();
-  bool empty() const { return records_.empty(); }
+  bool empty() const { return test_queue_.size() == 0; }
 
   /// Finds the pairs anew, as find_wide_pairs does, and what they stand.
   void start(const WideHierarchy& a, const WideHierarchy& b, const WideQuery& query,
@@ -115,10 +116,11 @@ class TraversalFront {
   void make_requested_tests(const Work& work);
   void apply(const Work& work, const WideKeptTest& test);
 
-  std::vector<WideKeptPair> pairs_;
-  std::vector<Record> records_;  ///< What the test of each pair let through.
+  // By the indices of the queues; what is beyond those is left over.
+  SteadyArray<WideKeptPair> pairs_;
+  SteadyArray<Record> records_;  ///< What the test of each pair let through.
   CertificateQueue test_queue_;
-  std::vector<Leaf> leaves_;
+  SteadyArray<Leaf> leaves_;
   CertificateQueue leaf_queue_;
   std::vector<std::uint32_t> requested_, dropping_, due_;
   std::vector<WideKeptTest> tests_;

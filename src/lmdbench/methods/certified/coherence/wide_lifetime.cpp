@@ -207,8 +207,8 @@ void lifetime_on_target(const WideNode& node, const WideProbe& probe, const Wide
 /// @tparam Widths  WideWidthTest where one of the meshes has long features, else NoWidths
 template <class Widths>
 void make_batch(const WideHierarchy& a, const WideHierarchy& b, const WideQuery& query,
-                const WideForecast& forecast, const WideKeptPair* pairs, std::span<const std::uint32_t> due,
-                WideKeptTest* tests) {
+                const WideForecast& forecast, const SteadyArray<WideKeptPair>& pairs,
+                std::span<const std::uint32_t> due, WideKeptTest* tests) {
   for (std::size_t i = 0; i < due.size(); ++i) {
     if (i + 2 * FETCH_DISTANCE < due.size()) __builtin_prefetch(&pairs[due[i + 2 * FETCH_DISTANCE]]);
     if (i + FETCH_DISTANCE < due.size()) {
@@ -256,7 +256,7 @@ void make_batch(const WideHierarchy& a, const WideHierarchy& b, const WideQuery&
 }
 
 void batch_on_target(const WideHierarchy& a, const WideHierarchy& b, const WideQuery& query,
-                     const WideForecast& forecast, const WideKeptPair* pairs,
+                     const WideForecast& forecast, const SteadyArray<WideKeptPair>& pairs,
                      std::span<const std::uint32_t> due, WideKeptTest* tests) {
   if (a.widths.empty() && b.widths.empty())
     make_batch<NoWidths>(a, b, query, forecast, pairs, due, tests);
@@ -297,10 +297,10 @@ WideKeptPair::WideKeptPair(const WideHierarchy& a, const WideHierarchy& b, std::
 }
 
 void test_batch(const WideHierarchy& a, const WideHierarchy& b, const WideQuery& query,
-                const WideForecast& forecast, std::span<const WideKeptPair> pairs,
+                const WideForecast& forecast, const SteadyArray<WideKeptPair>& pairs,
                 std::span<const std::uint32_t> due, std::vector<WideKeptTest>& tests) {
   tests.resize(due.size());
-  HWY_DYNAMIC_DISPATCH(batch_on_target)(a, b, query, forecast, pairs.data(), due, tests.data());
+  HWY_DYNAMIC_DISPATCH(batch_on_target)(a, b, query, forecast, pairs, due, tests.data());
 }
 
 WideLifetimes test_lanes_lifetime(const WideNode& node, const WideProbe& probe, const WideLimits& limits,

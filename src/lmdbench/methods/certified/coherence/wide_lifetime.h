@@ -3,6 +3,7 @@
 #pragma once
 
 #include <lmdbench/methods/certified/coherence/motion_forecast.h>
+#include <lmdbench/methods/certified/coherence/steady_array.h>
 #include <lmdbench/methods/certified/hierarchy/wide_traversal.h>
 
 #include <cstdint>
@@ -121,7 +122,7 @@ struct WideKeptTest {
 /// Makes the tests of the pairs that are due.
 /// @param a the moving mesh's hierarchy
 void test_batch(const WideHierarchy& a, const WideHierarchy& b, const WideQuery& query,
-                const WideForecast& forecast, std::span<const WideKeptPair> pairs,
+                const WideForecast& forecast, const SteadyArray<WideKeptPair>& pairs,
                 std::span<const std::uint32_t> due, std::vector<WideKeptTest>& tests);
 
 }  // namespace lmdbench

