@@ -9,8 +9,11 @@
 #include <gtest/gtest.h>
 #include <support/scenes.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
+#include <limits>
 #include <numbers>
 #include <random>
 #include <utility>
@@ -170,6 +173,31 @@ TEST(CertifiedCoherence, AJumpLeavesNoWorkBehind) {
   certified.search(elsewhere, lmds, ignored);
   // The jump there and back is no pace that goes on.
   EXPECT_LE(work_along_slide(), undisturbed + undisturbed / 4);
+}
+
+TEST(CertifiedCoherence, NoFrameOfASmoothMotionIsMadeAnew) {
+  // Round the fixed body, so that the largest coordinate passes 1: tolerances that follow it must not end what is kept.
+  const Scene scene = make_scene(make_blob(0.35, 0.02, 4), make_blob(0.35, 0.02, 4), 0.05);
+  Certified coherent(scene), scratch(scene, {.frame_coherence = false});
+  LmdSet ignored;
+  std::uint64_t most_kept = 0, least_fresh = std::numeric_limits<std::uint64_t>::max();
+  double least_coordinate = 2.0, largest_coordinate = 0.0;
+  for (int frame = 0; frame < 300; ++frame) {
+    const double angle = 0.25 * std::numbers::pi - 0.0025 * frame;
+    const Pose pose{0.73 * Vec3(std::cos(angle), std::sin(angle), 0.0), Eigen::Quaterniond::Identity()};
+    const double coordinate = pose.translation.cwiseAbs().maxCoeff() + 0.37;
+    least_coordinate = std::min(least_coordinate, coordinate);
+    largest_coordinate = std::max(largest_coordinate, coordinate);
+    WorkCounters of_kept, of_fresh;
+    coherent.search(pose, ignored, of_kept);
+    scratch.search(pose, ignored, of_fresh);
+    if (frame < 10) continue;
+    most_kept = std::max(most_kept, of_kept[Certified::Counter::NODE_PAIRS]);
+    least_fresh = std::min(least_fresh, of_fresh[Certified::Counter::NODE_PAIRS]);
+  }
+  EXPECT_LT(least_coordinate, 0.95);
+  EXPECT_GT(largest_coordinate, 1.05);
+  EXPECT_LT(2 * most_kept, least_fresh);
 }
 
 TEST(CertifiedCoherence, FindsTheTruthAtRandomPoses) {
