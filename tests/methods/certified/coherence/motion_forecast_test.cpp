@@ -235,6 +235,15 @@ TEST_F(CertificateQueueTest, WhatStandsLongestDoesNotEndInOneFrame) {
   EXPECT_LE(most, THINGS / 8);
 }
 
+TEST_F(CertificateQueueTest, WhatIsDueWhateverTheMotionComesFirst) {
+  next(0.0);
+  const std::uint32_t planned = queue.add(), first = queue.add(), second = queue.add();
+  queue.plan(planned, 0.5, 1.0, forecast);
+  queue.plan_next(second, forecast);
+  queue.plan_next(first, forecast);
+  EXPECT_EQ(next(0.0), (std::vector<std::uint32_t>{first, second, planned}));
+}
+
 TEST_F(CertificateQueueTest, PlansEndBeforeTheirEpochIsForgotten) {
   // A motion that begins to tremble has shorter epochs: those of before are forgotten earlier than their plans are over.
   double x = 0.0;

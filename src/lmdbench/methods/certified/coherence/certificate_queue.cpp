@@ -78,6 +78,7 @@ void CertificateQueue::collect(const MotionForecast& forecast, std::vector<std::
   if (is_due_.capacity() < count + sizeof(Eight)) is_due_.reserve(frames_.capacity() + sizeof(Eight));
   is_due_.assign(count + sizeof(Eight), 0);
   due.reserve(frames_.capacity());
+  others_.reserve(frames_.capacity());
   // Plain loops over local pointers: the compiler makes them work on many at once.
   std::uint8_t* const frames = frames_.data();
   std::uint16_t* const budgets = budgets_.data();
@@ -94,17 +95,20 @@ void CertificateQueue::collect(const MotionForecast& forecast, std::vector<std::
     for (std::size_t i = 0; i < count; ++i)
       is_due[i] |= static_cast<std::uint16_t>(budgets[i] - first) <= width;
   }
+  // First what was planned for this frame whatever the motion: pairs that cross still do, and a processor that meets them together guesses so.
   due.clear();
+  others_.clear();
   for (std::size_t begin = 0; begin < count; begin += sizeof(Eight)) {
     Eight eight = 0;
     std::memcpy(&eight, is_due + begin, sizeof(eight));
     for (; eight != 0; eight &= eight - 1) {
       const std::size_t index = begin + static_cast<std::size_t>(std::countr_zero(eight)) / 8;
+      (budgets[index] == NO_BUDGET ? due : others_).push_back(static_cast<std::uint32_t>(index));
       frames[index] = NO_FRAME;
       budgets[index] = NO_BUDGET;
-      due.push_back(static_cast<std::uint32_t>(index));
     }
   }
+  due.insert(due.end(), others_.begin(), others_.end());
 }
 
 }  // namespace lmdbench

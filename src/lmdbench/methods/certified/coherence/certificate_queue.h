@@ -62,7 +62,8 @@ class CertificateQueue {
   std::vector<std::uint16_t> budgets_;
   std::array<std::uint32_t, MotionForecast::EPOCHS> least_class_;  ///< Of an epoch's budgets, or less.
   std::vector<std::uint32_t> free_;
-  std::vector<std::uint8_t> is_due_;  ///< Scratch.
+  std::vector<std::uint8_t> is_due_;   ///< Scratch.
+  std::vector<std::uint32_t> others_;  ///< Scratch.
 };
 
 }  // namespace lmdbench
