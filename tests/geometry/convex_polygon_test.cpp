@@ -112,6 +112,32 @@ TEST(ConvexHull, HoldsAllPointsAndTurnsLeftAtEach) {
   EXPECT_TRUE(convex_hull({}).empty());
 }
 
+TEST(FarthestAlong, IsTheCornerThatALookAtAllFinds) {
+  std::mt19937_64 random(7);
+  for (int sample = 0; sample < 2000; ++sample) {
+    std::vector<Vec2> points;
+    const int count = 1 + sample % 40;
+    // On a coarse grid: sides along the axes, sides of one direction, corners one above the other.
+    const double step = sample % 3 == 0 ? 0.25 : 1e-9;
+    for (int k = 0; k < count; ++k) {
+      const double angle = 2.0 * std::numbers::pi * uniform(random);
+      points.emplace_back(step * std::round(std::cos(angle) / step),
+                          step * std::round(std::sin(angle) / step));
+    }
+    const std::vector<Vec2> hull = convex_hull(points);
+    std::vector<Vec2> axes{{1, 0}, {-1, 0}, {0, 1}, {0, -1}, {uniform(random), uniform(random)}};
+    for (std::size_t k = 0; k < hull.size(); ++k) {
+      const Vec2 side = hull[(k + 1) % hull.size()] - hull[k];
+      axes.insert(axes.end(), {{side[1], -side[0]}, {-side[1], side[0]}});
+    }
+    for (const Vec2& axis : axes) {
+      double greatest = axis.dot(hull.front());
+      for (const Vec2& x : hull) greatest = std::max(greatest, axis.dot(x));
+      ASSERT_NEAR(axis.dot(farthest_along(hull, axis)), greatest, 1e-15) << "sample " << sample;
+    }
+  }
+}
+
 TEST(WidthOf, IsTheLeastOverAllDirections) {
   EXPECT_EQ(width_of({}), 0.0);
   EXPECT_EQ(width_of(std::vector<Vec2>{{0, 0}, {1, 0}}), 0.0);

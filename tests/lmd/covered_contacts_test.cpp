@@ -37,8 +37,7 @@ TriangleMesh plate() {
 /// LMDs of contacts from which nothing is dropped.
 LmdSet joined_whole(const ShapePair& pair, ContactSet contacts) {
   for (Contact& contact : contacts.contacts) contact.is_whole = false;
-  LmdSet lmds;
-  join_contacts(pair, 0, contacts, {}, lmds);
+  LmdSet lmds = testing::joined(pair, contacts);
   return lmds;
 }
 
@@ -84,7 +83,7 @@ TEST(CoveredContacts, LmdsAreTheSameWithoutWhatIsCovered) {
       const ContactSet contacts = scene.contacts(pair);
       LmdSet lmds;
       ContactSet own = contacts;
-      join_contacts(pair, 0, own, {}, lmds);
+      lmds = testing::joined(pair, own);
       LmdSet expected = joined_whole(pair, contacts);
       std::ranges::sort(lmds, lmd_less);
       std::ranges::sort(expected, lmd_less);
@@ -119,8 +118,7 @@ TEST(CoveredContacts, TwoShouldersThatAWallJoinsAreOneLmd) {
                 [](const Contact& contact) { return std::abs(contact.distance - 0.125) > 1e-9; });
   EXPECT_EQ(std::ranges::count(contacts.contacts, 2, &Contact::dimension), 2);
   EXPECT_EQ(covered(pair, contacts), 0u);
-  LmdSet lmds;
-  join_contacts(pair, 0, contacts, {}, lmds);
+  LmdSet lmds = testing::joined(pair, contacts);
   ASSERT_EQ(lmds.size(), 1u) << text(lmds);
   EXPECT_NEAR((lmds[0].point_fixed - Vec3(1.5, 0.5, 1.125)).norm(), 0.0, 1e-12);
 }
@@ -140,8 +138,7 @@ TEST(CoveredContacts, APolygonOverOneLegDoesNotSpeakForTheOther) {
       EXPECT_EQ(covered(pair, contacts), 0u) << tilt;
     }
     ContactSet own = contacts;
-    LmdSet lmds;
-    join_contacts(pair, 0, own, {}, lmds);
+    LmdSet lmds = testing::joined(pair, own);
     EXPECT_EQ(text(lmds), text(joined_whole(pair, contacts))) << tilt;
   }
   EXPECT_GT(of_one_leg, 1u);

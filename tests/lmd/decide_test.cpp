@@ -3,6 +3,7 @@
 #include <lmdbench/catalogue/shapes.h>
 #include <lmdbench/catalogue/sleeve.h>
 #include <lmdbench/lmd/decide.h>
+#include <lmdbench/lmd/polar_condition.h>
 
 #include <gtest/gtest.h>
 #include <support/rounded.h>
@@ -427,6 +428,22 @@ TEST(Decide, WhatIsNoFeatureHasNoContact) {
     decide(other, f, {FeatureKind::VERTEX, static_cast<std::int32_t>(loose.vertices.size()) - 1},
            with_vertex);
   EXPECT_TRUE(with_vertex.contacts.empty()) << "a vertex without triangles";
+}
+
+/// How the triangles of a vertex hang together is a fact of the mesh: a decision that counted them again would ask all of a hub's, as
+/// often as there are features near it.
+TEST(PolarCondition, LooksUpHowTrianglesHangTogether) {
+  TriangleMesh pit = make_box({2, 2, 2});
+  for (auto& corners : pit.triangles) std::swap(corners[0], corners[1]);
+  Surface surface = build_surface(pit);
+  const ShapeComplex shape = ShapeComplex::of(surface);
+  const RigidTransform identity;
+  const ShapeSide side{surface, shape, identity, false};
+  const Vec3 away = surface.mesh.vertices[0].normalized();
+  const PolarSlack exact;
+  EXPECT_FALSE(corner_admits(side, 0, away, exact)) << "inside of the solid";
+  surface.vertex_has_several_fans[0] = true;
+  EXPECT_TRUE(corner_admits(side, 0, away, exact)) << "no side is asked for where surfaces touch";
 }
 
 }  // namespace

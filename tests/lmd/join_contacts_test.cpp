@@ -98,8 +98,7 @@ TEST(JoinContacts, TheOrderOfContactsDoesNotMatter) {
         if (set.contacts[k].dimension == 0 && random() % 2 == 0)
           set.contacts.push_back(Contact(set.contacts[k]));
       std::shuffle(set.contacts.begin(), set.contacts.end(), random);
-      LmdSet lmds;
-      join_contacts(pair, 0, set, {}, lmds);
+      LmdSet lmds = testing::joined(pair, set);
       std::ranges::sort(lmds, lmd_less);
       ASSERT_EQ(lmds.size(), expected.size()) << text(lmds) << "expected\n" << text(expected);
       for (std::size_t k = 0; k < lmds.size(); ++k) {
@@ -316,30 +315,58 @@ TEST(JoinContacts, TheCutoffIsAskedAfterJoining) {
   EXPECT_EQ(scene.lmds(turned_by(0.5 * known, Vec3::UnitX(), Vec3(0.0, 0.0, 0.1 - 0.01 * known))).size(), 1u);
 }
 
-TEST(JoinContacts, WhereTrianglesIntersectNothingNearerThanRoundingIsLeft) {
-  ShapeScene scene(box(), square_table());
-  const ShapePair pair = scene.at(moved(0.1, 0.2, 0.0));
-  ContactSet set = scene.contacts(pair);
-  ASSERT_FALSE(set.contacts.empty());
+/// What a box on a table shares as far as its bottom and the table's top say.
+std::vector<Intersection> bottom_on_top(const ShapeScene& scene) {
   std::vector<Intersection> intersections;
   for (std::int32_t t = 0; t < 12; ++t)
     for (std::int32_t s = 0; s < 12; ++s)
       if (scene.moving().face_normals[static_cast<std::size_t>(t)].z() < -0.5 &&
           scene.fixed().face_normals[static_cast<std::size_t>(s)].z() > 0.5)
         intersections.push_back({{FACE, t}, {FACE, s}, t, s, 0, 2, 0.5, Vec3(0.1, 0.2, 0.0)});
-  ASSERT_EQ(intersections.size(), 4u);
+  EXPECT_EQ(intersections.size(), 4u);
+  return intersections;
+}
+
+TEST(JoinContacts, WhatTouchesKeepsItsContactAndIntersectsNothing) {
+  ShapeScene scene(box(), square_table());
+  for (const double gap : {0.0, 1e-16, -1e-16}) {
+    const ShapePair pair = scene.at(moved(0.1, 0.2, gap));
+    ContactSet set = scene.contacts(pair);
+    std::vector<Intersection> intersections = bottom_on_top(scene);
+    LmdSet lmds;
+    join_contacts(pair, 0, set, intersections, lmds);
+    std::erase_if(lmds, [](const Lmd& lmd) { return lmd.distance > 1e-3; });
+    EXPECT_TRUE(intersections.empty()) << gap;
+    ASSERT_EQ(lmds.size(), 1u) << text(lmds);
+    EXPECT_NEAR((lmds[0].direction + Vec3::UnitZ()).norm(), 0.0, 1e-15);
+    EXPECT_NEAR((lmds[0].point_fixed - Vec3(0.1, 0.2, 0.0)).norm(), 0.0, 1e-13);
+  }
+}
+
+TEST(JoinContacts, WhatIntersectsByMoreThanRoundingHasNoContactThere) {
+  ShapeScene scene(box(), square_table());
+  const ShapePair pair = scene.at(turned_by(4e-10, Vec3::UnitX(), Vec3(0.1, 0.2, 0.0)));
+  ContactSet set = scene.contacts(pair);
+  ASSERT_TRUE(std::ranges::any_of(set.contacts, [&](const Contact& contact) {
+    return contact.dimension == 2 && contact.least_gap < -pair.tolerance.rounding;
+  })) << "one side is below the table by less than the tolerance";
+  std::vector<Intersection> intersections = bottom_on_top(scene);
   LmdSet lmds;
-  ContactSet copy = set;
-  join_contacts(pair, 0, copy, intersections, lmds);
+  join_contacts(pair, 0, set, intersections, lmds);
+  EXPECT_EQ(intersections.size(), 4u);
   for (const Lmd& lmd : lmds) EXPECT_GT(lmd.distance, 1e-3) << text(lmds);
-  // Intersections of another body do not count: then the contact stays, with its direction.
-  for (Intersection& crossing : intersections) crossing.fixed_body = 1;
-  LmdSet others;
-  join_contacts(pair, 0, set, intersections, others);
-  std::erase_if(others, [](const Lmd& lmd) { return lmd.distance > 1e-3; });
-  ASSERT_EQ(others.size(), 1u) << text(others);
-  EXPECT_NEAR((others[0].direction + Vec3::UnitZ()).norm(), 0.0, 1e-15);
-  EXPECT_NEAR((others[0].point_fixed - Vec3(0.1, 0.2, 0.0)).norm(), 0.0, 1e-13);
+}
+
+TEST(JoinContacts, WhatTouchesWithoutAPairOfPointsIntersects) {
+  // Rule S leaves nothing that could say it better.
+  ShapeScene scene(box(), square_table());
+  const ShapePair pair = scene.at(moved(0.1, 0.2, 0.0));
+  ContactSet set = scene.contacts(pair);
+  std::erase_if(set.contacts, [](const Contact& contact) { return contact.dimension == 0; });
+  std::vector<Intersection> intersections = bottom_on_top(scene);
+  LmdSet lmds;
+  join_contacts(pair, 0, set, intersections, lmds);
+  EXPECT_EQ(intersections.size(), 4u);
 }
 
 TEST(JoinContacts, TrianglesThatAddNothingChangeNoLmd) {

@@ -6,6 +6,7 @@
 #include <support/scenes.h>
 
 #include <cmath>
+#include <numbers>
 #include <random>
 #include <string>
 #include <vector>
@@ -144,6 +145,24 @@ TEST(BoxGrid, KnowsItsBoundsAndHoldsNothingWithoutBoxes) {
     empty.for_each_near(Vec2(0.0, 0.0), Vec2(1.0, 1.0), 1.0, [&](std::int32_t) { ++visits; });
     EXPECT_EQ(visits, 0);
   }
+}
+
+TEST(BoxGrid, LongBoxesTakeNoMoreThanTheirNumber) {
+  // Of triangles round one vertex: each box covers a good part of all, a tenth of as many cells as there are boxes.
+  std::vector<Box2> boxes(20000);
+  for (std::size_t i = 0; i < boxes.size(); ++i) {
+    const double angle = 2.0 * std::numbers::pi * static_cast<double>(i) / static_cast<double>(boxes.size());
+    boxes[i].add(Vec2::Zero());
+    boxes[i].add(Vec2(std::cos(angle), std::sin(angle)));
+  }
+  const BoxGrid grid(boxes);
+  EXPECT_LE(grid.bytes(), 200 * boxes.size());
+  Box2 query;
+  query.add(Vec2(0.6, 0.3));
+  std::size_t found = 0, expected = 0;
+  grid.for_each_near(query, 0.01, [&](std::int32_t) { return ++found > 0; });
+  for (const Box2& box : boxes) expected += box.comes_within(query, 0.01) ? 1 : 0;
+  EXPECT_EQ(found, expected);
 }
 
 }  // namespace

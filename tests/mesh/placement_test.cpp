@@ -1,10 +1,8 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include <lmdbench/base/error.h>
 #include <lmdbench/catalogue/shapes.h>
 #include <lmdbench/mesh/placement.h>
 
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
@@ -20,7 +18,7 @@ TriangleMesh box() {
 }
 
 Placement read(const char* text) {
-  return read_placement(nlohmann::json::parse(text), "e.json", "/moving");
+  return read_placement(nlohmann::json::parse(text));
 }
 
 TEST(Placement, WithoutKeysEveryBitStays) {
@@ -50,15 +48,6 @@ TEST(Placement, IsWrittenAsItIsRead) {
   nlohmann::ordered_json entry;
   write_placement(read(R"({"scale": 0.5, "centre": true})"), entry);
   EXPECT_EQ(entry.dump(), R"({"scale":0.5,"centre":true})");
-}
-
-TEST(Placement, ScaleBesideDiagonalIsRefused) {
-  try {
-    read(R"({"scale": 2, "diagonal_m": 3})");
-    FAIL();
-  } catch (const UsageError& error) {
-    EXPECT_THAT(error.what(), ::testing::HasSubstr("/moving/scale"));
-  }
 }
 
 TEST(Placement, NothingHasNoDiagonalToScale) {

@@ -9,8 +9,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <random>
 #include <set>
 #include <utility>
 #include <vector>
@@ -102,6 +104,73 @@ TEST(SurfaceTest, MarksTheEndsOfNonManifoldEdges) {
   const Surface surface = build_surface(mesh);
   EXPECT_THAT(surface.vertex_has_non_manifold_edge, ElementsAre(true, true, false, false, false));
   EXPECT_THAT(surface.vertex_is_boundary, ElementsAre(true, true, true, true, true));
+}
+
+/// Whether the triangles of each vertex are several groups that hang together over edges there: counted from the triangles alone.
+std::vector<bool> counted_several_fans(const TriangleMesh& mesh) {
+  std::vector<bool> several;
+  for (std::int32_t v = 0; v < static_cast<std::int32_t>(mesh.vertices.size()); ++v) {
+    std::vector<std::set<std::int32_t>>
+        fans;  // The other ends of the edges at v; v itself for a side {v, v}.
+    for (const auto& corners : mesh.triangles) {
+      std::set<std::int32_t> fan;
+      for (std::size_t k = 0; k < 3; ++k)
+        if (corners[k] == v) fan.insert({corners[(k + 1) % 3], corners[(k + 2) % 3]});
+      if (fan.empty()) continue;
+      std::erase_if(fans, [&](std::set<std::int32_t>& other) {
+        if (std::ranges::none_of(other, [&](std::int32_t end) { return fan.contains(end); })) return false;
+        fan.merge(other);
+        return true;
+      });
+      fans.push_back(fan);
+    }
+    several.push_back(fans.size() > 1);
+  }
+  return several;
+}
+
+TEST(SurfaceTest, KnowsWhereTrianglesAreSeveralFans) {
+  TriangleMesh mesh;
+  mesh.vertices = {{0, 0, 0}, {1, 0, 1}, {-1, 1, 1}, {-1, -1, 1}, {1, 0, -1}, {-1, 1, -1}, {-1, -1, -1}};
+  mesh.triangles = {{0, 2, 1}, {0, 3, 2}, {0, 1, 3}, {1, 2, 3}, {0, 4, 5}, {0, 5, 6}, {0, 6, 4}, {4, 6, 5}};
+  const Surface two_solids = build_surface(mesh);
+  EXPECT_THAT(two_solids.vertex_has_several_fans,
+              ElementsAre(true, false, false, false, false, false, false));
+  EXPECT_FALSE(two_solids.has_outer_side({FeatureKind::VERTEX, 0}));
+  EXPECT_TRUE(two_solids.has_outer_side({FeatureKind::VERTEX, 1}));
+  mesh.triangles = {{0, 1, 2}, {0, 3, 4}};
+  EXPECT_TRUE(build_surface(mesh).vertex_has_several_fans[0]) << "two open sheets";
+  mesh.triangles = {{0, 1, 2}, {0, 2, 3}};
+  EXPECT_FALSE(build_surface(mesh).vertex_has_several_fans[0]) << "one open sheet";
+  mesh.triangles = {{0, 1, 2}, {0, 1, 3}, {0, 1, 4}};
+  const Surface book = build_surface(mesh);
+  EXPECT_FALSE(book.vertex_has_several_fans[0]) << "they hang together over the edge of all";
+  EXPECT_FALSE(book.has_outer_side({FeatureKind::VERTEX, 0}));
+  EXPECT_FALSE(book.has_outer_side({FeatureKind::EDGE, 0}));
+  mesh.triangles = {{0, 1, 2}, {1, 0, 2}};
+  const Surface two_sheets = build_surface(mesh);
+  EXPECT_FALSE(two_sheets.vertex_has_several_fans[0]);
+  EXPECT_FALSE(two_sheets.has_outer_side({FeatureKind::VERTEX, 0})) << "no normal";
+}
+
+/// Few vertices in many triangles that nobody put together: open, with edges of many triangles, turned over, lying twice, with repeated
+/// corners.
+TEST(SurfaceTest, KnowsTheFansOfTrianglesThrownTogether) {
+  std::mt19937_64 random(11);
+  std::size_t several = 0, one = 0;
+  for (int sample = 0; sample < 3000; ++sample) {
+    TriangleMesh mesh = make_sphere(1.0, 0);
+    std::uniform_int_distribution<std::int32_t> vertex(0,
+                                                       static_cast<std::int32_t>(mesh.vertices.size()) - 1);
+    if (sample % 2 == 0) mesh.triangles.clear();
+    for (int k = 0; k < sample % 9; ++k)
+      mesh.triangles.push_back({vertex(random), vertex(random), vertex(random)});
+    const std::vector<bool> counted = counted_several_fans(mesh);
+    ASSERT_EQ(build_surface(mesh).vertex_has_several_fans, counted) << "sample " << sample;
+    for (const bool of_vertex : counted) ++(of_vertex ? several : one);
+  }
+  EXPECT_GT(several, 1000u);
+  EXPECT_GT(one, 1000u);
 }
 
 TEST(SurfaceTest, IsCompact) {

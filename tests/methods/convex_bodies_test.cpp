@@ -65,7 +65,7 @@ TEST(ConvexBodies, HaveOneLmdAtEveryPose) {
         WorkCounters counters;
         method->search(pose, lmds, counters);
         const bool right = lmds.size() == 1 && lmds[0].distance >= apart - 4.0 * tolerance.rounding &&
-                           lmds[0].distance <= apart + tolerance.same_distance(apart) + 0.5 * tolerance.known;
+                           lmds[0].distance <= apart + tolerance.widest_tie(apart);
         EXPECT_TRUE(right) << method->description().name << ", scene " << seed << " pose " << k << ", apart "
                            << fmt::format("{:.17g}", apart) << "\n"
                            << text(pose) << "\n"

@@ -237,7 +237,8 @@ TEST(Deforming, WhatCannotBeIsRefusedWithItsPlace) {
   EXPECT_THAT(refusal(R"({"generator":"bend"})"),
               AllOf(HasSubstr("/moving/deformation"), HasSubstr("amplitude")));
   EXPECT_THAT(refusal(R"({"amplitude":1})"), HasSubstr("neither a generator nor vertex files"));
-  EXPECT_THAT(refusal(R"({"generator":"bend","amplitude":1,"files":["a.off"]})"), HasSubstr("more than one"));
+  EXPECT_THAT(refusal(R"({"generator":"bend","amplitude":1,"files":["a.off"]})"),
+              HasSubstr("exclude each other"));
   EXPECT_THAT(refusal(R"({"generator":"bend","amplitude":1,"direction":[0,0,0]})"),
               HasSubstr("/moving/deformation/direction"));
   EXPECT_THAT(refusal(R"({"generator":"bend","amplitude":1,"share":0})"),

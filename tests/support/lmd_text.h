@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <lmdbench/geometry/pose.h>
 #include <lmdbench/lmd/lmd.h>
 
 #include <fmt/format.h>

@@ -32,6 +32,14 @@ inline std::vector<FeatureId> leads_of(const Surface& surface, const ShapeComple
   return leads;
 }
 
+/// LMDs of the contacts of meshes that do not intersect.
+inline LmdSet joined(const ShapePair& pair, ContactSet& contacts) {
+  LmdSet lmds;
+  std::vector<Intersection> none;
+  join_contacts(pair, 0, contacts, none, lmds);
+  return lmds;
+}
+
 /// Two meshes with their shapes, and what all pairs of their features share at a pose.
 class ShapeScene {
  public:
@@ -65,9 +73,7 @@ class ShapeScene {
   LmdSet lmds(const Pose& X_WM) {
     const ShapePair pair = at(X_WM);
     ContactSet found = contacts(pair);
-    LmdSet lmds;
-    join_contacts(pair, 0, found, {}, lmds);
-    return lmds;
+    return joined(pair, found);
   }
 
  private:

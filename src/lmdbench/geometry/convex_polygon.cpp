@@ -103,14 +103,40 @@ std::vector<Vec2> convex_hull(std::vector<Vec2> points) {
 
 double width_of(std::span<const Vec2> hull) {
   if (hull.size() < 3) return 0.0;
+  const auto next = [&](std::size_t k) { return k + 1 < hull.size() ? k + 1 : 0; };
   double width = std::numeric_limits<double>::infinity();
+  // The corner farthest from a side goes round as the side does (Shamos 1978).
+  std::size_t farthest = 1;
   for (std::size_t k = 0; k < hull.size(); ++k) {
-    const Vec2 side = (hull[(k + 1) % hull.size()] - hull[k]).normalized();
-    double farthest = 0.0;
-    for (const Vec2& x : hull) farthest = std::max(farthest, cross(side, x - hull[k]));
-    width = std::min(width, farthest);
+    const Vec2 side = (hull[next(k)] - hull[k]).normalized();
+    if (farthest == k) farthest = next(k);
+    while (next(farthest) != k && cross(side, hull[next(farthest)] - hull[farthest]) > 0.0)
+      farthest = next(farthest);
+    width = std::min(width, std::max(0.0, cross(side, hull[farthest] - hull[k])));
   }
   return width;
+}
+
+const Vec2& farthest_along(std::span<const Vec2> hull, const Vec2& axis) {
+  LMDBENCH_EXPECTS(!hull.empty(), "a hull of nothing");
+  const auto corner = [&](std::size_t k) -> const Vec2& { return hull[k < hull.size() ? k : 0]; };
+  const auto first_without = [](std::size_t begin, std::size_t end, auto&& has) {
+    while (begin < end)
+      if (const std::size_t middle = begin + (end - begin) / 2; has(middle))
+        begin = middle + 1;
+      else
+        end = middle;
+    return begin;
+  };
+  // From the first corner to the rightmost and from there back sides turn by less than 180 degrees each: on the way that bounds the
+  // hull towards the axis corners first rise along it and then fall.
+  const std::size_t right = first_without(0, hull.size() - 1, [&](std::size_t k) {
+    const Vec2 side = corner(k + 1) - corner(k);
+    return side[0] > 0.0 || (side[0] == 0.0 && side[1] > 0.0);
+  });
+  const auto rises = [&](std::size_t k) { return axis.dot(corner(k + 1) - corner(k)) > 0.0; };
+  return axis[1] <= 0.0 ? corner(first_without(0, right, rises))
+                        : corner(first_without(right, hull.size(), rises));
 }
 
 AreaAndCentroid area_and_centroid(std::span<const Vec2> corners) {

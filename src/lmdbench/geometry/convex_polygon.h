@@ -66,6 +66,9 @@ std::vector<Vec2> convex_hull(std::vector<Vec2> points);
 /// Least distance of two parallel lines that hold a convex polygon between them [m].
 double width_of(std::span<const Vec2> hull);
 
+/// The corner of a convex hull (`convex_hull`) that lies farthest along an axis, in time logarithmic in the corners.
+const Vec2& farthest_along(std::span<const Vec2> hull, const Vec2& axis);
+
 /// Convex polygon in a plane, corners counter-clockwise.
 struct ConvexPolygon {
   std::vector<Vec2> corners;

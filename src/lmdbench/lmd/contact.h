@@ -44,7 +44,12 @@ struct Contact {
   int dimension = 0;        ///< 0: a pair of points, 1: of segments, 2: of polygons.
   double distance = 0.0;    ///< Of the points [m].
   Vec3 point_moving, point_fixed;
-  Vec3 direction;          ///< Unit vector, from the moving mesh to the fixed one.
+  Vec3 direction;  ///< Unit vector, from the moving mesh to the fixed one.
+  /// Sine of the angle by which the direction may be off: 0 where a plane tells it, rounding / distance between points, with what the
+  /// distance changes by between parallel chains; but no more than the features' cones leave it.
+  double direction_error = 0.0;
+  double fall =
+      0.0;  ///< Sine of the slope at which surfaces may lead down from it, and rounding have made a minimum of it.
   double least_gap = 0.0;  ///< Least distance over the contact, negative where it crosses [m].
   double measure = 0.0;    ///< Length [m] or area [m^2].
   std::array<Vec3, 2> ends_moving, ends_fixed;     ///< Of segments.

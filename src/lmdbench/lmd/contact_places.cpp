@@ -5,14 +5,15 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <limits>
 
 namespace lmdbench {
 
 namespace {
 
-/// Angle [rad] up to which two contacts have one direction: far above what rounding does to it, far below an angle between faces.
-constexpr double SAME_DIRECTION = 0.1;
+/// Sine of the largest angle between planes of one contact that rounding of heights explains: far below an angle between faces.
+constexpr double LARGEST_TURN = 1e-3;
 /// Polygons of more pieces get a grid of them.
 constexpr std::size_t PIECES_WITHOUT_GRID = 8;
 
@@ -55,14 +56,25 @@ Vec3 ContactPlaces::nearest_place(const Contact& contact, const Vec3& q) const {
   return q + frame.lifted(nearest) - frame.lifted(x);
 }
 
-double ContactPlaces::granted(const Contact& a, const Contact& b) const {
+double ContactPlaces::granted(const Contact& a, const Contact& b, double way) const {
   const int extended = (a.dimension > 0) + (b.dimension > 0);
-  return tolerance_.same_distance(std::min(a.distance, b.distance)) + extended * tolerance_.known;
+  return (1.0 + extended) * tolerance_.known + tolerance_.rounding + fall_of_farther(a, b, way);
 }
 
-bool ContactPlaces::have_one_direction(const Contact& a, const Contact& b) const {
-  const Vec3 difference = a.distance * a.direction - b.distance * b.direction;
-  return difference.norm() <= granted(a, b) + SAME_DIRECTION * a.distance;
+double ContactPlaces::fall_of_farther(const Contact& a, const Contact& b, double way) const {
+  return (a.distance < b.distance ? b : a).fall * way;
+}
+
+bool ContactPlaces::have_one_direction(const Contact& a, const Contact& b, double way) const {
+  const double apart = (a.direction - b.direction).norm(), farther = std::max(a.distance, b.distance);
+  // Vectors to the origin of points of a convex set whose lengths differ by `fall` differ by at most sqrt(4 * length * fall).
+  const double rounded = 8.0 * tolerance_.rounding / std::max(farther, tolerance_.rounding);
+  if (apart <= 2.0 * tolerance_.largest_tilt + a.direction_error + b.direction_error +
+                   std::min(std::sqrt(rounded), LARGEST_TURN))
+    return true;
+  const double fall = fall_of_farther(a, b, way);
+  return fall > tolerance_.rounding &&
+         (a.distance * a.direction - b.distance * b.direction).squaredNorm() <= 4.0 * farther * fall;
 }
 
 /// Whether a piece of a polygon that may come within reach of a box fits.
@@ -109,16 +121,22 @@ bool ContactPlaces::meet(const Contact& a, const Contact& b) {
     box.add(x);
     return any_piece_near(a, box, reach, [&](const ConvexPolygon& piece) { return piece.holds(x, reach); });
   };
-  if (b.dimension == 0) return holds(frame.flat(b.point_fixed));
-  if (b.dimension == 1) {
-    const Vec2 begin = frame.flat(b.ends_fixed[0]), end = frame.flat(b.ends_fixed[1]);
-    return holds(begin) || touches(ConvexPolygon({begin, end}));
-  }
-  const PlanarFrame& other = set_.frames[b.frame];
-  return std::ranges::any_of(set_.pieces_of(b), [&](ConvexPolygon piece) {
-    for (Vec2& corner : piece.corners) corner = frame.flat(other.lifted(corner));
-    return touches(piece);
-  });
+  const auto meets = [&](const Vec3& point, const std::array<Vec3, 2>& ends, const Vec2& shift) {
+    if (b.dimension == 0) return holds(frame.flat(point));
+    if (b.dimension == 1) {
+      const Vec2 begin = frame.flat(ends[0]), end = frame.flat(ends[1]);
+      return holds(begin) || touches(ConvexPolygon({begin, end}));
+    }
+    const PlanarFrame& other = set_.frames[b.frame];
+    return std::ranges::any_of(set_.pieces_of(b), [&](ConvexPolygon piece) {
+      for (Vec2& corner : piece.corners) corner = frame.flat(other.lifted(corner)) + shift;
+      return touches(piece);
+    });
+  };
+  // Along the normal of `a` both sides of a contact in one direction lie over each other.
+  const Vec2 apart = frame.flat(b.point_moving) - frame.flat(b.point_fixed);
+  return meets(b.point_fixed, b.ends_fixed, Vec2::Zero()) &&
+         (apart.norm() <= reach || meets(b.point_moving, b.ends_moving, apart));
 }
 
 }  // namespace lmdbench

@@ -35,16 +35,21 @@ class ContactPlaces {
   Vec3 nearest_place(const Contact& contact, const Vec3& q) const;
 
   /// How far the distances of two contacts of one LMD may differ [m].
-  double granted(const Contact& a, const Contact& b) const;
+  /// @param way  from one to the other, on both meshes together [m]; none where they meet
+  double granted(const Contact& a, const Contact& b, double way = 0.0) const;
 
-  /// Whether two contacts have one direction. A nut at its seat is as far from the floor of its slot as from the wall, and on the
-  /// nut the two places meet.
-  bool have_one_direction(const Contact& a, const Contact& b) const;
+  /// Whether two contacts have one direction, to the tilt that the tolerance explains and to what is known of either. A nut at its seat
+  /// is as far from the floor of its slot as from the wall, and on the nut the two places meet.
+  bool have_one_direction(const Contact& a, const Contact& b, double way = 0.0) const;
 
   /// Whether the places of two contacts come within the tolerance of each other, on both meshes.
   bool meet(const Contact& a, const Contact& b);
 
  private:
+  /// By how much the distance may fall on the way from the farther of two contacts to the other one, and rounding have made a minimum
+  /// of it [m].
+  double fall_of_farther(const Contact& a, const Contact& b, double way) const;
+
   template <class Fits>
   bool any_piece_near(const Contact& contact, const Box2& box, double reach, Fits&& fits);
 

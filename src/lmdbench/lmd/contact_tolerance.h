@@ -26,11 +26,17 @@ struct ContactTolerance {
   static ContactTolerance of(const Surface& moving, const ShapeComplex& moving_shape, const Surface& fixed,
                              const ShapeComplex& fixed_shape, const RigidTransform& X_WM, double cutoff);
 
-  /// How far the distances of contacts of one set may differ: what is granted to a direction between two points is the more
-  /// the nearer they are.
-  double same_distance(double distance) const {
-    return known + rounding * coordinates / std::max(distance, rounding);
+  /// Sine of the angle by which rounding turns a direction between two points.
+  double direction_error(double distance) const { return rounding / std::max(distance, rounding); }
+
+  /// The most by which a contact may be farther than one that is the same LMD (ContactPlaces::granted), whatever lies between them.
+  double widest_tie(double distance) const {
+    return 3.0 * known + rounding + direction_error(distance) * LONGEST_WAY * coordinates;
   }
+
+ private:
+  /// On both meshes together, in C: 2 sqrt(3) on each.
+  static constexpr double LONGEST_WAY = 7.0;
 };
 
 /// What exact meshes are known to, relative to their largest coordinate: enough for parts that were turned and placed by a few

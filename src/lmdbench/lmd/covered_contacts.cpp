@@ -35,9 +35,9 @@ std::vector<Cover> covers_among(const ContactTolerance& tolerance, std::vector<C
     const auto is_apart = [&](const Contact& other) {
       return std::abs(other.distance - polygon.distance) > covered_spread(tolerance, polygon);
     };
-    // Next to touch distances are worse than the tolerance.
+    // Next to touch directions between points are worse than the tolerance.
     if (polygon.is_whole && polygon.least_gap > tolerance.rounding &&
-        tolerance.same_distance(polygon.least_gap) <= 2.0 * tolerance.known &&
+        tolerance.widest_tie(polygon.least_gap) <= 10.0 * tolerance.known &&
         (i == 0 || is_apart(*polygons[i - 1])) && (i + 1 == polygons.size() || is_apart(*polygons[i + 1])))
       covers.push_back({{polygon.moving.index, polygon.fixed.index}, &polygon});
   }
@@ -60,8 +60,7 @@ bool is_inside(const Contact& contact, const ShapeSide& side, std::int32_t regio
 }  // namespace
 
 double covered_spread(const ContactTolerance& tolerance, const Contact& polygon) {
-  // Over the polygon; granted to two that are joined, of which the other one may be extended.
-  return 2.0 * (tolerance.same_distance(polygon.least_gap) + 2.0 * tolerance.known);
+  return 2.0 * tolerance.widest_tie(polygon.least_gap);
 }
 
 std::vector<Contact> take_covered(const ShapePair& pair, std::vector<Contact>& contacts) {

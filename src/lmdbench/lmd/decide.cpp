@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -29,6 +30,8 @@ constexpr double CROSSING_ROUNDING = 1.0 / 16.0;
 /// Larger errors of that direction are not granted: hierarchies bound directions to 2e-6 (POLAR_SLACK). Chains for which it is
 /// more are extended contacts where they face each other at all.
 constexpr double LARGEST_CROSSING_SLACK = 1e-6;
+/// A direction between points that rounding turns by a larger sine has to be in both cones at once: far below an angle between faces.
+constexpr double LARGEST_SINGLE_ERROR = 1e-3;
 
 struct Line {
   Vec3 begin, along;  ///< From end to end.
@@ -68,7 +71,9 @@ class Decision {
     if (!corner_admits(moving_, v_moving, u, between_points(distance)) ||
         !corner_admits(fixed_, v_fixed, -u, between_points(distance)))
       return;
-    add_points({FeatureKind::VERTEX, v_moving}, {FeatureKind::VERTEX, v_fixed}, p, q, u, distance);
+    const FeatureId f{FeatureKind::VERTEX, v_moving}, g{FeatureKind::VERTEX, v_fixed};
+    if (const auto both = direction_between(f, g, u, tolerance_.direction_error(distance)))
+      add_points(f, g, p, q, both->u, distance, both->error, fall_of(*both, distance));
   }
 
   void corner_chain(const ShapeSide& of_corner, std::int32_t vertex, const ShapeSide& of_chain,
@@ -86,7 +91,12 @@ class Decision {
         !chain_admits(of_chain, chain, -u, between_points(distance)) ||
         end_leads_down(of_chain, chain, line, parameter, tolerance_.rounding, -u, distance))
       return;
-    add_from(of_corner, {FeatureKind::VERTEX, vertex}, {FeatureKind::EDGE, chain}, p, q, u, distance);
+    const FeatureId corner{FeatureKind::VERTEX, vertex}, edge{FeatureKind::EDGE, chain};
+    const bool forward = of_corner.is_moving;
+    if (const auto both = direction_between(forward ? corner : edge, forward ? edge : corner,
+                                            forward ? u : Vec3(-u), tolerance_.direction_error(distance)))
+      add_from(of_corner, corner, edge, p, q, forward ? both->u : Vec3(-both->u), distance, both->error,
+               fall_of(*both, distance));
   }
 
   void corner_region(const ShapeSide& of_corner, std::int32_t vertex, const ShapeSide& of_region,
@@ -97,9 +107,10 @@ class Decision {
     if (!(height > -tolerance_.rounding) || height > tolerance_.reach) return;
     if (!corner_admits(of_corner, vertex, -plane.normal, along_normal())) return;
     const Vec3 q = p - height * plane.normal;
-    if (!region_admits(of_region, region, of_region.point_to_surface(q), plane.normal)) return;
+    if (!region_admits(of_region, region, of_region.point_to_surface(q), plane.normal, std::abs(height)))
+      return;
     add_from(of_corner, {FeatureKind::VERTEX, vertex}, {FeatureKind::FACE, region}, p, q, -plane.normal,
-             height);
+             height, 0.0, 0.0);
   }
 
   void chain_chain(std::int32_t c_moving, std::int32_t c_fixed) {
@@ -194,9 +205,27 @@ class Decision {
   PolarSlack between_points(double distance) const {
     return {tolerance_.rounding, tolerance_.rounding / distance};
   }
+  /// The direction of a contact whose direction is that between its points: the one that both features admit, next to touch.
+  std::optional<KnownDirection> direction_between(const FeatureId& f, const FeatureId& g, const Vec3& u,
+                                                  double error) const {
+    // Over the length of the meshes a smaller one explains less than the tolerance.
+    if (error * tolerance_.coordinates <= tolerance_.known) return KnownDirection{u, error};
+    const double tilt = tolerance_.largest_tilt;
+    for (const double sine : {0.0, tilt})
+      if (const auto both =
+              common_direction(moving_, f, fixed_, g, u, error, {tolerance_.rounding, sine}, tilt))
+        return both;
+    if (error > LARGEST_SINGLE_ERROR) return std::nullopt;
+    return KnownDirection{u, error};
+  }
+  double fall_of(const KnownDirection& known, double distance) const {
+    const double rounded = tolerance_.direction_error(distance);
+    const bool is_told_by_cones = known.error < rounded && known.error <= 4.0 * tolerance_.largest_tilt;
+    return known.is_strict || is_told_by_cones ? 0.0 : std::min(known.error, rounded);
+  }
   PolarSlack along_normal() const { return {HEIGHT_ROUNDINGS * tolerance_.rounding, 0.0}; }
 
-  /// What is clearly a way down, and no rounding or tilt that the tolerance explains.
+  /// What is clearly a way down, and no rounding or tilt that the tolerance explains: from a distance of rounding nothing leads down.
   PolarSlack way_down(double distance) const {
     return {tolerance_.known,
             tolerance_.largest_tilt + tolerance_.rounding / std::max(distance, tolerance_.rounding)};
@@ -215,12 +244,13 @@ class Decision {
   }
 
   /// Whether a point of a region's plane lies on the region, and no chain or corner there leads down along the region's normal.
-  bool region_admits(const ShapeSide& side, std::int32_t region, const Vec3& p_S, const Vec3& n_W) const {
+  bool region_admits(const ShapeSide& side, std::int32_t region, const Vec3& p_S, const Vec3& n_W,
+                     double distance) const {
     const double reach = tolerance_.rounding;
     if (const RegionShape* shape = side.shape.shapes.of_region(region))
       if (const auto clear = shape->clearly_holds(shape->frame.flat(p_S), CLEAR_ROUNDINGS * reach))
         return *clear;
-    const PolarSlack slack{tolerance_.known, tolerance_.largest_tilt};
+    const PolarSlack slack = way_down(distance);
     bool holds = false;
     const bool leads_down = !for_each_face_at(side, region, p_S, reach, [&](std::int32_t face) {
       holds = true;
@@ -290,9 +320,14 @@ class Decision {
     const Vec3 u = d / distance;
     const PolarSlack slack{tolerance_.rounding, tolerance_.largest_tilt + tolerance_.rounding / distance};
     if (!chain_admits(moving_, c_moving, u, slack) || !chain_admits(fixed_, c_fixed, -u, slack)) return;
+    const auto both = direction_between(contact.moving, contact.fixed, u,
+                                        std::min(1.0, (tolerance_.rounding + (d1 - d0).norm()) / distance));
+    if (!both) return;
     contact.least_gap = std::min({d0.norm(), d1.norm(), distance});
     contact.measure = end - begin;
-    set_middle(contact, u);
+    contact.direction_error = both->error;
+    contact.fall = fall_of(*both, distance);
+    set_middle(contact, both->u);
     found_.contacts.push_back(contact);
   }
 
@@ -330,7 +365,8 @@ class Decision {
         end_leads_down(moving_, c_moving, a, s, spare, u, length) ||
         end_leads_down(fixed_, c_fixed, b, t, spare, -u, length))
       return;
-    add_points({FeatureKind::EDGE, c_moving}, {FeatureKind::EDGE, c_fixed}, p, q, u, distance);
+    add_points({FeatureKind::EDGE, c_moving}, {FeatureKind::EDGE, c_fixed}, p, q, u, distance, unknown,
+               unknown);
   }
 
   void set_middle(Contact& contact, const Vec3& u) {
@@ -343,7 +379,7 @@ class Decision {
   }
 
   void add_points(const FeatureId& moving, const FeatureId& fixed, const Vec3& p, const Vec3& q,
-                  const Vec3& u, double gap) {
+                  const Vec3& u, double gap, double direction_error, double fall) {
     LMDBENCH_EXPECTS(is_unit(u), "points at one place: their direction is asked for where there is none");
     LMDBENCH_EXPECTS(gap <= tolerance_.reach, "a condition that lets pairs beyond the cutoff through");
     Contact& contact = found_.contacts.emplace_back();
@@ -354,14 +390,16 @@ class Decision {
     contact.direction = u;
     contact.distance = (q - p).norm();
     contact.least_gap = gap;
+    contact.direction_error = direction_error;
+    contact.fall = fall;
   }
 
   void add_from(const ShapeSide& of_first, const FeatureId& first, const FeatureId& second, const Vec3& p,
-                const Vec3& q, const Vec3& u, double gap) {
+                const Vec3& q, const Vec3& u, double gap, double direction_error, double fall) {
     if (of_first.is_moving)
-      add_points(first, second, p, q, u, gap);
+      add_points(first, second, p, q, u, gap, direction_error, fall);
     else
-      add_points(second, first, q, p, -u, gap);
+      add_points(second, first, q, p, -u, gap, direction_error, fall);
   }
 
   const ShapeSide& moving_;

@@ -7,12 +7,14 @@
 #include <lmdbench/lmd/overlap.h>
 #include <lmdbench/lmd/represent_contacts.h>
 
+#include <Eigen/Core>
 #include <boost/pending/disjoint_sets.hpp>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <iterator>
 #include <limits>
 #include <memory_resource>
 #include <numeric>
@@ -26,6 +28,11 @@ namespace {
 
 /// Pairs of features that a contact lies on, beyond which it is not looked for in buckets: hubs of fans.
 constexpr std::size_t MOST_CARRIER_PAIRS = 256;
+/// Tolerances from a face beyond which a point leaves a gap in it (parts_over_region) of more than two.
+constexpr double BESIDE = 8.0;
+/// Faces whose normals differ by more are of no one contact, far above what the tolerance and rounding make of a plane (largest_tilt, LARGEST_TURN).
+constexpr double LARGEST_ANGLE = 0.01;
+
 bool contact_less(const Contact& a, const Contact& b) {
   if (a.distance != b.distance) return a.distance < b.distance;
   if (name_of(a) != name_of(b)) return name_of(a) < name_of(b);
@@ -81,7 +88,8 @@ class Joining {
         lmds_(lmds),
         signs_(signs) {}
 
-  void run(std::span<const Intersection> intersections) {
+  void run(std::vector<Intersection>& intersections) {
+    const std::vector<Intersection> touching = take_touching(pair_, body_, places_, contacts_, intersections);
     drop_intersecting(pair_, body_, places_, intersections, contacts_);
     std::vector<Contact> covered;
     if (signs_ == nullptr) covered = take_covered(pair_, contacts_);
@@ -92,6 +100,13 @@ class Joining {
       join_all();
     }
     report_all();
+    if (touching.empty()) return;
+    // What touches without an LMD intersects after all.
+    std::vector<Contact> reported;
+    for (const std::size_t i : reported_) reported.push_back(contacts_[i]);
+    TouchingContacts near(pair_, places_, reported);
+    std::ranges::copy_if(touching, std::back_inserter(intersections),
+                         [&](const Intersection& crossing) { return !near.are_at(crossing); });
   }
 
  private:
@@ -111,6 +126,13 @@ class Joining {
     parents_.resize(contacts_.size());
     std::iota(parents_.begin(), parents_.end(), std::size_t{0});
     sets_ = {ranks_.data(), parents_.data()};
+    plane_of_.resize(contacts_.size());
+    for (std::size_t i = 0; i < contacts_.size(); ++i) {
+      const Contact& contact = contacts_[i];
+      const bool has_plane =
+          contact.moving.kind == FeatureKind::FACE || contact.fixed.kind == FeatureKind::FACE;
+      plane_of_[i] = has_plane && contact.dimension > 0 ? i : NOT_KNOWN;
+    }
     for (Carriers* carriers : {&carriers_moving_, &carriers_fixed_}) {
       carriers->items.clear();
       carriers->rows.assign(contacts_.size(), {NOT_KNOWN, 0});
@@ -166,16 +188,14 @@ class Joining {
   /// Contacts of which another one has the same distance: next to none but in flat contact.
   void find_ties() {
     ties_.clear();
-    const double spread = 2.0 * tolerance_.known;  // of the distance over two extended contacts
-    double granted_below = 0.0;
-    for (std::size_t i = 0; i < contacts_.size(); ++i) {
-      const double granted = tolerance_.same_distance(contacts_[i].distance) + spread;
-      const bool below = i > 0 && contacts_[i].distance - contacts_[i - 1].distance <= granted_below;
-      const bool above =
-          i + 1 < contacts_.size() && contacts_[i + 1].distance - contacts_[i].distance <= granted;
-      if (below || above) ties_.push_back(i);
-      granted_below = granted;
+    // The lower end of what is the same as some farther contact.
+    double lowest = std::numeric_limits<double>::infinity();
+    for (std::size_t i = contacts_.size(); i-- > 0;) {
+      const double own = contacts_[i].distance - tolerance_.widest_tie(contacts_[i].distance);
+      if (lowest <= contacts_[i].distance || (i > 0 && own <= contacts_[i - 1].distance)) ties_.push_back(i);
+      lowest = std::min(lowest, own);
     }
+    std::ranges::reverse(ties_);
   }
 
   /// What a contact lies on, looked up when it is first asked for. Valid until the next contact is.
@@ -243,6 +263,17 @@ class Joining {
 
   void join(std::size_t i, std::size_t j) {
     const std::size_t a = sets_.find_set(i), b = sets_.find_set(j);
+    // Next to touch a contact whose direction is not known may lie on faces that stand at an angle: it is of one of them.
+    const std::size_t of_a = plane_of_[a], of_b = plane_of_[b];
+    if (of_a != NOT_KNOWN && of_b != NOT_KNOWN &&
+        (contacts_[of_a].direction - contacts_[of_b].direction).norm() > LARGEST_ANGLE)
+      return;
+    link(a, b);
+    if (sets_.find_set(a) == sets_.find_set(b))
+      plane_of_[sets_.find_set(a)] = of_a != NOT_KNOWN ? of_a : of_b;
+  }
+
+  void link(std::size_t a, std::size_t b) {
     if (has_minimum_.empty()) return sets_.link(a, b);
     if (has_minimum_[a] == has_minimum_[b]) return;
     const std::size_t minimum = has_minimum_[a] ? a : b, other = minimum == a ? b : a;
@@ -307,6 +338,7 @@ class Joining {
     std::ranges::sort(entries);
     std::ranges::sort(parts);
     const auto carriers_of = [](const OnCarriers& entry) { return std::pair(entry.moving, entry.fixed); };
+    const auto distance_of = [&](const OnCarriers& entry) { return contacts_[entry.contact].distance; };
     for (std::size_t begin = 0; begin < entries.size();) {
       std::size_t end = begin;
       while (end < entries.size() && entries[end].moving == entries[begin].moving &&
@@ -315,13 +347,20 @@ class Joining {
       // Not std::ranges::equal_range, which clang 14 cannot read.
       const auto first = std::ranges::lower_bound(parts, carriers_of(entries[begin]), {}, carriers_of);
       const auto last = std::ranges::upper_bound(parts, carriers_of(entries[begin]), {}, carriers_of);
-      join_in_bucket(std::span(entries).subspan(begin, end - begin), std::span(first, last));
+      // What is clearly farther is looked at by itself.
+      for (std::size_t at = begin; at < end;) {
+        std::size_t next = at + 1;
+        while (next < end && distance_of(entries[next]) - distance_of(entries[next - 1]) <=
+                                 tolerance_.widest_tie(distance_of(entries[next])))
+          ++next;
+        join_in_bucket(std::span(entries).subspan(at, next - at), std::span(first, last));
+        at = next;
+      }
       begin = end;
     }
   }
 
-  /// Of contacts on one pair of features nearly all are one already, those of a face that lies on another one by the thousand:
-  /// only the others look for a way.
+  /// Of contacts on one pair of features nearly all are one already, those of a face that lies on another one by the thousand.
   /// Those that belong to parts of what a pair of regions shares are apart as the parts are.
   /// @param parts  polygons of that pair
   void join_in_bucket(std::span<const OnCarriers> bucket, std::span<const OnCarriers> parts) {
@@ -331,46 +370,93 @@ class Joining {
     if (std::ranges::count(roots, roots.front()) == std::ssize(roots)) return;
     for (const OnCarriers& part : parts) roots_of_parts.push_back(sets_.find_set(part.contact));
     std::ranges::sort(roots_of_parts);
-    const auto is_of_part = [&](std::size_t k) {
-      return std::ranges::binary_search(roots_of_parts, roots[k]);
+    std::vector<bool> is_of_part;
+    for (const std::size_t root : roots)
+      is_of_part.push_back(std::ranges::binary_search(roots_of_parts, root));
+    if (std::ranges::find(is_of_part, false) == is_of_part.end()) return;
+    const auto try_way = [&](std::size_t k, std::size_t m) {
+      const std::size_t i = bucket[k].contact, j = bucket[m].contact;
+      if (sets_.find_set(i) == sets_.find_set(j) || (is_of_part[k] && is_of_part[m])) return;
+      if (is_level_way(bucket.front(), contacts_[i], contacts_[j])) join(i, j);
     };
-    std::pmr::vector<std::size_t> sorted(roots, &memory_);
-    std::ranges::sort(sorted);
-    std::size_t most = sorted.front(), count = 0;
-    for (std::size_t i = 0, run = 0; i < sorted.size(); ++i) {
-      run = i > 0 && sorted[i] == sorted[i - 1] ? run + 1 : 1;
-      if (run > count) {
-        count = run;
-        most = sorted[i];
-      }
+    if (const auto order = order_along_line(bucket); !order.empty()) {
+      // The teeth of combs that cross: the way between two places leads over those between them.
+      for (std::size_t k = 1; k < order.size(); ++k) try_way(order[k - 1], order[k]);
+      return;
     }
     for (std::size_t k = 0; k < bucket.size(); ++k) {
-      if (roots[k] == most) continue;
-      const std::size_t i = bucket[k].contact;
-      const bool of_part = is_of_part(k);
-      for (std::size_t m = 0; m < bucket.size(); ++m) {
-        if (of_part && is_of_part(m)) continue;
-        const OnCarriers& other = bucket[m];
-        const Contact &a = contacts_[i], &b = contacts_[other.contact];
-        if (sets_.find_set(i) == sets_.find_set(other.contact) ||
-            std::abs(a.distance - b.distance) > places_.granted(a, b))
-          continue;
-        if (is_level_way(bucket.front(), a, b)) join(i, other.contact);
-      }
+      if (is_of_part[k]) continue;
+      for (std::size_t m = 0; m < bucket.size(); ++m)
+        if (roots[k] != roots[m]) try_way(k, m);
     }
+  }
+
+  /// Contacts of one bucket whose places lie on one line on either mesh, at one distance, in their order along it; else nothing.
+  std::pmr::vector<std::size_t> order_along_line(std::span<const OnCarriers> bucket) {
+    using Vec6 = Eigen::Matrix<double, 6, 1>;
+    std::pmr::vector<std::size_t> order(&memory_);
+    if (contacts_[bucket.back().contact].distance - contacts_[bucket.front().contact].distance >
+        tolerance_.known)
+      return order;
+    const auto ends = [&](const OnCarriers& entry) {
+      const Contact& c = contacts_[entry.contact];
+      return c.dimension == 0 ? std::array{(Vec6() << c.point_moving, c.point_fixed).finished(),
+                                           (Vec6() << c.point_moving, c.point_fixed).finished()}
+                              : std::array{(Vec6() << c.ends_moving[0], c.ends_fixed[0]).finished(),
+                                           (Vec6() << c.ends_moving[1], c.ends_fixed[1]).finished()};
+    };
+    const Vec6 origin = ends(bucket.front())[0];
+    const auto from_origin = [&](const OnCarriers& entry) {
+      const auto [begin, end] = ends(entry);
+      return std::max((begin - origin).squaredNorm(), (end - origin).squaredNorm());
+    };
+    const auto far_ends = ends(*std::ranges::max_element(bucket, {}, from_origin));
+    Vec6 along = far_ends[0] - origin;
+    if (along.squaredNorm() < (far_ends[1] - origin).squaredNorm()) along = far_ends[1] - origin;
+    along.normalize();
+    std::pmr::vector<double> places(&memory_);
+    for (const OnCarriers& entry : bucket) {
+      const auto both = ends(entry);
+      for (const Vec6& end : both)
+        if ((end - origin - (end - origin).dot(along) * along).norm() > tolerance_.known) return order;
+      places.push_back(0.5 * (both[0] + both[1] - 2.0 * origin).dot(along));
+    }
+    order.resize(bucket.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::ranges::sort(order, {}, [&](std::size_t k) { return std::pair(places[k], k); });
+    return order;
   }
 
   bool is_level_way(const OnCarriers& on, const Contact& a, const Contact& b) const {
     if (a.dimension > 0 && b.dimension > 0 && name_of(a) == name_of(b)) return false;
-    if (!places_.have_one_direction(a, b)) return false;
     const auto nearest = [](const Contact& contact, const std::array<Vec3, 2>& ends, const Vec3& point,
                             const Vec3& to) {
       return contact.dimension == 0 ? point : point_segment_distance(to, {ends[0], ends[1]}).point;
     };
-    const Vec3 p = nearest(a, a.ends_moving, a.point_moving, b.point_moving);
-    const Vec3 q = nearest(a, a.ends_fixed, a.point_fixed, b.point_fixed);
-    return holds_segment(pair_.moving, on.moving, p, nearest(b, b.ends_moving, b.point_moving, p)) &&
-           holds_segment(pair_.fixed, on.fixed, q, nearest(b, b.ends_fixed, b.point_fixed, q));
+    const Vec3 p_a = nearest(a, a.ends_moving, a.point_moving, b.point_moving);
+    const Vec3 q_a = nearest(a, a.ends_fixed, a.point_fixed, b.point_fixed);
+    const Vec3 p_b = nearest(b, b.ends_moving, b.point_moving, p_a);
+    const Vec3 q_b = nearest(b, b.ends_fixed, b.point_fixed, q_a);
+    const double way = (p_a - p_b).norm() + (q_a - q_b).norm();
+    // All along it nothing is nearer to first order: it is square to the direction.
+    const Contact& farther = a.distance < b.distance ? b : a;
+    const auto is_square = [&](const Vec3& step) {
+      return std::abs(step.dot(farther.direction)) <=
+             tolerance_.known + (2.0 * tolerance_.largest_tilt + farther.direction_error) * step.norm();
+    };
+    return is_square(p_b - p_a) && is_square(q_b - q_a) &&
+           std::abs(a.distance - b.distance) <= places_.granted(a, b, way) &&
+           places_.have_one_direction(a, b, way) && !is_beside(pair_.moving, on.moving, 0.5 * (p_a + p_b)) &&
+           !is_beside(pair_.fixed, on.fixed, 0.5 * (q_a + q_b)) &&
+           holds_segment(pair_.moving, on.moving, p_a, p_b) && holds_segment(pair_.fixed, on.fixed, q_a, q_b);
+  }
+
+  /// Whether a point is so far beside a carrier that no segment through it stays there. Between places of a long outline nearly
+  /// always the middle is, which is sooner told than a segment.
+  bool is_beside(const ShapeSide& side, std::int32_t carrier, const Vec3& p) const {
+    const RegionShape* shape = carrier < 0 ? nullptr : side.shape.shapes.of_region(carrier);
+    return shape != nullptr && shape->clearly_holds(shape->frame.flat(side.point_to_surface(p)),
+                                                    BESIDE * tolerance_.known) == false;
   }
 
   /// Whether a segment between two points of a carrier stays on it, to the tolerance.
@@ -435,6 +521,7 @@ class Joining {
   void report(const Contact& contact, const Contact& namesake, std::span<const std::size_t> set,
               bool is_minimum) {
     if (contact.distance > tolerance_.cutoff) return;
+    if (contact.distance <= tolerance_.known) reported_.insert(reported_.end(), set.begin(), set.end());
     const Lmd lmd = make_lmd(pair_, places_, contact, namesake, body_);
     if (signs_ == nullptr) return lmds_->push_back(lmd);
     const bool has_index = std::ranges::all_of(set, [&](std::size_t i) {
@@ -461,6 +548,9 @@ class Joining {
   /// Of the roots, while critical pairs that are no minima are joined.
   std::vector<bool> has_minimum_, is_extended_;
   std::pmr::vector<std::size_t> ties_{&memory_}, ranks_{&memory_}, parents_{&memory_};
+  /// Of the roots: an extended contact that has its direction from a plane, or NOT_KNOWN.
+  std::pmr::vector<std::size_t> plane_of_{&memory_};
+  std::pmr::vector<std::size_t> reported_{&memory_};  ///< Contacts of LMDs no farther than the tolerance.
   boost::disjoint_sets<std::size_t*, std::size_t*> sets_{nullptr, nullptr};
   Carriers carriers_moving_{{}, Rows(&memory_)}, carriers_fixed_{{}, Rows(&memory_)};
 };
@@ -468,12 +558,12 @@ class Joining {
 }  // namespace
 
 void join_contacts(const ShapePair& pair, std::int32_t fixed_body, ContactSet& contacts,
-                   std::span<const Intersection> intersections, LmdSet& lmds) {
+                   std::vector<Intersection>& intersections, LmdSet& lmds) {
   Joining(pair, fixed_body, contacts, &lmds, nullptr).run(intersections);
 }
 
 void join_critical(const ShapePair& pair, const SignedFeatures& moving, const SignedFeatures& fixed,
-                   std::int32_t fixed_body, ContactSet& contacts, std::span<const Intersection> intersections,
+                   std::int32_t fixed_body, ContactSet& contacts, std::vector<Intersection>& intersections,
                    CriticalSet& critical) {
   const Joining::Signs signs{moving, fixed, critical};
   Joining(pair, fixed_body, contacts, nullptr, &signs).run(intersections);

@@ -4,6 +4,8 @@
 
 #include <lmdbench/lmd/contact.h>
 
+#include <optional>
+
 namespace lmdbench {
 
 /// How far a direction may leave a polar cone, for a wing w: u . w <= length + sine |w|.
@@ -12,6 +14,9 @@ struct PolarSlack {
   double sine = 0.0;
 };
 
+/// Whether a direction in the mesh's frame leaves a feature on its outer side, where it has one.
+bool is_outer(const Surface& surface, const FeatureId& feature, const Vec3& u_S);
+
 /// Whether a direction lies in the outward polar cone of a corner: no wing has a component along it, and it is on the
 /// outer side where the corner has one.
 /// @param u_W  unit length, from the corner to the other mesh
@@ -19,6 +24,24 @@ bool corner_admits(const ShapeSide& side, std::int32_t vertex, const Vec3& u_W, 
 
 /// The same for a chain; u_W is square to it up to rounding.
 bool chain_admits(const ShapeSide& side, std::int32_t chain, const Vec3& u_W, const PolarSlack& slack);
+
+/// A unit vector, and the sine of the angle by which rounding may have turned it.
+struct KnownDirection {
+  Vec3 u;
+  double error;
+  bool is_strict = false;  ///< In both cones by more than that.
+};
+
+/// The direction nearest to u that a corner or chain of either mesh admits, in both cones at once: next to touch, where rounding turns
+/// the direction between two points by more than angles between faces, each cone by itself would admit another one.
+/// @param f, g   index counts corners or chains
+/// @param error  sine of the angle by which u may be off; 1 where it says nothing
+/// @param slack  of a direction that is known
+/// @param tilt   sine by which it may be off square to a chain
+/// @return nothing where there is none that near; its error is what both cones leave of that of u
+std::optional<KnownDirection> common_direction(const ShapeSide& moving, const FeatureId& f,
+                                               const ShapeSide& fixed, const FeatureId& g, const Vec3& u_W,
+                                               double error, const PolarSlack& slack, double tilt);
 
 /// Whether a wing of a corner leads towards the other mesh: has more of the direction than the slack.
 bool corner_leads_down(const ShapeSide& side, std::int32_t vertex, const Vec3& u_W, const PolarSlack& slack);

@@ -158,8 +158,7 @@ std::pair<FeatureId, std::int32_t> name_at(const ShapeSide& side, const FeatureI
 Representative represent_contacts(const ShapePair& pair, ContactPlaces& places,
                                   const ContactPointers& contacts) {
   LMDBENCH_EXPECTS(!contacts.empty(), "a set of contacts without a minimum");
-  const double highest =
-      contacts.front()->distance + pair.tolerance.same_distance(contacts.front()->distance);
+  const double highest = contacts.front()->distance + pair.tolerance.known + pair.tolerance.rounding;
   int dimension = 0;
   for (const Contact* contact : contacts)
     if (contact->distance <= highest) dimension = std::max(dimension, contact->dimension);

@@ -8,6 +8,14 @@
 
 namespace lmdbench {
 
+namespace {
+
+/// Boxes cover so many cells on average at the most: those of long triangles round one vertex would each cover a good part of all,
+/// and then the cells are larger.
+constexpr double MOST_CELLS_A_BOX = 16.0;
+
+}  // namespace
+
 BoxGrid::BoxGrid(std::vector<Box2> boxes) : boxes_(std::move(boxes)) {
   if (boxes_.empty()) {
     // One empty cell, for a region too narrow to have pieces.
@@ -27,7 +35,22 @@ BoxGrid::BoxGrid(std::vector<Box2> boxes) : boxes_(std::move(boxes)) {
   };
   columns_ = cells_of(size[0]);
   rows_ = cells_of(size[1]);
-  cells_per_metre_ = Vec2(size[0] > 0.0 ? columns_ / size[0] : 0.0, size[1] > 0.0 ? rows_ / size[1] : 0.0);
+  const auto measure_cells = [&] {
+    cells_per_metre_ = Vec2(size[0] > 0.0 ? columns_ / size[0] : 0.0, size[1] > 0.0 ? rows_ / size[1] : 0.0);
+  };
+  const auto covered_cells = [&] {
+    double sum = 0.0;
+    for (const Box2& box : boxes_) {
+      const auto [x0, y0] = cell_of(box.low);
+      const auto [x1, y1] = cell_of(box.high);
+      sum += (x1 - x0 + 1.0) * (y1 - y0 + 1.0);
+    }
+    return sum;
+  };
+  for (measure_cells(); covered_cells() > MOST_CELLS_A_BOX * count; measure_cells()) {
+    columns_ = (columns_ + 1) / 2;
+    rows_ = (rows_ + 1) / 2;
+  }
   std::vector<std::pair<std::int32_t, std::int32_t>> pairs;
   for (std::size_t i = 0; i < boxes_.size(); ++i) {
     const auto [x0, y0] = cell_of(boxes_[i].low);

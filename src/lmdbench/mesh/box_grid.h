@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <utility>
 #include <vector>
 
@@ -21,6 +22,7 @@ class BoxGrid {
 
   const Vec2& low() const { return bounds_.low; }
   const Vec2& high() const { return bounds_.high; }
+  std::size_t bytes() const { return boxes_.capacity() * sizeof(Box2) + cells_.bytes(); }
 
   /// Calls visit(index) once for every box that comes within `reach` of a box, until it returns false.
   /// @return whether visit never returned false

@@ -27,14 +27,11 @@ void refuse_extreme_size(const TriangleMesh& mesh, const std::string& name) {
                      REMEDY);
 }
 
-Placement read_placement(const nlohmann::json& entry, const std::string& file, const std::string& pointer) {
+Placement read_placement(const nlohmann::json& entry) {
   Placement placement;
   if (entry.contains("diagonal_m")) placement.diagonal = entry["diagonal_m"].get<double>();
   if (entry.contains("scale")) placement.scale = entry["scale"].get<double>();
   if (entry.contains("centre")) placement.centre = entry["centre"].get<bool>();
-  if (placement.diagonal && placement.scale)
-    throw UsageError(file, pointer + "/scale", "stands beside diagonal_m, which scales too",
-                     "give one of the two");
   return placement;
 }
 

@@ -36,9 +36,8 @@ struct Placement {
 };
 
 /// The keys "diagonal_m", "scale" and "centre" of a mesh in an experiment or a path specification.
-/// @param pointer of the entry, for the message
-/// @throws UsageError for a scale beside a diagonal
-Placement read_placement(const nlohmann::json& entry, const std::string& file, const std::string& pointer);
+/// @pre at most one of diagonal and scale, as both schemas say
+Placement read_placement(const nlohmann::json& entry);
 
 /// Adds the keys that `read_placement` reads.
 void write_placement(const Placement& placement, nlohmann::ordered_json& entry);

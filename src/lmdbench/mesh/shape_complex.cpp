@@ -175,14 +175,17 @@ void ShapeComplex::append_corner_wings(const Surface& surface, std::int32_t vert
     wings_.push_back(wing);
   }
   // Regions of 180 degrees and more: without a wing inside, the corner of a notch would have a cone.
-  std::vector<std::int32_t> own_regions;
-  append_carriers(surface, {FeatureKind::VERTEX, vertex}, own_regions);
-  for (const std::int32_t region : own_regions) {
-    if (region < 0 || shapes.of_region(region) == nullptr) continue;
+  std::vector<std::pair<std::int32_t, std::int32_t>> of_regions;  // region, triangle
+  for (const std::int32_t t : surface.adjacency.vertex_triangles[vertex])
+    if (region_of(t) >= 0 && shapes.of_region(region_of(t)) != nullptr)
+      of_regions.emplace_back(region_of(t), t);
+  std::ranges::sort(of_regions);
+  for (std::size_t next = 0; next < of_regions.size();) {
+    const std::int32_t region = of_regions[next].first;
     double angle = 0.0;
     std::vector<std::int32_t> inside;
-    for (const std::int32_t t : surface.adjacency.vertex_triangles[vertex]) {
-      if (region_of(t) != region) continue;
+    for (; next < of_regions.size() && of_regions[next].first == region; ++next) {
+      const std::int32_t t = of_regions[next].second;
       const auto& corners = surface.mesh.triangles[static_cast<std::size_t>(t)];
       const std::array<double, 3> angles = corner_angles(surface.mesh.triangle(t));
       for (std::size_t k = 0; k < 3; ++k)
@@ -227,11 +230,9 @@ void ShapeComplex::append_chain_wings(const Surface& surface, std::int32_t chain
       const Vec3& n = regions.planes[static_cast<std::size_t>(region)].normal;
       Vec3 inwards = n.cross(along).normalized();
       if (inwards.dot(across) < 0.0) inwards = -inwards;
-      double depth = across.norm();
-      const Vec2 flat_p = shape->frame.flat(p),
-                 axis(shape->frame.u.dot(inwards), shape->frame.v.dot(inwards));
-      for (const Vec2& x : shape->hull) depth = std::max(depth, axis.dot(x - flat_p));
-      wings_.push_back(depth * inwards);
+      const Vec2 axis(shape->frame.u.dot(inwards), shape->frame.v.dot(inwards));
+      const double depth = axis.dot(farthest_along(shape->hull, axis) - shape->frame.flat(p));
+      wings_.push_back(std::max(across.norm(), depth) * inwards);
     }
   }
 }

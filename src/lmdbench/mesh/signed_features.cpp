@@ -1,6 +1,5 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include <lmdbench/mesh/polar_cone.h>
 #include <lmdbench/mesh/signed_features.h>
 #include <lmdbench/mesh/triangle_normal.h>
 
@@ -34,11 +33,16 @@ std::vector<FanTriangle> fan_round(const Surface& surface, std::int32_t vertex) 
     for (std::size_t k = 0; k < 3; ++k)
       if (c[k] == vertex) all.push_back({c[(k + 1) % 3], c[(k + 2) % 3], t});
   }
+  if (all.empty()) return {};
+  const std::int32_t first = all.front().next;
+  std::ranges::sort(all, {}, &FanTriangle::next);
   std::vector<FanTriangle> fan;
   while (fan.size() < all.size()) {
-    const std::int32_t from = fan.empty() ? all.front().next : fan.back().last;
-    const auto found = std::ranges::find(all, from, &FanTriangle::next);
-    if (found == all.end() || (!fan.empty() && found->triangle == fan.front().triangle)) return {};
+    const std::int32_t from = fan.empty() ? first : fan.back().last;
+    const auto found = std::ranges::lower_bound(all, from, {}, &FanTriangle::next);
+    if (found == all.end() || found->next != from ||
+        (!fan.empty() && found->triangle == fan.front().triangle))
+      return {};
     fan.push_back(*found);
   }
   if (fan.empty() || fan.back().last != fan.front().next) return {};
@@ -103,7 +107,7 @@ bool SignedFeatures::has_index(const FeatureId& shape_feature) const {
 void SignedFeatures::add_chain(const Surface& surface, const ShapeComplex& shape, std::int32_t index) {
   const std::int32_t edge = shape.lead_of_chain(index);
   const auto triangles = surface.adjacency.edge_triangles[edge];
-  if (!has_outer_side(surface, {FeatureKind::EDGE, edge}) || triangles.size() != 2) return;
+  if (!surface.has_outer_side({FeatureKind::EDGE, edge}) || triangles.size() != 2) return;
   const auto& ends = shape.ends_of_chain(index);
   const auto at = [&](std::int32_t v) -> const Vec3& {
     return surface.mesh.vertices[static_cast<std::size_t>(v)];
@@ -129,7 +133,7 @@ void SignedFeatures::add_chain(const Surface& surface, const ShapeComplex& shape
 }
 
 void SignedFeatures::add_corner(const Surface& surface, const ShapeComplex& shape, std::int32_t vertex) {
-  if (!has_outer_side(surface, {FeatureKind::VERTEX, vertex})) return;
+  if (!surface.has_outer_side({FeatureKind::VERTEX, vertex})) return;
   std::vector<FanTriangle> fan = fan_round(surface, vertex);
   const auto at = [&](std::int32_t v) -> const Vec3& {
     return surface.mesh.vertices[static_cast<std::size_t>(v)];

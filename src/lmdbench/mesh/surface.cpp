@@ -6,9 +6,13 @@
 #include <lmdbench/mesh/surface.h>
 #include <lmdbench/mesh/triangle_normal.h>
 
+#include <boost/pending/disjoint_sets.hpp>
+
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <utility>
+#include <vector>
 
 namespace lmdbench {
 namespace {
@@ -49,6 +53,48 @@ void derive_normals(Surface& surface) {
   });
 }
 
+/// The edges of a triangle that end in its corner k.
+std::array<std::int32_t, 2> edges_at(const Surface& surface, std::int32_t triangle, std::size_t k) {
+  const auto& edges = surface.adjacency.triangle_edges[static_cast<std::size_t>(triangle)];
+  return {edges[k], edges[(k + 2) % 3]};
+}
+
+/// Walks round a vertex from triangle to triangle. False where that does not lead through all of them, or is not that simple: an edge
+/// with other than two triangles, a triangle that names a vertex twice and turns the walk round.
+bool is_one_closed_fan(const Surface& surface, std::int32_t vertex) {
+  const auto triangles = surface.adjacency.vertex_triangles[vertex];
+  std::int32_t triangle = triangles.front(), edge = -1;
+  for (std::size_t steps = 1; steps <= triangles.size(); ++steps) {
+    const auto& corners = surface.mesh.triangles[static_cast<std::size_t>(triangle)];
+    const auto at_vertex = edges_at(
+        surface, triangle, static_cast<std::size_t>(std::ranges::find(corners, vertex) - corners.begin()));
+    edge = at_vertex[0] == edge ? at_vertex[1] : at_vertex[0];
+    const auto beside = surface.adjacency.edge_triangles[edge];
+    if (beside.size() != 2 || at_vertex[0] == at_vertex[1]) return false;
+    triangle = beside[0] == triangle ? beside[1] : beside[0];
+    if (triangle == triangles.front()) return steps == triangles.size();
+  }
+  return false;
+}
+
+/// In time about linear in the triangles there, however many an edge has: a vertex may be in all of a mesh.
+bool has_several_fans(const Surface& surface, std::int32_t vertex) {
+  const auto triangles = surface.adjacency.vertex_triangles[vertex];
+  if (triangles.empty() || is_one_closed_fan(surface, vertex)) return false;
+  std::vector<std::pair<std::int32_t, std::size_t>> sides;  // edge at the vertex, place in `triangles`
+  for (std::size_t i = 0; i < triangles.size(); ++i)
+    for (std::size_t k = 0; k < 3; ++k)
+      if (surface.mesh.triangles[static_cast<std::size_t>(triangles[i])][k] == vertex)
+        for (const std::int32_t edge : edges_at(surface, triangles[i], k)) sides.emplace_back(edge, i);
+  std::ranges::sort(sides);
+  boost::disjoint_sets_with_storage<> fans(triangles.size());
+  for (std::size_t s = 1; s < sides.size(); ++s)
+    if (sides[s].first == sides[s - 1].first) fans.union_set(sides[s].second, sides[s - 1].second);
+  for (std::size_t i = 1; i < triangles.size(); ++i)
+    if (fans.find_set(i) != fans.find_set(std::size_t{0})) return true;
+  return false;
+}
+
 void derive_flags(Surface& surface) {
   const Adjacency& adjacency = surface.adjacency;
   const std::size_t edge_count = adjacency.edges.size(), vertex_count = surface.mesh.vertices.size();
@@ -75,6 +121,9 @@ void derive_flags(Surface& surface) {
       (boundary ? surface.vertex_is_boundary
                 : surface.vertex_has_non_manifold_edge)[static_cast<std::size_t>(vertex)] = true;
   }
+  surface.vertex_has_several_fans.resize(vertex_count);
+  for (std::size_t v = 0; v < vertex_count; ++v)
+    surface.vertex_has_several_fans[v] = has_several_fans(surface, static_cast<std::int32_t>(v));
 }
 
 Vec3 edge_pseudo_normal(const Surface& surface, std::int32_t edge) {
@@ -143,6 +192,15 @@ Vec3 Surface::pseudo_normal(const FeatureId& feature) const {
   return face_normals[i];
 }
 
+bool Surface::has_outer_side(const FeatureId& feature) const {
+  const auto i = static_cast<std::size_t>(feature.index);
+  if (is_boundary(feature) || (feature.kind == FeatureKind::EDGE && edge_is_non_manifold[i]) ||
+      (feature.kind == FeatureKind::VERTEX &&
+       (vertex_has_non_manifold_edge[i] || vertex_has_several_fans[i])))
+    return false;
+  return !pseudo_normal(feature).isZero(0.0);
+}
+
 bool Surface::is_boundary(const FeatureId& feature) const {
   const auto i = static_cast<std::size_t>(feature.index);
   switch (feature.kind) {
@@ -160,7 +218,7 @@ std::size_t Surface::bytes() const {
   return bytes_of(mesh.vertices) + bytes_of(mesh.triangles) + adjacency.bytes() + bytes_of(face_normals) +
          bytes_of(vertex_pseudo_normals) + bytes_of(vertex_normal_is_stale) + bytes_of(edge_is_boundary) +
          bytes_of(vertex_is_boundary) + bytes_of(edge_is_non_manifold) +
-         bytes_of(vertex_has_non_manifold_edge);
+         bytes_of(vertex_has_non_manifold_edge) + bytes_of(vertex_has_several_fans);
 }
 
 Surface build_surface(TriangleMesh mesh) {

@@ -48,6 +48,8 @@ struct Surface {
   std::vector<bool>
       edge_is_non_manifold;  ///< #E; more than two triangles, or two that disagree on orientation.
   std::vector<bool> vertex_has_non_manifold_edge;  ///< #V; some incident edge is non-manifold.
+  /// #V; the triangles there are several fans (groups that hang together over edges at the vertex): surfaces touch in it only.
+  std::vector<bool> vertex_has_several_fans;
 
   /// Id of a triangle's part.
   FeatureId feature_of(std::int32_t triangle, TriangleFeature part) const;
@@ -58,6 +60,9 @@ struct Surface {
   /// incident faces' normals, or zero; made when it is asked for, because next to nobody asks.
   Vec3 pseudo_normal(const FeatureId& feature) const;
   Vec3 vertex_normal(std::int32_t vertex) const;
+  /// Whether the feature has an outer side: not on a boundary, its triangles are one consistently oriented fan (an edge: two
+  /// triangles), and its pseudo-normal is not zero. Asked by every decision: how triangles hang together is looked up.
+  bool has_outer_side(const FeatureId& feature) const;
   /// A boundary edge, or a vertex on one; a face never is.
   bool is_boundary(const FeatureId& feature) const;
   /// Memory that all of this takes; certified, improved and exhaustive read no other part of a

@@ -1,8 +1,6 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include <lmdbench/mesh/polar_cone.h>
 #include <lmdbench/mesh/validity.h>
-#include <lmdbench/mesh/vertex_fan.h>
 
 #include <Eigen/Geometry>
 
@@ -71,11 +69,9 @@ void count_defects(const Surface& surface, ValidityReport& report) {
     if (!surface.edge_is_non_manifold[static_cast<std::size_t>(e)]) continue;
     ++(surface.adjacency.edge_triangles[e].size() > 2 ? report.non_manifold_edges : report.misoriented_edges);
   }
-  for (std::int32_t v = 0; v < report.vertices; ++v) {
-    const int fans = fan_count(surface, v);
-    if (fans > 1) ++report.non_manifold_vertices;
-    if (fans == 0) ++report.unused_vertices;
-  }
+  for (std::int32_t v = 0; v < report.vertices; ++v)
+    if (surface.adjacency.vertex_triangles[v].empty()) ++report.unused_vertices;
+  report.non_manifold_vertices = count_true(surface.vertex_has_several_fans);
   report.duplicate_triangles = count_duplicates(surface.mesh);
   report.components = count_components(surface);
   report.closed = report.triangles > 0 && report.boundary_edges == 0;
@@ -128,8 +124,6 @@ ValidityReport check_mesh(const Surface& surface) {
     const std::int64_t euler = report.vertices - report.unused_vertices - report.edges + report.triangles;
     report.genus = report.components - euler / 2;
   }
-  for (const FeatureId& feature : features_with_polar_cones(surface))
-    ++report.polar_cones[static_cast<std::size_t>(feature.kind)];
   return report;
 }
 

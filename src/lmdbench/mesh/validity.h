@@ -6,7 +6,6 @@
 
 #include <nlohmann/json_fwd.hpp>
 
-#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -45,9 +44,6 @@ struct ValidityReport {
   double shortest_edge = 0.0;
   double longest_edge = 0.0;
   double worst_aspect = 0.0;  ///< Largest (longest side / altitude on it) of triangles with area.
-
-  /// Features with a polar cone that is not empty (polar_cone.h), of vertices, edges and faces.
-  std::array<std::int64_t, 3> polar_cones{};
 };
 
 ValidityReport check_mesh(const Surface& surface);
@@ -56,8 +52,7 @@ ValidityReport check_mesh(const Surface& surface);
 /// mesh without degenerate or duplicate triangles.
 std::vector<std::string> findings(const ValidityReport& report);
 
-/// Keys as the members above; `polar_cones` is an object {vertex|edge|face: {count, share}}; what is not
-/// known is null.
+/// Keys as the members above; what is not known is null.
 nlohmann::ordered_json to_json(const ValidityReport& report);
 
 /// Lines for people, with a final newline.

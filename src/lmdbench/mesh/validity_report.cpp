@@ -12,26 +12,6 @@ namespace {
 constexpr const char* TURN_REMEDY =
     "remedy: \"orient\": \"outward\" in an experiment, --orient outward of init and query";
 
-constexpr std::array<FeatureKind, 3> KINDS{FeatureKind::VERTEX, FeatureKind::EDGE, FeatureKind::FACE};
-
-std::int64_t feature_count(const ValidityReport& report, FeatureKind kind) {
-  switch (kind) {
-    case FeatureKind::VERTEX:
-      return report.vertices;
-    case FeatureKind::EDGE:
-      return report.edges;
-    case FeatureKind::FACE:
-      break;
-  }
-  return report.triangles;
-}
-
-double polar_cone_share(const ValidityReport& report, FeatureKind kind) {
-  const std::int64_t total = feature_count(report, kind);
-  const auto count = static_cast<double>(report.polar_cones[static_cast<std::size_t>(kind)]);
-  return total > 0 ? count / static_cast<double>(total) : 0.0;
-}
-
 template <typename T>
 nlohmann::ordered_json json_or_null(const std::optional<T>& value) {
   return value ? nlohmann::ordered_json(*value) : nlohmann::ordered_json(nullptr);
@@ -74,10 +54,6 @@ std::vector<std::string> findings(const ValidityReport& report) {
 }
 
 nlohmann::ordered_json to_json(const ValidityReport& report) {
-  nlohmann::ordered_json cones;
-  for (const FeatureKind kind : KINDS)
-    cones[std::string(to_string(kind))] = {{"count", report.polar_cones[static_cast<std::size_t>(kind)]},
-                                           {"share", polar_cone_share(report, kind)}};
   return {{"vertices", report.vertices},
           {"edges", report.edges},
           {"triangles", report.triangles},
@@ -102,7 +78,6 @@ nlohmann::ordered_json to_json(const ValidityReport& report) {
           {"shortest_edge", report.shortest_edge},
           {"longest_edge", report.longest_edge},
           {"worst_aspect", report.worst_aspect},
-          {"polar_cones", cones},
           {"findings", findings(report)}};
 }
 
@@ -119,12 +94,6 @@ std::string to_text(const ValidityReport& report) {
   if (report.volume) fmt::format_to(out, ", volume {:.6g}", *report.volume);
   fmt::format_to(out, "\nedges         mean {:.6g}, shortest {:.6g}, longest {:.6g}; worst aspect {:.4g}\n",
                  report.mean_edge_length, report.shortest_edge, report.longest_edge, report.worst_aspect);
-  fmt::format_to(out, "polar cones  ");
-  for (const FeatureKind kind : KINDS)
-    fmt::format_to(out, "{} {} {} ({:.1f} %)", kind == FeatureKind::VERTEX ? "" : ",", to_string(kind),
-                   report.polar_cones[static_cast<std::size_t>(kind)],
-                   100.0 * polar_cone_share(report, kind));
-  fmt::format_to(out, "\n");
   for (const std::string& sentence : findings(report)) fmt::format_to(out, "finding       {}\n", sentence);
   return fmt::to_string(text);
 }

@@ -6,14 +6,6 @@
 
 namespace lmdbench {
 
-/// Number of fans round a vertex: groups of its triangles that hang together over edges at the
-/// vertex. 1 on a manifold (a disk, or a half disk on the boundary), more where surfaces touch in the
-/// vertex only, 0 without triangles.
-int fan_count(const Surface& surface, std::int32_t vertex);
-
-/// More than one fan, or a non-manifold edge at the vertex.
-bool is_non_manifold_vertex(const Surface& surface, std::int32_t vertex);
-
 /// Calls visit(neighbour) for the other ends of a vertex's edges, in the order of its
 /// triangles, until visit returns false.
 ///

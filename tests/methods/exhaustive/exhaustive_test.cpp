@@ -1,21 +1,24 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/geometry/triangle_distance.h>
-#include <lmdbench/mesh/polar_cone.h>
 #include <lmdbench/methods/exhaustive/exhaustive.h>
+#include <lmdbench/methods/exhaustive/feature_grid.h>
 #include <lmdbench/methods/registry.h>
 #include <lmdbench/snch/minimum_distance.h>
 
 #include <gtest/gtest.h>
+#include <support/polar_cone.h>
 #include <support/scenes.h>
 
 #include <cmath>
+#include <numbers>
 #include <set>
 #include <tuple>
 
 namespace lmdbench {
 namespace {
 
+using testing::in_polar_cone;
 using testing::make_scene;
 using testing::moved;
 
@@ -215,6 +218,24 @@ TEST(Exhaustive, NearlyParallelFacesAreOneContactAtAnyTilt) {
       EXPECT_EQ(lmds.size(), 1u) << name << ", tilt " << tilt;
     }
   }
+}
+
+/// Of a fan round one vertex each box covers a good part of the whole: a cell for each would take memory without end.
+TEST(FeatureGrid, LongBoxesTakeNoMoreThanTheirNumber) {
+  TriangleMesh mesh;
+  mesh.vertices.emplace_back(0.0, 0.0, 1.0);
+  constexpr std::int32_t COUNT = 10000;
+  for (std::int32_t i = 0; i < COUNT; ++i) {
+    const double angle = 2.0 * std::numbers::pi * i / COUNT;
+    mesh.vertices.emplace_back(std::cos(angle), std::sin(angle), 0.0);
+    mesh.triangles.push_back({0, 1 + i, 1 + (i + 1) % COUNT});
+  }
+  FeatureGrid grid(build_surface(mesh));
+  EXPECT_LE(grid.bytes(), 2000 * mesh.triangles.size());
+  std::size_t found = 0;
+  const Vec3 apex = mesh.vertices[0];
+  grid.for_each_near(Eigen::AlignedBox3d(apex, apex), 1e-6, [&](const FeatureId&) { ++found; });
+  EXPECT_EQ(found, 1u + 2u * COUNT) << "the vertex, its edges and triangles";
 }
 
 }  // namespace

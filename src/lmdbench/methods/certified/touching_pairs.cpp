@@ -30,6 +30,8 @@ constexpr double MARGIN_IN_TOUCHES = 2.0;
 /// contact's middle by their lengths, and where all of them are short and lie apart, so do the errors of these.
 constexpr double LEAST_CROSSING_LENGTH = 1e-4;
 
+using FeaturePair = std::pair<FeatureId, FeatureId>;
+
 Vec3 face_normal(const ShapeSide& side, std::int32_t face) {
   return side.direction(side.surface.face_normals[static_cast<std::size_t>(face)]);
 }
@@ -98,16 +100,13 @@ ClearGap gap_along_side_products(const ShapeSide& moving, std::int32_t region_mo
   return widest;
 }
 
-/// Asks the definition for what the corners of one triangle share with the corners and chains of another one that is within
-/// touch of them.
-void ask_corners(const TouchingPairs::Frame& frame, const ShapeSide& of_corners, std::int32_t t_corners,
-                 const ShapeSide& other, std::int32_t t_other) {
+/// Notes that the definition is to be asked for what the corners of one triangle share with the corners and chains of another one
+/// that is within touch of them.
+void note_corners(const TouchingPairs::Frame& frame, const ShapeSide& of_corners, std::int32_t t_corners,
+                  const ShapeSide& other, std::int32_t t_other, std::vector<FeaturePair>& asked) {
   const Triangle triangle = triangle_of(other, t_other);
   const auto ask = [&](const FeatureId& corner, const FeatureId& feature) {
-    if (of_corners.is_moving)
-      decide(frame.pair, corner, feature, frame.contacts);
-    else
-      decide(frame.pair, feature, corner, frame.contacts);
+    asked.push_back(of_corners.is_moving ? FeaturePair(corner, feature) : FeaturePair(feature, corner));
   };
   for (const std::int32_t v : of_corners.surface.mesh.triangles[static_cast<std::size_t>(t_corners)]) {
     if (!of_corners.shape.is_corner(v)) continue;
@@ -124,8 +123,9 @@ void ask_corners(const TouchingPairs::Frame& frame, const ShapeSide& of_corners,
   }
 }
 
-/// Asks for what parallel chains of two triangles within touch share: its direction is one between points, too.
-void ask_parallel_chains(const TouchingPairs::Frame& frame, std::int32_t t_moving, std::int32_t t_fixed) {
+/// The same for parallel chains of two triangles within touch: the direction of what they share is one between points, too.
+void note_parallel_chains(const TouchingPairs::Frame& frame, std::int32_t t_moving, std::int32_t t_fixed,
+                          std::vector<FeaturePair>& asked) {
   const ShapeSide &moving = frame.pair.moving, &fixed = frame.pair.fixed;
   for (const std::int32_t e : moving.surface.adjacency.triangle_edges[static_cast<std::size_t>(t_moving)])
     for (const std::int32_t f : fixed.surface.adjacency.triangle_edges[static_cast<std::size_t>(t_fixed)]) {
@@ -133,8 +133,8 @@ void ask_parallel_chains(const TouchingPairs::Frame& frame, std::int32_t t_movin
       if (c < 0 || d < 0) continue;
       const Vec3 u = from_end_to_end(moving, c), v = from_end_to_end(fixed, d);
       if (u.cross(v).norm() > 2.0 * frame.pair.tolerance.largest_tilt * u.norm() * v.norm()) continue;
-      decide(frame.pair, {FeatureKind::EDGE, moving.shape.lead_of_chain(c)},
-             {FeatureKind::EDGE, fixed.shape.lead_of_chain(d)}, frame.contacts);
+      asked.emplace_back(FeatureId{FeatureKind::EDGE, moving.shape.lead_of_chain(c)},
+                         FeatureId{FeatureKind::EDGE, fixed.shape.lead_of_chain(d)});
     }
 }
 
@@ -177,6 +177,12 @@ std::span<const Certificate> TouchingPairs::decide(Frame& frame, std::span<const
   }
   decide_batch(frame, batch, not_crossing);
   decide_not_crossing(frame, not_crossing);
+  // Each once: a vertex is a corner of all its triangles, and asking for it looks at all of them.
+  std::ranges::sort(asked_);
+  asked_.erase(std::unique(asked_.begin(), asked_.end()), asked_.end());
+  for (const auto& [on_moving, on_fixed] : asked_)
+    lmdbench::decide(frame.pair, on_moving, on_fixed, frame.contacts);
+  asked_.clear();
   return certificates_;
 }
 
@@ -236,9 +242,9 @@ Certificate TouchingPairs::decide_triangles(Frame& frame, std::int32_t t_moving,
   }
   const double distance = std::sqrt(nearest.squared_distance);
   if (distance <= frame.touch) {
-    ask_corners(frame, moving, t_moving, fixed, t_fixed);
-    ask_corners(frame, fixed, t_fixed, moving, t_moving);
-    ask_parallel_chains(frame, t_moving, t_fixed);
+    note_corners(frame, moving, t_moving, fixed, t_fixed, asked_);
+    note_corners(frame, fixed, t_fixed, moving, t_moving, asked_);
+    note_parallel_chains(frame, t_moving, t_fixed, asked_);
     return {};
   }
   return {distance - MARGIN_IN_TOUCHES * frame.touch, (nearest.point_b - nearest.point_a) / distance};

@@ -10,6 +10,7 @@
 
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace lmdbench {
@@ -46,6 +47,7 @@ class TouchingPairs {
   Certificate decide_regions(Frame& frame, const WidePair& pair);
 
   std::vector<Certificate> certificates_;
+  std::vector<std::pair<FeatureId, FeatureId>> asked_;  ///< What corners and chains within touch share.
   std::vector<std::int32_t> faces_of_large_, faces_of_small_;
   std::vector<Vec3> points_moving_, points_fixed_;
 };

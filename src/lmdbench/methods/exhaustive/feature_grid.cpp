@@ -14,6 +14,9 @@ namespace {
 /// Cells along the longest side of the mesh's box at the most: bounds the memory for meshes with a few huge
 /// and many tiny triangles.
 constexpr int MAXIMUM_CELLS_PER_SIDE = 96;
+/// Cells that boxes cover on average at the most: those of long triangles round one vertex would each cover a good part of all, and
+/// then the cells are larger.
+constexpr double MOST_CELLS_A_BOX = 64.0;
 
 }  // namespace
 
@@ -41,11 +44,22 @@ FeatureGrid::FeatureGrid(const Surface& surface) {
   const double longest = bounds_.sizes().maxCoeff();
   const double cells = std::clamp(std::sqrt(static_cast<double>(surface.mesh.triangles.size())), 1.0,
                                   double{MAXIMUM_CELLS_PER_SIDE});
-  for (int axis = 0; axis < 3; ++axis) {
-    const double side = bounds_.sizes()[axis];
-    size_[axis] = longest > 0.0 ? std::max(1, static_cast<int>(cells * side / longest)) : 1;
-    cells_per_metre_[axis] = side > 0.0 ? size_[axis] / side : 0.0;
-  }
+  for (int axis = 0; axis < 3; ++axis)
+    size_[axis] = longest > 0.0 ? std::max(1, static_cast<int>(cells * bounds_.sizes()[axis] / longest)) : 1;
+  const auto measure_cells = [&] {
+    for (int axis = 0; axis < 3; ++axis) {
+      const double side = bounds_.sizes()[axis];
+      cells_per_metre_[axis] = side > 0.0 ? size_[axis] / side : 0.0;
+    }
+  };
+  const auto covered_cells = [&] {
+    double sum = 0.0;
+    for (const auto& box : boxes_) sum += (cell_of(box.max()) - cell_of(box.min()) + 1).cast<double>().prod();
+    return sum;
+  };
+  for (measure_cells(); covered_cells() > MOST_CELLS_A_BOX * static_cast<double>(boxes_.size());
+       measure_cells())
+    size_ = (size_ + 1) / 2;
   std::vector<std::pair<std::int32_t, std::int32_t>> pairs;
   for (std::size_t i = 0; i < boxes_.size(); ++i) {
     const Eigen::Array3i first = cell_of(boxes_[i].min()), last = cell_of(boxes_[i].max());

@@ -9,6 +9,7 @@
 
 #include <Eigen/Geometry>
 
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -40,6 +41,11 @@ class FeatureGrid {
             last_query_[i] = query_;
             if (boxes_[i].squaredExteriorDistance(box) <= distance * distance) visit(features_[i]);
           }
+  }
+
+  std::size_t bytes() const {
+    return features_.capacity() * sizeof(FeatureId) + boxes_.capacity() * sizeof(Eigen::AlignedBox3d) +
+           cells_.bytes() + last_query_.capacity() * sizeof(std::uint64_t);
   }
 
  private:

@@ -2,13 +2,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/catalogue/deformation.h>
 #include <lmdbench/lmd/body.h>
-#include <lmdbench/mesh/polar_cone.h>
 #include <lmdbench/methods/certified/hierarchy/polar_cap.h>
 #include <lmdbench/methods/certified/hierarchy/wide_hierarchy.h>
 #include <lmdbench/methods/certified/hierarchy/wide_traversal.h>
 
 #include "methods/certified/hierarchy/wide_samples.h"
 #include <gtest/gtest.h>
+#include <support/polar_cone.h>
 #include <support/scenes.h>
 #include <tbb/global_control.h>
 
@@ -24,6 +24,7 @@ namespace lmdbench {
 namespace {
 
 using testing::expect_same_pairs;
+using testing::extreme_directions;
 using testing::for_each_random_node_test;
 using testing::LaneSample;
 using testing::make_bushing;
@@ -48,20 +49,18 @@ TEST(PolarCap, HoldsThePolarCone) {
   for (const TriangleMesh& mesh : shapes()) {
     const Surface surface = build_surface(mesh);
     for (const FeatureId& feature : all_features(surface)) {
-      const PolarCone cone = polar_cone(surface, feature);
+      const std::vector<Vec3> extremes = extreme_directions(surface, feature);
       const auto cap = polar_cap(surface, feature);
       if (!cap) {
-        EXPECT_TRUE(cone.empty()) << to_string(feature.kind) << feature.index;
+        EXPECT_TRUE(extremes.empty()) << to_string(feature.kind) << feature.index;
         ++none;
         continue;
       }
       if (cap->is_all_directions()) continue;
       EXPECT_NEAR(cap->axis.norm(), 1.0, 1e-12);
-      for (const Vec3& generator : cone.generators) {
-        // The generators carry a tolerance of their own.
-        EXPECT_GE(cap->axis.dot(generator), cap->cosine - POLAR_CONE_TOLERANCE)
-            << to_string(feature.kind) << feature.index;
-        EXPECT_LE(cap->axis.cross(generator).norm(), cap->sine + POLAR_CONE_TOLERANCE);
+      for (const Vec3& direction : extremes) {
+        EXPECT_GE(cap->axis.dot(direction), cap->cosine) << to_string(feature.kind) << feature.index;
+        EXPECT_LE(cap->axis.cross(direction).norm(), cap->sine);
       }
       if (cap->cosine > 0.5) ++narrow;
     }
@@ -173,7 +172,7 @@ void expect_owns_and_bounds(const WideHierarchy& hierarchy, const Surface& surfa
       if (axis.isZero(0.0)) continue;
       // With a shape, the wings of a corner are others than its edges.
       if (shape != nullptr && shape->is_joined) continue;
-      for (const Vec3& direction : polar_cone(surface, feature).generators)
+      for (const Vec3& direction : extreme_directions(surface, feature))
         ASSERT_GE(direction.dot(axis), static_cast<double>(node.cosine[lane]));
     }
   };

@@ -1,6 +1,5 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include <lmdbench/mesh/polar_cone.h>
 #include <lmdbench/methods/certified/hierarchy/polar_extremes.h>
 
 #include <Eigen/Geometry>
@@ -126,7 +125,7 @@ std::optional<PolarCap> edge_cap(const Surface& surface, std::int32_t edge, doub
       if (slack < LARGEST_SLACK) work.constraints.push_back({across / height, slack});
     }
   }
-  if (has_outer_side(surface, {FeatureKind::EDGE, edge}))
+  if (surface.has_outer_side({FeatureKind::EDGE, edge}))
     work.constraints.push_back({-surface.pseudo_normal({FeatureKind::EDGE, edge}), POLAR_SLACK});
   if (work.constraints.empty()) return PolarCap{};
 
@@ -147,7 +146,7 @@ std::optional<PolarCap> chain_cap(const Surface& surface, const ShapeComplex& sh
     return true;
   });
   const FeatureId lead{FeatureKind::EDGE, shape.lead_of_chain(chain)};
-  if (has_outer_side(surface, lead)) {
+  if (surface.has_outer_side(lead)) {
     std::vector<std::int32_t> regions;
     shape.append_carriers(surface, {FeatureKind::EDGE, chain}, regions);
     if (regions.size() == 2 && regions[0] >= 0 && work.constraints.size() == 2) {

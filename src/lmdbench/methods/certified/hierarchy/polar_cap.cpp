@@ -1,6 +1,5 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include <lmdbench/mesh/polar_cone.h>
 #include <lmdbench/mesh/vertex_fan.h>
 #include <lmdbench/methods/certified/hierarchy/polar_extremes.h>
 
@@ -129,9 +128,8 @@ std::optional<PolarCap> vertex_cap(const Surface& surface, std::int32_t vertex, 
   }
   if (!find_crossings_of_many(work)) return PolarCap{};
   if (work.extremes.directions.empty()) return std::nullopt;
-  // Saddles are done here, and so are peaks, all of whose directions are outer ones: whether a vertex has an
-  // outer side costs a walk round it.
-  // What lies above every triangle lies on the side of their mean, which costs more to make.
+  // Saddles are done here, and so are peaks, all of whose directions are outer ones. What lies above every triangle lies on the
+  // side of their mean, which costs more to make where the mesh deforms.
   const auto above_all = [&](const Vec3& direction) {
     return std::ranges::all_of(surface.adjacency.vertex_triangles[vertex], [&](std::int32_t t) {
       const Vec3& normal = surface.face_normals[static_cast<std::size_t>(t)];
@@ -142,7 +140,7 @@ std::optional<PolarCap> vertex_cap(const Surface& surface, std::int32_t vertex, 
     const Vec3 outer = surface.vertex_normal(vertex);
     const bool all_outer = std::ranges::all_of(
         work.extremes.directions, [&](const Vec3& direction) { return direction.dot(outer) >= 0.0; });
-    if (!all_outer && has_outer_side(surface, {FeatureKind::VERTEX, vertex})) {
+    if (!all_outer && surface.has_outer_side({FeatureKind::VERTEX, vertex})) {
       work.constraints.push_back({-outer, POLAR_SLACK});
       find_crossings(work);
     }

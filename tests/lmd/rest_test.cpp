@@ -1,0 +1,111 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+// Parts at rest in each other: contacts of faces that stand at an angle stay apart however near they are.
+#include <lmdbench/catalogue/shapes.h>
+
+#include <gtest/gtest.h>
+#include <support/lmd_text.h>
+#include <support/rounded.h>
+#include <support/shape_scene.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <random>
+#include <vector>
+
+namespace lmdbench {
+namespace {
+
+using testing::ShapeScene;
+using testing::text;
+using testing::turned_by;
+
+double uniform(std::mt19937_64& random, double low, double high) {
+  return low + (high - low) * testing::uniform(random);
+}
+
+/// A prism over a polygon without holes whose triangles are given, from y = 0 to `depth`.
+TriangleMesh prism(const std::vector<Vec2>& outline, const std::vector<std::array<std::int32_t, 3>>& caps,
+                   double depth) {
+  TriangleMesh mesh;
+  const auto n = static_cast<std::int32_t>(outline.size());
+  for (const double y : {0.0, depth})
+    for (const Vec2& x : outline) mesh.vertices.emplace_back(x.x(), y, x.y());
+  for (const auto& [a, b, c] : caps) {
+    mesh.triangles.push_back({a, b, c});
+    mesh.triangles.push_back({a + n, c + n, b + n});
+  }
+  for (std::int32_t i = 0; i < n; ++i) {
+    const std::int32_t k = (i + 1) % n;
+    mesh.triangles.push_back({i, i + n, k});
+    mesh.triangles.push_back({k, i + n, k + n});
+  }
+  return mesh;
+}
+
+/// Floor z = 0 for x >= 0 and wall x = 0 for z >= 0.
+TriangleMesh inner_corner(double size, double depth) {
+  const double t = 0.3 * size;
+  return prism({{-t, -t}, {size, -t}, {size, 0}, {0, 0}, {0, size}, {-t, size}},
+               {{0, 1, 3}, {1, 2, 3}, {0, 3, 5}, {3, 4, 5}}, depth);
+}
+
+/// Lies on top of z = 0 for x < 0 and hangs down beside x = 0.
+TriangleMesh hook(double size, double depth) {
+  const double t = 0.3 * size;
+  return prism({{-size, 0}, {0, 0}, {0, -size}, {t, -size}, {t, t}, {-size, t}},
+               {{0, 1, 5}, {1, 4, 5}, {1, 2, 3}, {1, 3, 4}}, depth);
+}
+
+struct Expected {
+  double distance;
+  Vec3 direction;
+};
+
+void expect_lmds(ShapeScene& scene, const Pose& pose, const Pose& whole,
+                 const std::vector<Expected>& expected, double spare) {
+  LmdSet lmds = scene.lmds(pose);
+  ASSERT_EQ(lmds.size(), expected.size()) << text(lmds);
+  for (const Expected& one : expected)
+    EXPECT_TRUE(std::ranges::any_of(lmds,
+                                    [&](const Lmd& lmd) {
+                                      return std::abs(lmd.distance - one.distance) <= spare &&
+                                             (lmd.direction - whole.rotation * one.direction).norm() <= 1e-6;
+                                    }))
+        << one.distance << " along " << one.direction.transpose() << " in " << text(lmds);
+}
+
+TEST(Rest, ABoxInAnInnerCornerHasOneLmdAWall) {
+  std::mt19937_64 random(44);
+  for (int k = 0; k < 300; ++k) {
+    const double size = std::pow(10.0, uniform(random, -2.0, 1.0)), side = 0.4 * size;
+    const auto gap = [&] { return size * std::pow(10.0, uniform(random, -12.0, -4.0)); };
+    const double a = gap(), b = gap();
+    const Pose whole = k % 4 == 0 ? Pose{} : testing::pose_of_seed(k);
+    ShapeScene scene(translated(make_box({side, side, side}), Vec3::Constant(0.5 * side)),
+                     testing::placed(inner_corner(size, size), whole), 0.1 * size);
+    const Pose rest = whole * turned_by(0.0, Vec3::UnitZ(), Vec3(a, 0.3 * size, b));
+    SCOPED_TRACE(::testing::Message() << "pose " << k << " size " << size << " gaps " << a << ", " << b);
+    expect_lmds(scene, rest, whole, {{a, -Vec3::UnitX()}, {b, -Vec3::UnitZ()}}, 1e-13 * size);
+  }
+}
+
+TEST(Rest, AHookThatRestsKeepsTheLmdOfItsLeg) {
+  std::mt19937_64 random(45);
+  for (int k = 0; k < 300; ++k) {
+    const double h = std::pow(10.0, uniform(random, -13.0, -5.0)),
+                 s = std::pow(10.0, uniform(random, -3.0, -0.7));
+    const Pose whole = k % 4 == 0 ? Pose{} : testing::pose_of_seed(k);
+    ShapeScene scene(hook(1.0, 0.7),
+                     testing::placed(translated(make_box({1.0, 1.0, 1.0}), Vec3(-0.5, 0.5, -0.5)), whole),
+                     0.5);
+    const Pose rest = whole * turned_by(0.0, Vec3::UnitZ(), Vec3(s, 0.1, h));
+    SCOPED_TRACE(::testing::Message() << "pose " << k << " gaps " << h << ", " << s);
+    expect_lmds(scene, rest, whole, {{h, -Vec3::UnitZ()}, {s, -Vec3::UnitX()}}, 2e-13);
+  }
+}
+
+}  // namespace
+}  // namespace lmdbench
