@@ -28,8 +28,7 @@ struct FlatChoice {
   std::size_t complaints = 20;
 };
 
-constexpr std::array METHODS = {"exhaustive", "certified"};
-using CountsOfMethods = std::array<FlatCounts, METHODS.size()>;
+using CountsOfMethods = std::array<FlatCounts, JUDGED_METHODS.size()>;
 
 std::string pose_text(const Pose& X_WM) {
   const Vec3& p = X_WM.translation;
@@ -44,7 +43,7 @@ void judge_scene(const parts::PartsChoice& choice, std::size_t poses, CountsOfMe
                  const Complain& complain) {
   const parts::PartsScene parts = make_parts_scene(choice);
   std::vector<std::unique_ptr<Method>> methods;
-  for (const char* const name : METHODS) methods.push_back(make_method(name, parts.scene));
+  for (const char* const name : JUDGED_METHODS) methods.push_back(make_method(name, parts.scene));
   for (std::size_t i = 0; i < std::min(poses, parts.poses.size()); ++i) {
     const Pose& X_WM = parts.poses[i];
     const FlatTruth truth(parts.scene.moving->surface(), parts.scene.fixed[0]->surface(), X_WM,
@@ -56,7 +55,7 @@ void judge_scene(const parts::PartsChoice& choice, std::size_t poses, CountsOfMe
       std::string objections;
       counts[m] += truth.judge(lmds, objections);
       if (!objections.empty())
-        complain(fmt::format("{}: {}, {}, seed {}, scene {}, pose {}: {}\n{}", METHODS[m], choice.kind,
+        complain(fmt::format("{}: {}, {}, seed {}, scene {}, pose {}: {}\n{}", JUDGED_METHODS[m], choice.kind,
                              name_of(choice.coordinates), choice.seed, choice.index, i, pose_text(X_WM),
                              objections));
     }
@@ -91,14 +90,14 @@ int judge_flat(const FlatChoice& choice) {
                   complain);
       left -= std::min(left, parts::POSES_A_SCENE);
     }
-    for (std::size_t m = 0; m < METHODS.size(); ++m) {
+    for (std::size_t m = 0; m < JUDGED_METHODS.size(); ++m) {
       all[m] += counts[m];
-      print_row(choice.kinds[k], METHODS[m], counts[m]);
+      print_row(choice.kinds[k], JUDGED_METHODS[m], counts[m]);
     }
   }
   bool wrong = false;
-  for (std::size_t m = 0; m < METHODS.size(); ++m) {
-    print_row("all", METHODS[m], all[m]);
+  for (std::size_t m = 0; m < JUDGED_METHODS.size(); ++m) {
+    print_row("all", JUDGED_METHODS[m], all[m]);
     wrong = wrong || all[m].faulty_poses > 0;
   }
   return static_cast<int>(wrong ? ExitCode::CHECK_FAILED : ExitCode::DONE);

@@ -14,6 +14,7 @@ int main(int argc, char** argv) {
   exact::add_truth(app, chosen);
   exact::add_ledger(app, chosen);
   exact::add_flat(app, chosen);
+  exact::add_rest(app, chosen);
   exact::add_accuracy(app, chosen);
   return experiments::run_program(app, argc, argv, [&chosen] { return chosen(); });
 }

@@ -192,6 +192,59 @@ Design scan_in_hand(const PartsTimes& choice, double step, double turn) {
           CUTOFF, TREMBLING_FRAMES};
 }
 
+/// One over the other, outlines in line, and nearer by a step in each frame.
+Design stacked(TriangleMesh moving, TriangleMesh fixed, double gap, const Pose& turn) {
+  Eigen::AlignedBox3d box_moving, box_fixed;
+  for (const Vec3& p : moving.vertices) box_moving.extend(turn.rotation * p);
+  for (const Vec3& p : fixed.vertices) box_fixed.extend(p);
+  const double height = box_fixed.max().z() - box_moving.min().z();
+  return {std::move(moving), std::move(fixed), [=](Random& random) -> Motion {
+            const double highest = gap * random.uniform(1.0, 2.0);
+            return [=](double frame) {
+              return Pose{(height + highest * (1.0 - frame / FRAMES)) * Vec3::UnitZ(), turn.rotation};
+            };
+          }};
+}
+
+/// A tooth of each crosses a tooth of the other at every place of a grid.
+Design crossed_combs(int teeth) {
+  const TriangleMesh comb = parts::make_comb(teeth, 0.5 / teeth);
+  return stacked(comb, comb, 0.001, {Vec3::Zero(), about_z(0.5 * std::numbers::pi)});
+}
+
+Design gear_over_its_hole(int teeth) {
+  const Outline outline = gear_outline(teeth, 1.0 / teeth, 0.04 / teeth);
+  const SleeveChoice choice{.height = 0.2, .around = 8 * teeth};
+  return stacked(make_sleeve(outline, nullptr, choice),
+                 make_sleeve(circle_outline(0.75, outline), outline, choice), 0.0001, {});
+}
+
+Design disc_on_its_copy(int corners) {
+  const TriangleMesh disc = make_sleeve(circle_outline(0.5), nullptr, {.height = 0.2, .around = corners});
+  return stacked(disc, disc, 0.0, {});
+}
+
+/// A pleated fan round one vertex, over which a tetrahedron slides, a corner first.
+Design tetrahedron_on_hub(int triangles) {
+  TriangleMesh hub, tetrahedron;
+  hub.vertices.emplace_back(0.0, 0.0, 0.25);
+  for (int i = 0; i < triangles; ++i) {
+    const auto [x, y] = circle_point(i, triangles);
+    hub.vertices.emplace_back(0.5 * x, 0.5 * y, i % 2 == 0 ? 0.0 : 0.25 / triangles);
+    hub.triangles.push_back({0, i + 1, (i + 1) % triangles + 1});
+  }
+  tetrahedron.vertices = {{0.0, 0.0, 0.0}, {0.2, 0.0, 0.3}, {-0.1, 0.2, 0.3}, {-0.1, -0.2, 0.3}};
+  tetrahedron.triangles = {{0, 2, 1}, {0, 3, 2}, {0, 1, 3}, {1, 2, 3}};
+  const double step = STEP * bounding_box_diagonal(tetrahedron);
+  return {std::move(tetrahedron), std::move(hub), [=](Random& random) -> Motion {
+            const Vec3 way = level(random.uniform(0.0, TAU));
+            return [=](double frame) {
+              return Pose{(frame - 0.5 * FRAMES) * step * way + 0.2505 * Vec3::UnitZ(),
+                          Eigen::Quaterniond::Identity()};
+            };
+          }};
+}
+
 /// A block that covers as many holes, or the same share of the sheet.
 Design block_on_sheet(int count, int covered) {
   constexpr double SIDE = 0.25, HOLE = 0.09375, THICKNESS = 0.0625;
@@ -217,6 +270,17 @@ std::vector<Row> rows(const PartsTimes& choice) {
       {"gears of 40 teeth, meshing", [] { return gears_in_mesh(40); }},
       {"gears of 40 teeth, one on the other", [] { return laid_on(gear(40), gear(40), 0.1); }},
       {"bolt in nut", bolt_in_nut},
+      {"combs of 8 teeth, crossed", [] { return crossed_combs(8); }},
+      {"combs of 16 teeth, crossed", [] { return crossed_combs(16); }},
+      {"combs of 24 teeth, crossed", [] { return crossed_combs(24); }},
+      {"combs of 32 teeth, crossed", [] { return crossed_combs(32); }},
+      {"gear of 40 teeth over the hole of its outline", [] { return gear_over_its_hole(40); }},
+      {"disc of 128 corners at rest on its copy", [] { return disc_on_its_copy(128); }},
+      {"disc of 512 corners at rest on its copy", [] { return disc_on_its_copy(512); }},
+      {"tetrahedron on a hub of 1000 triangles", [] { return tetrahedron_on_hub(1000); }},
+      {"tetrahedron on a hub of 10000 triangles", [] { return tetrahedron_on_hub(10000); }},
+      {"tetrahedron on a hub of 30000 triangles", [] { return tetrahedron_on_hub(30000); }},
+      {"tetrahedron on a hub of 100000 triangles", [] { return tetrahedron_on_hub(100000); }},
       {"egg crates, hill on hill", [] { return egg_crates(Crates::HILL_ON_HILL); }},
       {"egg crates, nested beyond the cutoff", [] { return egg_crates(Crates::NESTED); }},
       {"the same, trembling", [] { return egg_crates(Crates::TREMBLING); }},

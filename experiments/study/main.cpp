@@ -31,6 +31,7 @@ int main(int argc, char** argv) {
   study::add_stability(app, chosen);
   study::add_passivity(app, chosen);
   study::add_leave_out(app, chosen);
+  study::add_metamorphic(app, chosen);
   study::add_parts(app, chosen);
   study::add_roles(app, chosen);
   study::add_worlds(app, chosen);

@@ -33,6 +33,7 @@ void add_hostile(CLI::App& app, Run& chosen);
 void add_stability(CLI::App& app, Run& chosen);
 void add_passivity(CLI::App& app, Run& chosen);
 void add_leave_out(CLI::App& app, Run& chosen);
+void add_metamorphic(CLI::App& app, Run& chosen);
 void add_parts(CLI::App& app, Run& chosen);
 void add_roles(CLI::App& app, Run& chosen);
 void add_worlds(CLI::App& app, Run& chosen);

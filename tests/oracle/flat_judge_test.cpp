@@ -3,6 +3,7 @@
 #include <lmdbench/catalogue/shapes.h>
 #include <lmdbench/methods/registry.h>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <judge/flat_judge.h>
 #include <support/parts/parts_scenes.h>
@@ -168,7 +169,11 @@ TEST(FlatJudge, FindsNothingWrongInMachineParts) {
       for (std::size_t i = 0; i < POSES; ++i) {
         const FlatTruth truth(scene.scene.moving->surface(), scene.scene.fixed[0]->surface(), scene.poses[i],
                               scene.scene.cutoff);
+        const std::size_t before = faults.size();
         all += truth.judge(truth_of(scene.scene, scene.poses[i]), faults);
+        if (faults.size() > before)
+          faults +=
+              fmt::format("  {}, coordinates {}, pose {}\n", kind.name, static_cast<int>(coordinates), i);
       }
     }
   }

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include <lmdbench/mesh/polar_cone.h>
+#include <lmdbench/lmd/polar_condition.h>
 #include <lmdbench/methods/certified/hierarchy/wide_hierarchy.h>
 #include <lmdbench/methods/registry.h>
 #include <lmdbench/snch/minimum_distance.h>
@@ -77,11 +77,10 @@ bool nearest_pair_is_lmd(const Scene& scene, const Pose& X_WM) {
   const NearestPair nearest = nearest_pair(moving, scene.moving->prepared<Hierarchy>(), fixed,
                                            scene.fixed[0]->prepared<Hierarchy>(), X_WM);
   const Vec3 &p_W = nearest.pair.point_a, &q_W = nearest.pair.point_b;
-  const Pose X_MW = X_WM.inverse();
-  return in_polar_cone(moving, moving.feature_of(nearest.triangle_moving, nearest.pair.feature_a),
-                       RigidTransform(X_MW).point(p_W), X_MW.rotation * (q_W - p_W)) &&
-         in_polar_cone(fixed, fixed.feature_of(nearest.triangle_fixed, nearest.pair.feature_b), q_W,
-                       p_W - q_W);
+  // No wing leads from it to anything nearer.
+  return is_outer(moving, moving.feature_of(nearest.triangle_moving, nearest.pair.feature_a),
+                  X_WM.rotation.inverse() * (q_W - p_W)) &&
+         is_outer(fixed, fixed.feature_of(nearest.triangle_fixed, nearest.pair.feature_b), p_W - q_W);
 }
 
 /// What `certified` is compared with: the other methods that are not brute force, and FCL.

@@ -361,12 +361,7 @@ const std::array PARTS = {
                {-0.5, -0.25, -0.125, 0.125, 0.25, 0.5}, {-0.5, -0.125, 0.5}, {-0.0625, 0.0625},
                [](std::size_t i, std::size_t j) { return j == 1 && !even(i) ? NO_LAYER : ALL_LAYERS; });
          }},
-    Part{"comb",
-         [] {
-           return columns(
-               bars(8, 0.0625, 0.0625), {-0.375, -0.25, 0.375}, {-0.0625, 0.0625},
-               [](std::size_t i, std::size_t j) { return j == 1 && !even(i) ? NO_LAYER : ALL_LAYERS; });
-         }},
+    Part{"comb", [] { return make_comb(8, 0.0625); }},
     Part{"ribbed plate",
          [] {
            return columns(bars(5, 0.0625, 0.125), {-0.5, 0.5}, {-0.125, 0.0, 0.125},
@@ -546,6 +541,11 @@ const std::array PARTS = {
 };
 
 }  // namespace
+
+TriangleMesh make_comb(int teeth, double tooth) {
+  return columns(bars(teeth, tooth, tooth), {-0.375, -0.25, 0.375}, {-0.0625, 0.0625},
+                 [](std::size_t i, std::size_t j) { return j == 1 && !even(i) ? NO_LAYER : ALL_LAYERS; });
+}
 
 TriangleMesh make_perforated_sheet(int count, double side, double hole, double thickness) {
   PrismComplex solid({-thickness / 2, thickness / 2});

@@ -23,6 +23,10 @@ std::span<const Part> machine_parts();
 /// @throws UsageError for an unknown name
 TriangleMesh make_machine_part(std::string_view name);
 
+/// A back 0.125 m wide with teeth 0.625 m long.
+/// @param tooth  width of a tooth and of the gap beside it [m]
+TriangleMesh make_comb(int teeth, double tooth);
+
 /// `count` by `count` square tiles with an eight-sided hole each: 48 triangles a tile, and the rim.
 /// @param side, hole  of a tile, radius of its hole [m]
 TriangleMesh make_perforated_sheet(int count, double side, double hole, double thickness);

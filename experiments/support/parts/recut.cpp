@@ -89,6 +89,10 @@ TriangleMesh recut(TriangleMesh mesh, experiments::Random& random) {
       mesh.triangles.push_back({middle, d.from, d.right_tip});
       return true;
     });
+  return reordered(other_diagonals(std::move(mesh), random), random);
+}
+
+TriangleMesh other_diagonals(TriangleMesh mesh, experiments::Random& random) {
   for (int pass = 0; pass < 3; ++pass) {
     for_some(mesh, TURNED_SHARE, random, [&](const Diamond& d) {
       if (!can_turn(mesh, d)) return false;
@@ -97,10 +101,16 @@ TriangleMesh recut(TriangleMesh mesh, experiments::Random& random) {
       return true;
     });
   }
+  return mesh;
+}
+
+TriangleMesh reordered(TriangleMesh mesh, experiments::Random& random) {
+  const std::vector<Vec3>& vertices = mesh.vertices;
   std::vector<std::size_t> order(vertices.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   shuffle(order, random);
   TriangleMesh result;
+  result.planar_tolerance = mesh.planar_tolerance;
   std::vector<std::int32_t> number(order.size());
   for (const std::size_t v : order) {
     number[v] = static_cast<std::int32_t>(result.vertices.size());

@@ -14,4 +14,8 @@ namespace lmdbench::parts {
 /// @pre triangles that share an edge agree on its orientation, and are two at most
 TriangleMesh recut(TriangleMesh mesh, experiments::Random& random);
 
+/// The last two steps of it alone: diagonals turned; vertices, triangles and corners in another order.
+TriangleMesh other_diagonals(TriangleMesh mesh, experiments::Random& random);
+TriangleMesh reordered(TriangleMesh mesh, experiments::Random& random);
+
 }  // namespace lmdbench::parts

@@ -1,0 +1,208 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <fmt/format.h>
+#include <judge/distance_bracket.h>
+#include <judge/exact_distance.h>
+#include <judge/rest_judge.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+namespace lmdbench::exact {
+namespace {
+
+/// Of the largest coordinate: what numbers of an answer may be off.
+constexpr double ROUNDING_SHARE = 128.0 * std::numeric_limits<double>::epsilon();
+/// Sines: how far planes of meshes in double and in single precision are from where they were drawn.
+constexpr double TILT = 1e-7, TILT_OF_FLOATS = 1e-4;
+/// Planar tolerances that a mesh which was put back into its planes may be off them by.
+constexpr double TOLERANCES_OF_FLOATS = 8.0;
+/// A foot is on its feature to so many tolerances: borders that lean, and planes of a few roundings each.
+constexpr double ON_FEATURE = 8.0;
+/// Of two features whose border a point is near to, in shares of the coordinates, either may be named (DEFINITION.md).
+constexpr double NAMING = 2e-9;
+/// A distance down to this many tolerances may be one of intersecting triangles.
+constexpr double TOUCHING = 2.0;
+/// Two conditions that hold to rounding each hold together at directions up to this many times as far off.
+constexpr double BOTH_CONES = 4.0;
+
+struct WorldTriangle {
+  Triangle corners;
+  Eigen::AlignedBox3d box_D;  ///< In the frame of the design, where triangles lie along the axes.
+};
+
+std::vector<WorldTriangle> world_triangles(const Surface& surface, const RigidTransform& X_WS,
+                                           const RigidTransform& X_DW) {
+  std::vector<WorldTriangle> result;
+  for (std::size_t i = 0; i < surface.mesh.triangles.size(); ++i) {
+    WorldTriangle t{X_WS.triangle(surface.mesh.triangle(static_cast<std::int32_t>(i))), {}};
+    for (const Vec3& p : t.corners) t.box_D.extend(X_DW.point(p));
+    result.push_back(t);
+  }
+  return result;
+}
+
+/// A feature with its ends as a triangle, corners twice where it has fewer.
+Triangle corners_of(const Surface& surface, const FeatureId& feature, const RigidTransform& X_WS) {
+  const FeatureCorners corners(surface, feature);
+  Triangle result;
+  for (std::size_t i = 0; i < 3; ++i)
+    result[i] = X_WS.point(
+        surface.mesh
+            .vertices[static_cast<std::size_t>(corners.view()[std::min(i, corners.view().size() - 1)])]);
+  return result;
+}
+
+Vec3 normal_of(const Triangle& t) {
+  return (t[1] - t[0]).cross(t[2] - t[0]).normalized();
+}
+
+std::string text_of(const Lmd& lmd) {
+  const Vec3 &p = lmd.point_moving, &q = lmd.point_fixed, &u = lmd.direction;
+  return fmt::format(
+      "{}{} {}, {} {} at distance {:.6g}, {:.9g} {:.9g} {:.9g} to {:.9g} {:.9g} {:.9g}, direction "
+      "{:.6g} {:.6g} {:.6g}",
+      lmd.intersecting ? "intersecting " : "", to_string(lmd.feature_moving.kind), lmd.feature_moving.index,
+      to_string(lmd.feature_fixed.kind), lmd.feature_fixed.index, lmd.distance, p.x(), p.y(), p.z(), q.x(),
+      q.y(), q.z(), u.x(), u.y(), u.z());
+}
+
+std::string text_of(const parts::RestPlace& place, const RigidTransform& X_WD) {
+  const Vec3 u = X_WD.direction(place.direction), at = X_WD.point(place.box.center());
+  return fmt::format("{} at gap {:.6g} near {:.6g} {:.6g} {:.6g}, direction {:.6g} {:.6g} {:.6g}",
+                     place.dimension == 2   ? "faces"
+                     : place.dimension == 1 ? "edges"
+                                            : "corners",
+                     place.gap, at.x(), at.y(), at.z(), u.x(), u.y(), u.z());
+}
+
+}  // namespace
+
+RestTruth::RestTruth(const parts::RestScene& scene)
+    : scene_(scene), X_WM_(scene.X_WM), X_DW_(scene.X_WD.inverse()) {
+  const TriangleMesh &moving = scene.scene.moving->surface().mesh,
+                     &fixed = scene.scene.fixed[0]->surface().mesh;
+  double largest = 0.0;
+  for (const Vec3& p : moving.vertices)
+    largest = std::max({largest, p.cwiseAbs().maxCoeff(), X_WM_.point(p).cwiseAbs().maxCoeff()});
+  for (const Vec3& p : fixed.vertices) largest = std::max(largest, p.cwiseAbs().maxCoeff());
+  rounding_ = ROUNDING_SHARE * largest;
+  tolerance_ = rounding_ + TOLERANCES_OF_FLOATS * (moving.planar_tolerance + fixed.planar_tolerance);
+  // A float mesh whose planes were left as they are says nothing of it.
+  if (scene.single_precision)
+    tolerance_ = std::max(tolerance_, TOLERANCES_OF_FLOATS * std::numeric_limits<float>::epsilon() * largest);
+  tilt_ = scene.single_precision ? TILT_OF_FLOATS : TILT;
+  find_nearest();
+}
+
+void RestTruth::find_nearest() {
+  const auto moving = world_triangles(scene_.scene.moving->surface(), X_WM_, X_DW_);
+  const auto fixed = world_triangles(scene_.scene.fixed[0]->surface(), RigidTransform(), X_DW_);
+  long double low = std::numeric_limits<long double>::infinity(), high = low;
+  for (const WorldTriangle& a : moving)
+    for (const WorldTriangle& b : fixed) {
+      if (static_cast<long double>(a.box_D.exteriorDistance(b.box_D) - rounding_) > high) continue;
+      const testing::DistanceBracket bracket = testing::distance_bracket(a.corners, b.corners);
+      low = std::min(low, bracket.low);
+      high = std::min(high, bracket.high);
+      intersecting_ = intersecting_ || (bracket.low <= 0.0L && testing::exactly_touch(a.corners, b.corners));
+    }
+  nearest_low_ = static_cast<double>(low);
+  nearest_high_ = static_cast<double>(high);
+}
+
+bool RestTruth::is_true(const Lmd& lmd, std::string& why) const {
+  const Vec3 d = lmd.point_fixed - lmd.point_moving;
+  if (!(std::abs(d.norm() - lmd.distance) <= rounding_)) why += " points are at another distance;";
+  if (lmd.intersecting) {
+    // The centroid of what triangles share, which may lie in a hole of it.
+    if (lmd.distance != 0.0) why += " intersecting at a distance;";
+    return why.empty();
+  }
+  const Triangle on_moving = corners_of(scene_.scene.moving->surface(), lmd.feature_moving, X_WM_),
+                 on_fixed = corners_of(scene_.scene.fixed[0]->surface(), lmd.feature_fixed, RigidTransform());
+  const bool of_faces =
+      lmd.feature_moving.kind == FeatureKind::FACE && lmd.feature_fixed.kind == FeatureKind::FACE;
+  const auto off = [&](const Vec3& p, const Triangle& t) {
+    // The middle of a ring is in its plane.
+    return of_faces ? std::abs(normal_of(t).dot(p - t[0])) : testing::exact_distance(p, t);
+  };
+  const double off_moving = off(lmd.point_moving, on_moving), off_fixed = off(lmd.point_fixed, on_fixed);
+  const double on_feature = ON_FEATURE * tolerance_ + NAMING * rounding_ / ROUNDING_SHARE;
+  if (!(off_moving <= on_feature))
+    why += fmt::format(" the moving point is {:.3g} off its feature;", off_moving);
+  if (!(off_fixed <= on_feature))
+    why += fmt::format(" the fixed point is {:.3g} off its feature;", off_fixed);
+  if (of_faces) {
+    const Vec3 m = normal_of(on_moving), n = normal_of(on_fixed);
+    if (!((lmd.direction - m).norm() <= 2.0 * tilt_ && (lmd.direction + n).norm() <= 2.0 * tilt_))
+      why += " the direction is not that of the planes;";
+    if (!(std::abs(m.dot(d) - lmd.distance) <= tolerance_)) why += " the planes are at another distance;";
+  } else if (lmd.distance > TOUCHING * tolerance_ &&
+             !((lmd.direction - d / d.norm()).norm() <= BOTH_CONES * (tolerance_ / lmd.distance + tilt_))) {
+    why += " the direction is not along the points;";
+  }
+  return why.empty();
+}
+
+bool RestTruth::is_at(const parts::RestPlace& place, const Lmd& lmd) const {
+  if (std::abs(lmd.distance - place.gap) > TOUCHING * tolerance_) return false;
+  const double reach = TOUCHING * (tolerance_ + place.gap);
+  for (const Vec3& p : {lmd.point_moving, lmd.point_fixed})
+    if (place.box.exteriorDistance(X_DW_.point(p)) > reach) return false;
+  // Two points that are near each other know their direction the worse.
+  const bool of_planes = place.dimension == 2 && lmd.feature_moving.kind == FeatureKind::FACE &&
+                         lmd.feature_fixed.kind == FeatureKind::FACE;
+  const double known = of_planes ? 2.0 * tilt_ : 2.0 * tilt_ + BOTH_CONES * tolerance_ / lmd.distance;
+  return lmd.intersecting || !(known < 1.0) ||
+         (X_DW_.direction(lmd.direction) - place.direction).norm() <= known;
+}
+
+RestVerdict RestTruth::judge(const LmdSet& lmds) const {
+  RestVerdict verdict;
+  const auto object = [&](RestFault fault, const std::string& what) {
+    const auto kind = static_cast<std::size_t>(fault);
+    ++verdict.faults[kind];
+    verdict.objections += fmt::format("  {}: {}\n", REST_FAULT_NAMES[kind], what);
+  };
+  const double least = lmds.empty() ? std::numeric_limits<double>::infinity() : minimum_distance(lmds);
+  if (!(least >= nearest_low_ - tolerance_ && least <= nearest_high_ + tolerance_))
+    object(RestFault::NEAREST, fmt::format("{:.6g} where the meshes are {:.6g} apart{}", least, nearest_high_,
+                                           intersecting_ ? ", intersecting" : ""));
+  // Of intersecting triangles the definition says that they are contacts, not how many.
+  const auto touches = [&](double distance) { return intersecting_ && distance <= TOUCHING * tolerance_; };
+  // Meshes in single precision have gaps below what they are known to, of which nothing is known.
+  const auto is_open = [&](const parts::RestPlace& place) {
+    return touches(place.gap) || (scene_.single_precision && place.gap <= TOUCHING * tolerance_);
+  };
+  // Where edges or corners touch to rounding the faces beside them may have an LMD each (DEFINITION.md).
+  const auto is_loose = [&](const parts::RestPlace& place) {
+    return place.dimension < 2 && place.gap <= BOTH_CONES * tolerance_;
+  };
+  // An LMD next to touch, whose direction is not known, may be at several places: it doubles none.
+  std::vector<std::size_t> held(scene_.places.size(), 0), alone = held;
+  for (const Lmd& lmd : lmds) {
+    std::string why;
+    if (!is_true(lmd, why)) object(RestFault::UNTRUE, text_of(lmd) + ":" + why);
+    std::vector<std::size_t> places;
+    for (std::size_t i = 0; i < held.size(); ++i)
+      if (is_at(scene_.places[i], lmd)) places.push_back(i);
+    for (const std::size_t i : places) ++held[i];
+    if (places.size() == 1) ++alone[places.front()];
+    if (places.empty() && !touches(lmd.distance)) object(RestFault::UNEXPECTED, text_of(lmd));
+  }
+  for (std::size_t i = 0; i < held.size(); ++i) {
+    const parts::RestPlace& place = scene_.places[i];
+    if (is_open(place)) continue;
+    if (held[i] == 0 && place.demanded)
+      object(RestFault::MISSING, text_of(place, RigidTransform(scene_.X_WD)));
+    if (alone[i] > 1 && !is_loose(place))
+      object(RestFault::DOUBLED,
+             fmt::format("{} LMDs of ", alone[i]) + text_of(place, RigidTransform(scene_.X_WD)));
+  }
+  return verdict;
+}
+
+}  // namespace lmdbench::exact

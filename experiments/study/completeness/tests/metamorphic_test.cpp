@@ -1,0 +1,115 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/mesh/validity.h>
+
+#include <gtest/gtest.h>
+#include <study/completeness/metamorphic.h>
+
+#include <string>
+
+/// Nothing that leaves the shapes and their places alone changes the answer.
+namespace lmdbench::completeness {
+namespace {
+
+constexpr double ROUNDING = 1e-14, KNOWN = 1e-9, CUTOFF = 1.0;
+
+LmdSet at_distances(std::initializer_list<double> distances, FeatureKind kind = FeatureKind::VERTEX) {
+  LmdSet lmds;
+  for (const double distance : distances) {
+    lmds.emplace_back();
+    lmds.back().distance = distance;
+    lmds.back().feature_moving.kind = lmds.back().feature_fixed.kind = kind;
+  }
+  return lmds;
+}
+
+Difference difference(const LmdSet& a, const LmdSet& b, double scale = 1.0) {
+  ScenePair pair;
+  pair.cutoff = CUTOFF;
+  pair.open = {0.75};
+  return compare(pair, a, b, scale, {ROUNDING, KNOWN});
+}
+
+TEST(Metamorphic, ComparesCountsAndDistances) {
+  const LmdSet set = at_distances({0.25, 0.5});
+  EXPECT_FALSE(difference(set, set).differs);
+  EXPECT_FALSE(difference(set, at_distances({0.5, 1.0}), 2.0).bits_differ);
+  EXPECT_TRUE(difference(set, at_distances({0.25})).differs);
+  EXPECT_TRUE(difference(set, at_distances({0.25, 0.5 + 1e-12})).differs);
+  EXPECT_FALSE(difference(set, at_distances({0.25, 0.5 + 1e-15})).differs);
+  EXPECT_TRUE(difference(set, at_distances({0.25, 0.5 + 1e-15})).bits_differ);
+  // Extended contacts are reported at their centroids.
+  const LmdSet faces = at_distances({0.5}, FeatureKind::FACE);
+  EXPECT_FALSE(difference(faces, at_distances({0.5 + 1e-10}, FeatureKind::FACE)).differs);
+  EXPECT_TRUE(difference(faces, at_distances({0.5 + 1e-8}, FeatureKind::FACE)).differs);
+}
+
+TEST(Metamorphic, NamesWhatTouchesAndWhatLiesAtTheCutoff) {
+  LmdSet one = at_distances({0.0, 0.5}), two = at_distances({0.0, 0.0, 0.5});
+  // Contacts at 0 are told apart where nothing intersects.
+  EXPECT_TRUE(difference(one, two).differs);
+  two[0].intersecting = two[1].intersecting = true;
+  EXPECT_FALSE(difference(one, two).differs);
+  EXPECT_TRUE(difference(one, two).tie);
+  EXPECT_TRUE(difference(at_distances({0.5}), two).differs) << "nothing touches in the first";
+  const LmdSet at_cutoff = at_distances({0.5, CUTOFF});
+  EXPECT_FALSE(difference(at_distances({0.5}), at_cutoff).differs);
+  EXPECT_TRUE(difference(at_distances({0.5}), at_cutoff).tie);
+  EXPECT_FALSE(difference(at_distances({0.5}), at_distances({0.5, 0.75})).differs);
+  EXPECT_TRUE(difference(at_distances({0.5}), at_distances({0.5, 0.7})).differs);
+}
+
+/// The scenes that a short test looks at; a table over more is lmdbench-study metamorphic.
+constexpr std::uint64_t SEED = 3;
+
+TEST(Metamorphic, ChangesLeaveShapesAlone) {
+  experiments::Random random(SEED);
+  const ScenePair pair = pair_of(make_rest_scene(parts::rest_fit("U on rail"), SEED, 0));
+  const auto volume = [](const TriangleMesh& mesh) {
+    return check_mesh(build_surface(mesh)).volume.value_or(0.0);
+  };
+  for (const Change& change : metamorphic_changes()) {
+    double scale = 1.0;
+    const ScenePair changed = change.make(pair, random, scale);
+    const std::string name = change.name;
+    const double cubed = scale * scale * scale, sum = volume(pair.moving) + volume(pair.fixed),
+                 sum_after = volume(changed.moving) + volume(changed.fixed);
+    if (name == "far parts more") {
+      EXPECT_GT(sum_after, 1.01 * sum);
+    } else if (name == "far triangles less") {
+      EXPECT_LE(changed.moving.triangles.size(), pair.moving.triangles.size());
+    } else {
+      EXPECT_NEAR(sum_after, cubed * sum, 1e-12 * cubed * sum) << name;
+    }
+    if (name.starts_with("cut ")) {
+      EXPECT_GT(changed.fixed.triangles.size(), pair.fixed.triangles.size()) << name;
+    }
+    if (name == "in another order" || name == "other diagonals") {
+      EXPECT_EQ(changed.fixed.triangles.size(), pair.fixed.triangles.size()) << name;
+      EXPECT_NE(changed.fixed.triangles, pair.fixed.triangles) << name;
+    }
+  }
+}
+
+void expect_same_answers(const ScenePair& pair, std::uint64_t seed, const std::string& what) {
+  experiments::Random random(seed);
+  const LmdSet truth = set_of("exhaustive", pair);
+  for (const Change& change : metamorphic_changes()) {
+    std::string objection;
+    const MetamorphicCounts counts = judge_change(pair, truth, change, random, objection);
+    EXPECT_FALSE(counts.is_wrong(change)) << what << "\n" << objection;
+  }
+}
+
+TEST(Metamorphic, NothingChangesTheAnswerAtRest) {
+  std::uint64_t seed = 0;
+  for (const parts::RestFit& fit : parts::rest_fits()) {
+    for (std::size_t index = 0; index < 2; ++index) {
+      const parts::RestScene scene = make_rest_scene(fit, SEED, index);
+      expect_same_answers(pair_of(scene), ++seed, scene.text);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace lmdbench::completeness

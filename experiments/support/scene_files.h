@@ -1,0 +1,18 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <lmdbench/lmd/scene.h>
+
+#include <filesystem>
+#include <string>
+
+namespace lmdbench::experiments {
+
+/// Leaves both meshes of a scene and a pose as files that `lmdbench query` reads.
+/// @param folder is made where there is none
+/// @return the command that answers
+std::string write_scene(const Scene& scene, const Pose& X_WM, const std::string& method,
+                        const std::filesystem::path& folder);
+
+}  // namespace lmdbench::experiments

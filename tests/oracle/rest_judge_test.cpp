@@ -1,0 +1,96 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/methods/registry.h>
+
+#include <gtest/gtest.h>
+#include <judge/rest_judge.h>
+
+#include <algorithm>
+#include <string>
+
+namespace lmdbench::exact {
+namespace {
+
+LmdSet set_of(const char* method, const parts::RestScene& scene) {
+  LmdSet lmds;
+  WorkCounters counters;
+  make_method(method, scene.scene)->search(scene.X_WM, lmds, counters);
+  return lmds;
+}
+
+std::size_t faults(const RestVerdict& verdict, RestFault fault) {
+  return verdict.faults[static_cast<std::size_t>(fault)];
+}
+
+/// A box between two walls and on a floor, apart in all directions by gaps that differ.
+parts::RestScene apart() {
+  for (std::size_t index = 0;; ++index) {
+    parts::RestScene scene = make_rest_scene(parts::rest_fit("box in channel"), 1, index);
+    const auto is_apart = [&](const parts::RestPlace& place) {
+      return place.demanded && place.gap >= 0.9e-6 * scene.size;
+    };
+    if (scene.places.size() == 3 && !scene.single_precision && std::ranges::all_of(scene.places, is_apart) &&
+        scene.places[0].gap != scene.places[1].gap)
+      return scene;
+  }
+}
+
+/// The answer by construction: a pair of faces in the middle of each place.
+LmdSet right_answer(const parts::RestScene& scene) {
+  LmdSet lmds = set_of("exhaustive", scene);
+  std::erase_if(lmds, [&](const Lmd& lmd) { return lmd.intersecting; });
+  return lmds;
+}
+
+TEST(RestJudge, AcceptsWhatIsRightAndSeesEveryFault) {
+  const parts::RestScene scene = apart();
+  const RestTruth truth(scene);
+  ASSERT_FALSE(truth.intersecting());
+  const LmdSet right = right_answer(scene);
+  ASSERT_EQ(right.size(), 3u) << scene.text;
+  EXPECT_EQ(truth.judge(right).objections, "") << scene.text;
+
+  LmdSet lmds(right.begin() + 1, right.end());
+  EXPECT_EQ(faults(truth.judge(lmds), RestFault::MISSING), 1u);
+  EXPECT_EQ(faults(truth.judge(lmds), RestFault::NEAREST), 1u);
+  EXPECT_EQ(faults(truth.judge({}), RestFault::NEAREST), 1u);
+  lmds = right;
+  lmds.push_back(right.back());
+  EXPECT_EQ(faults(truth.judge(lmds), RestFault::DOUBLED), 1u);
+  // Two contacts at a mean distance, between their directions.
+  lmds = right;
+  lmds[1].direction = (right[0].direction + right[1].direction).normalized();
+  EXPECT_EQ(faults(truth.judge(lmds), RestFault::UNTRUE), 1u);
+  EXPECT_EQ(faults(truth.judge(lmds), RestFault::UNEXPECTED), 1u);
+  lmds = right;
+  lmds[1].distance += 10.0 * truth.tolerance();
+  EXPECT_EQ(faults(truth.judge(lmds), RestFault::UNTRUE), 1u);
+  EXPECT_EQ(faults(truth.judge(lmds), RestFault::MISSING), 1u);
+  lmds = right;
+  lmds[1].point_moving += 10.0 * truth.tolerance() * lmds[1].direction;
+  EXPECT_EQ(faults(truth.judge(lmds), RestFault::UNTRUE), 1u);
+}
+
+/// Poses of each fit; a table over more is lmdbench-judge rest.
+constexpr std::size_t POSES = 15;
+
+TEST(RestJudge, FindsNothingWrongWherePartsRest) {
+  std::size_t intersecting = 0, poses = 0, demanded = 0;
+  for (const parts::RestFit& fit : parts::rest_fits()) {
+    for (std::size_t index = 0; index < POSES; ++index) {
+      const parts::RestScene scene = make_rest_scene(fit, 7, index);
+      const RestTruth truth(scene);
+      ++poses;
+      intersecting += truth.intersecting();
+      for (const parts::RestPlace& place : scene.places) demanded += place.demanded;
+      for (const char* method : {"exhaustive", "certified"})
+        EXPECT_EQ(truth.judge(set_of(method, scene)).objections, "") << method << ": " << scene.text;
+    }
+  }
+  // The judge has something to say.
+  EXPECT_LT(2 * intersecting, poses);
+  EXPECT_GT(demanded, poses);
+}
+
+}  // namespace
+}  // namespace lmdbench::exact
