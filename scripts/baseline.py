@@ -17,10 +17,14 @@ import subprocess
 import sys
 import tempfile
 
-import h5py
-import numpy as np
-
 ROOT = os.path.abspath(os.path.join(os.path.dirname(os.path.abspath(__file__)), ".."))
+sys.path.insert(0, os.path.join(ROOT, "scripts", "figures"))
+
+import interpreter  # noqa: E402, F401  (chooses one that has what follows)
+
+import h5py  # noqa: E402
+import numpy as np  # noqa: E402
+
 FOLDER = os.path.join(ROOT, "results", "baseline")
 # Generated or committed meshes only: no scene needs the network. Probes cost time and say nothing about the methods.
 SCENES = {

@@ -17,7 +17,7 @@
 #                         as scripts/ci/regression.py has them: 6, 24, 0.05, none, 0.01
 # Exit code: 0 same or faster; 1 slower or changed, or the candidate does not build or run; 2 usage; 3 no comparison, because
 # the base does not build or run or the environment lacks something; 4 unsure, and nothing else. Every outcome but 2 leaves
-# verdict.md and junit.xml in DIR; what does not build or run is an error there, not a failure.
+# verdict.md and junit.xml in DIR, which say the same; what does not build or run is an error there, not a failure.
 set -euo pipefail
 # shellcheck source=scripts/lib.sh
 source "$(dirname "${BASH_SOURCE[0]}")/lib.sh"
@@ -75,11 +75,8 @@ base="$(commit_of "${revisions[0]}")"
 candidate="$(commit_of "${revisions[1]:-HEAD}")"
 out="$(mkdir -p "$out" && cd "$out" && pwd)"
 
-# broken CODE STEP MESSAGE LOG: an outcome without a comparison, as reports and exit code.
-broken() {
-  python3 "$ROOT/scripts/ci/outcome.py" "$out" "$2" "$3" "$4" || true
-  die "$1" "$3, see $4"
-}
+# broken SIDE STEP MESSAGE LOG: an outcome without a comparison. Its reports and exit code: scripts/ci/outcome.py.
+broken() { exec python3 "$ROOT/scripts/ci/outcome.py" "$out" "$@"; }
 
 # build_revision COMMIT: $out/tree/COMMIT/build/release/lmdbench, compiled as users' programs are, but for precompiled headers,
 # which ccache keeps only with settings of the user's. All worktrees share its hits: paths below a worktree do not count.
@@ -101,11 +98,11 @@ say "candidate $candidate"
 rm -f "$out/verdict.md" "$out/junit.xml"
 # The base first: what builds the base can build, so a candidate that then does not build is at fault itself.
 build_revision "$base" ||
-  broken 3 "base, build" "no comparison: the base $base does not build, or this machine cannot build it" "$out/build-$base.log"
+  broken base build "the base $base does not build, or this machine cannot build it" "$out/build-$base.log"
 build_revision "$candidate" ||
-  broken 1 "candidate, build" "the candidate $candidate does not build" "$out/build-$candidate.log"
+  broken candidate build "the candidate $candidate does not build" "$out/build-$candidate.log"
 program="$out/tree/$candidate/build/release/lmdbench"
-"$program" --help >"$out/start.log" 2>&1 || broken 1 "candidate, run" "the candidate $candidate does not start" "$out/start.log"
+"$program" --help >"$out/start.log" 2>&1 || broken candidate run "the candidate $candidate does not start" "$out/start.log"
 judge="${judge:-$program}"
 [[ "$("$judge" compare --help 2>/dev/null || true)" == *--false-alarm* ]] ||
   die 2 "$judge knows no 'compare --false-alarm' (remedy: --judge with a program that does)"

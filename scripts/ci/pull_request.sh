@@ -6,7 +6,7 @@
 #
 #   scripts/ci/pull_request.sh BASE_REV CANDIDATE_REV [option]...
 #
-# GitHub Actions (it sets GITHUB_ACTIONS): verdict.md is appended to the job's summary, an annotation names the outcome, and
+# GitHub Actions (it sets GITHUB_ACTIONS): verdict.md is appended to the job's summary, an annotation says its first line, and
 # "unsure" passes with a notice. Elsewhere the exit code is that of ci_regression.sh: GitLab takes 4 for a warning
 # (allow_failure).
 set -euo pipefail
@@ -20,11 +20,13 @@ status=0
 "$ROOT/scripts/ci_regression.sh" "$@" --out "$out" || status=$?
 if [[ ${GITHUB_ACTIONS:-} == true ]]; then
   [[ ! -s $out/verdict.md || -z ${GITHUB_STEP_SUMMARY:-} ]] || cat "$out/verdict.md" >>"$GITHUB_STEP_SUMMARY"
+  # The verdict and why, a line between asterisks, as the service wants it escaped.
+  headline="$(sed -n '1{s/^\*\*//;s/\*\*$//;s/%/%25/g;p}' "$out/verdict.md" 2>/dev/null || true)"
+  headline="${headline:-no comparison (exit code $status): see the log}"
   case "$status" in
     0) ;;
-    1) echo "::error::the candidate is slower, behaves otherwise, or does not build or run: see the summary" ;;
-    4) echo "::notice::unsure: this runner's times do not decide" && status=0 ;;
-    *) echo "::error::no comparison (exit code $status): see the log" ;;
+    4) echo "::notice::$headline" && status=0 ;;
+    *) echo "::error::$headline" ;;
   esac
 fi
 exit "$status"

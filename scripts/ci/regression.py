@@ -1,7 +1,8 @@
 # SPDX-FileCopyrightText: The lmdbench authors
 # SPDX-License-Identifier: BSD-3-Clause
 """When are two programs' times told apart: which processes are run, and which verdict of `lmdbench compare` stands. The rule
-of scripts/ci_regression.sh, which builds the programs and calls this; scripts/ci/verdict_study.py measures the same code.
+of scripts/ci_regression.sh, which builds the programs and calls this; scripts/ci/verdict_study.py measures the same code. What is
+seen is evidence; scripts/ci/outcome.py makes the verdict of it, and every report.
 
     python3 scripts/ci/regression.py --base PROGRAM --candidate PROGRAM --experiment FILE --out DIR [option]...
 
@@ -9,7 +10,7 @@ Every round runs three processes in an order of its own (the six orders, shuffle
 base again as a null control, the candidate. The judge is the candidate's `lmdbench compare`, or that of --judge:
 
   1. Results and counters, exactly, after one round: a difference ends it, `changed`.
-  2. Instructions under callgrind (scripts/ci/instructions.sh), which no noise touches: more of them end it, `slower`.
+  2. Instructions under callgrind (scripts/ci/instructions.py), which no noise touches: more of them end it, `slower`.
   3. Times, after --pairs rounds: the candidate against both series of the base together. `same` and `faster` end it. Else
      there are as many rounds again, until --most. A stage that looks slower (a false alarm of SUSPICION over all stages) is
      a suspect, and `slower` only once the next rounds alone, which know nothing of the first, put it above 1, too (95 %,
@@ -20,8 +21,9 @@ base again as a null control, the candidate. The judge is the candidate's `lmdbe
 A candidate that makes another experiment of the same scene file (another default) is `changed`, too. One whose run fails where
 the base's does not is `broken`, as is the base's or a judge's own failure, with an exit code of its own.
 
-Prints the verdict's table and a last line with the reason; leaves verdict.md and junit.xml. Exit code: 0 same or faster,
-1 slower or changed, or the candidate does not run; 3 no comparison, because the base or a foreign judge does not run; 4 unsure."""
+Prints tables and a last line with the verdict and its reason; leaves the same as verdict.md, and junit.xml. Exit code: 0 same or
+faster, 1 slower or changed, or the candidate does not run; 3 no comparison, because the base or a foreign judge does not run;
+4 unsure."""
 
 import argparse
 import json
@@ -33,6 +35,7 @@ import subprocess
 import sys
 import time
 
+import instructions
 import outcome
 
 ROOT = os.path.abspath(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", ".."))
@@ -41,9 +44,6 @@ SUSPICION = 0.05
 NAMES = ("base", "null", "cand")
 ORDERS = (("base", "cand", "null"), ("base", "null", "cand"), ("cand", "base", "null"), ("cand", "null", "base"),
           ("null", "base", "cand"), ("null", "cand", "base"))
-EXIT_CODES = {"same": 0, "faster": 0, "slower": 1, "changed": 1, "unsure": 4}
-EXIT_CANDIDATE_BROKEN = 1
-EXIT_NO_COMPARISON = 3
 # How `lmdbench compare` refuses results of different experiments (DIFFERENT_EXPERIMENTS of comparison/compare.h).
 OTHER_EXPERIMENT = "is of another experiment than"
 
@@ -90,6 +90,7 @@ class Regression:
         self.run_process = run or self.subprocess_run
         self.say = say
         self.rounds = 0
+        self.confirmed = set()  # the (method, stage) pairs that are slower for sure
         self.looks = []  # what was seen when, for studies of the rule
 
     @staticmethod
@@ -128,8 +129,8 @@ class Regression:
             raise Broken("candidate" if own else "judge", f"lmdbench compare left with {done.returncode}", done.stderr)
         return done.stdout
 
-    def against_base(self, first=0):
-        return json.loads(self.compare(("base", "null"), ("cand",), first, ("--json", "--false-alarm", str(SUSPICION))))
+    def against_base(self, first=0, options=()):
+        return json.loads(self.compare(("base", "null"), ("cand",), first, ("--json", "--false-alarm", str(SUSPICION), *options)))
 
     def against_itself(self):
         return json.loads(self.compare(("base",), ("null",)))
@@ -158,10 +159,10 @@ class Regression:
             trusted = null in ("same", "unsure")
             if suspects and trusted:
                 alone = self.against_base(fresh)
-                confirmed = sorted((t["method"], t["stage"]) for t in alone["timings"]
-                                   if (t["method"], t["stage"]) in suspects - stages(answer, "same") and known(t["low"], 0.0) > 1.0)
-                if confirmed:
-                    named = ", ".join(f"{method}'s {stage}" for method, stage in confirmed)
+                self.confirmed = {(t["method"], t["stage"]) for t in alone["timings"]
+                                  if (t["method"], t["stage"]) in suspects - stages(answer, "same") and known(t["low"], 0.0) > 1.0}
+                if self.confirmed:
+                    named = ", ".join(f"{method}'s {stage}" for method, stage in sorted(self.confirmed))
                     return "slower", f"{named}: confirmed by {self.rounds - fresh} fresh rounds"
             if word in ("same", "faster") and trusted:
                 return word, f"sure; the base is {null} against itself"
@@ -173,31 +174,35 @@ class Regression:
             self.run(min(self.rounds, most - self.rounds))
 
 
-def instructions(arguments, scene):
-    """The gate on instruction counts: a verdict and its reason, or None."""
-    status = subprocess.run([os.path.join(ROOT, "scripts", "ci", "instructions.sh"), arguments.base, arguments.candidate,
-                             scene[0], arguments.instructions, os.path.join(arguments.out, "callgrind"), *scene[1:]],
-                            check=False, stdin=subprocess.DEVNULL).returncode
-    if status == 1:
-        return "slower", "more instructions, counted by callgrind, see above"
-    if status != 0:
-        print("instructions were not counted, see above", file=sys.stderr)
-    return None
+def seconds(file):
+    """{(method, stage): one number a process} of times in Google Benchmark's format."""
+    found = {}
+    with open(file, encoding="utf-8") as stream:
+        for row in json.load(stream)["benchmarks"]:
+            method, stage = row["name"].rsplit("/", 1)
+            found.setdefault((method, stage.replace("_", " ")), []).append(1e-9 * row["real_time"])
+    return found
 
 
-def report(regression, out):
-    """The full table of the candidate against the base, and the files for other tools."""
-    files = ("--junit", os.path.join(out, "junit.xml"), "--benchmark", os.path.join(out, "candidate.json"),
-             "--benchmark-base", os.path.join(out, "base.json"))
+def gather(regression, arguments, evidence):
+    """Looks at one thing after another until one decides; what was seen is in `evidence`, whatever happens."""
     try:
-        table = regression.compare(("base", "null"), ("cand",), 0, files)
-        markdown = regression.compare(("base", "null"), ("cand",), 0, ("--markdown",))
+        if regression.behaviour() is None:
+            if evidence.share > 0.0:
+                try:
+                    evidence.instructions = instructions.compared(regression.programs["base"], regression.programs["cand"], regression.scene,
+                                                                  os.path.join(arguments.out, "callgrind"), ROOT)
+                except instructions.NotCounted as error:
+                    evidence.not_counted = str(error)
+            if not any(check.word == "slower" for check in outcome.instruction_checks(evidence)):
+                evidence.times = outcome.Times(*regression.times(arguments.pairs, arguments.most), regression.confirmed)
+        files = {side: os.path.join(arguments.out, side + ".json") for side in ("base", "candidate")}
+        evidence.answer = regression.against_base(0, ("--benchmark", files["candidate"], "--benchmark-base", files["base"]))
+        evidence.seconds = {side: seconds(file) for side, file in files.items()}
     except OtherExperiment as error:  # no table: nothing of two experiments can be compared
-        outcome.write_failure(out, "experiment", str(error))
-        return
-    with open(os.path.join(out, "verdict.md"), "w", encoding="utf-8") as stream:
-        stream.write(markdown)
-    print(table, end="", flush=True)
+        evidence.other_experiment = str(error)
+    except Broken as error:
+        evidence.failure = outcome.Failure(error.side, "run", str(error), error.log)
 
 
 def main(words=None):
@@ -231,23 +236,9 @@ def main(words=None):
     own = not arguments.judge or os.path.samefile(arguments.judge, arguments.candidate)
     regression = Regression(programs, programs["cand"] if own else os.path.abspath(arguments.judge), scene, results,
                             arguments.threshold, arguments.allow, say=lambda text: print(text, file=sys.stderr))
-    started = time.monotonic()
-    try:
-        decision = regression.behaviour()
-        if decision is None and float(arguments.instructions) > 0.0:
-            decision = instructions(arguments, scene)
-        word, why = decision or regression.times(arguments.pairs, arguments.most)
-        report(regression, arguments.out)
-    except Broken as error:
-        at_fault = error.side == "candidate"
-        outcome.write_error(arguments.out, f"{error.side}, run", ("" if at_fault else "no comparison: ") + str(error), error.log)
-        print(f"error: {error}: {error.log}", file=sys.stderr)
-        return EXIT_CANDIDATE_BROKEN if at_fault else EXIT_NO_COMPARISON
-    line = f"verdict: {word} ({why}); {regression.rounds} rounds, {time.monotonic() - started:.0f} s"
-    with open(os.path.join(arguments.out, "verdict.md"), "a", encoding="utf-8") as stream:
-        stream.write(f"\n{line}\n")
-    print(line)
-    return EXIT_CODES[word]
+    evidence, started = outcome.Evidence(share=float(arguments.instructions)), time.monotonic()
+    gather(regression, arguments, evidence)
+    return outcome.tell(evidence, arguments.out, f"; {regression.rounds} rounds, {time.monotonic() - started:.0f} s")
 
 
 if __name__ == "__main__":

@@ -26,6 +26,7 @@ sys.path.insert(0, HERE)
 sys.path.insert(0, os.path.join(HERE, "..", "figures"))
 
 import intervals  # noqa: E402
+import outcome  # noqa: E402
 import regression  # noqa: E402
 import tables  # noqa: E402
 
@@ -118,7 +119,7 @@ def table(rows):
             if not chosen:
                 continue
             total = len(chosen)
-            count = {word: sum(row["verdict"] == word for row in chosen) for word in regression.EXIT_CODES}
+            count = {word: sum(row["verdict"] == word for row in chosen) for word in outcome.EXIT_CODES}
             named = "" if variant == AGAIN else sum(row["verdict"] == "slower" and row["named"] for row in chosen)
             seconds, loads = [row["seconds"] for row in chosen], [row["load"] for row in chosen]
             label = "nothing" if variant == AGAIN else variant + " %"

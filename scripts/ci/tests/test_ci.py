@@ -19,6 +19,7 @@ sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), ".."
 
 from cases import PROGRAM, ROOT, SCRIPTS, Scratch, call, text_of  # noqa: E402  (the figures' tests must be found first)
 import baseline  # noqa: E402
+import outcome  # noqa: E402
 import regression  # noqa: E402
 import verdict_study  # noqa: E402
 
@@ -124,7 +125,7 @@ class Script:
             self.compared.append(command)
             verdict, *timings = self.answers.pop(0)
             out = json.dumps({"verdict": verdict, "timings": timings or [timing(verdict)]})
-            return subprocess.CompletedProcess(command, regression.EXIT_CODES[verdict], out, "")
+            return subprocess.CompletedProcess(command, outcome.EXIT_CODES[verdict], out, "")
         self.runs.append((command[0], environment))
         return subprocess.CompletedProcess(command, 0, "", "")
 
@@ -236,6 +237,50 @@ class RuleTest(unittest.TestCase):
         self.assertIn("another experiment", why)
 
 
+class OutcomeTest(Scratch):
+    """Evidence that the gate's tests (test_gate.py) cannot play."""
+
+    def told(self, code, verdict, times, instructions=None, **others):
+        """(console, {test case: word} of what junit.xml does not call passed)."""
+        timings = [dict(timing(verdict), ratio=1.1, high=1.2), dict(timing("same", stage="reduction"), ratio=1.0, high=1.02)]
+        evidence = outcome.Evidence(answer={"differences": [], "timings": timings}, times=times, instructions=instructions, **others)
+        console = self.printed(lambda _: outcome.tell(evidence, self.folder), code=code)
+        self.assertEqual(console, self.read("verdict.md"))
+        cases = xml.etree.ElementTree.fromstring(self.read("junit.xml")).iter("testcase")
+        return console, {case.get("name"): case[0].get("type") for case in cases if len(case)}
+
+    def test_a_suspect_that_no_fresh_rounds_confirmed_fails_nothing(self):
+        console, cases = self.told(4, "slower", outcome.Times("unsure", "not sure after 24 rounds", set()))
+        self.assertEqual(cases, {"callgrind": outcome.NOT_JUDGED, "all stages": "unsure", "search": "unsure"})
+        self.assertIn("| m | search | - | - | 1.100 | 0.980 to 1.2 | 2 % | unsure |", console)
+
+    def test_what_fresh_rounds_confirmed_fails_whatever_all_rounds_say(self):
+        console, cases = self.told(1, "unsure", outcome.Times("slower", "m's search: confirmed", {("m", "search")}))
+        self.assertEqual(cases, {"callgrind": outcome.NOT_JUDGED, "all stages": "slower", "search": "slower"})
+        self.assertTrue(console.startswith("**slower: m's search: confirmed**\n"), console)
+
+    def test_a_base_that_is_no_judge_is_unsure_though_every_stage_looks_the_same(self):
+        _, cases = self.told(4, "same", outcome.Times("unsure", "the base is slower than itself", set()))
+        self.assertEqual(cases, {"callgrind": outcome.NOT_JUDGED, "all stages": "unsure"})
+
+    def test_a_share_of_instructions_and_functions_of_one_side(self):
+        same = outcome.Times("same", "sure", set())
+        counts = [("A::search", 1000, 1010), ("B::search", 1000, None), ("C::track", None, 5)]
+        console, cases = self.told(0, "same", same, counts)
+        self.assertEqual(cases, {"B::search": outcome.NOT_JUDGED, "C::track": outcome.NOT_JUDGED})
+        self.assertIn("| A::search | 1000 | 1010 | +1.00 % | same |", console)
+        self.assertIn("| C::track | - | 5 | - | not judged |", console)
+        console, cases = self.told(1, "unsure", None, counts, share=0.009)
+        self.assertEqual((cases["A::search"], cases["search"]), ("slower", outcome.NOT_JUDGED))
+        self.assertTrue(console.startswith("**slower: +1.00 % instructions in A::search, counted by callgrind**\n"), console)
+
+    def test_what_xml_cannot_hold(self):
+        log = "\x1b[31merror:\x1b[0m expected ';' & <more>\n"
+        self.told(1, "same", None, failure=outcome.Failure("candidate", "build", "\x07 & <it>", log))
+        error = xml.etree.ElementTree.fromstring(self.read("junit.xml")).find(".//error")
+        self.assertEqual((error.get("message"), error.text), ("? & <it>", "?[31merror:?[0m expected ';' & <more>"))
+
+
 class RegressionProgramTest(Scratch):
     """The real program against itself and against one that does something else, in one round."""
 
@@ -260,7 +305,7 @@ class RegressionProgramTest(Scratch):
         os.chmod(other, 0o755)
         done, junit = self.compare(other)
         self.assertEqual(done.returncode, 1, done.stderr)
-        self.assertIn("verdict: changed (the candidate makes another experiment of the same scene file", done.stdout)
+        self.assertIn("verdict: changed (", done.stdout)
         self.assertEqual(junit.get("failures"), "1")
         self.assertIn("/force/maximum_force_n", junit.find(".//failure").get("message"))
 

@@ -1,0 +1,47 @@
+# SPDX-FileCopyrightText: The lmdbench authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Instructions that two builds spend in the methods' searches and trackings, counted by callgrind: equal within 2 in 100,000 from
+run to run (addresses of memory), whatever else the machine does. Valgrind knows no AVX-512 and tells programs so, so the kernels
+that choose their instructions at run time take their AVX2 form: a change of an AVX-512 form alone does not show here."""
+
+import os
+import re
+import shutil
+import subprocess
+
+FUNCTION = re.compile(r"^ *([0-9,]+) .*:lmdbench::([A-Za-z]+::(?:search|track))\(lmdbench::Pose", re.MULTILINE)
+# One repetition counts the same as many.
+SHORTENED = ("/driver/repetitions=1", "/probes/truth/stride_frames=0", "/probes/fcl/stride_frames=0", "/frames=400")
+
+
+class NotCounted(Exception):
+    """Why there are no counts, and what helps."""
+
+
+def count(program, scene, folder, name, root):
+    """{"Method::function": instructions} of one run; leaves NAME.log and NAME.callgrind in `folder`."""
+    log, counts = os.path.join(folder, name + ".log"), os.path.join(folder, name + ".callgrind")
+    # Address randomisation off: sizes of hash tables and alignments are then the same, too.
+    command = ["setarch", "--addr-no-randomize", "valgrind", "--tool=callgrind", "--callgrind-out-file=" + counts, program, "--quiet",
+               "run", *scene, *(word for pair in SHORTENED for word in ("--set", pair)), "--out", os.path.join(folder, name + ".h5")]
+    with open(log, "w", encoding="utf-8") as stream:
+        done = subprocess.run(command, cwd=root, stdin=subprocess.DEVNULL, stdout=stream, stderr=stream, check=False)
+    if done.returncode != 0:
+        raise NotCounted(f"callgrind failed on {program}, see {log}")
+    annotated = subprocess.run(["callgrind_annotate", "--inclusive=yes", "--threshold=100", counts], capture_output=True, text=True, check=False)
+    found = {}
+    for instructions, function in FUNCTION.findall(annotated.stdout):  # the most first
+        found.setdefault(function, int(instructions.replace(",", "")))
+    if not found:
+        raise NotCounted(f"callgrind saw no search in {program} (remedy: keep its symbols)")
+    return found
+
+
+def compared(base, candidate, scene, folder, root):
+    """(function, base's instructions, candidate's), None where a side has no such function; `scene`: experiment and overrides, as
+    `lmdbench run` has them."""
+    if shutil.which("valgrind") is None:
+        raise NotCounted("no valgrind (remedy: ./scripts/setup.sh)")
+    os.makedirs(folder, exist_ok=True)
+    before, after = (count(program, scene, folder, name, root) for program, name in ((base, "base"), (candidate, "candidate")))
+    return [(function, before.get(function), after.get(function)) for function in sorted(before | after)]
