@@ -19,7 +19,7 @@ OUT="${LMDBENCH_CLAIMS:-results/claims}"
 OTHER=results/claims-busy
 PATHS=20
 APPROACHES=5 # of 6 s each
-PYTHON="$(find_python h5py numpy)"
+PYTHON="$(find_python h5py matplotlib numpy)"
 mkdir -p "$OUT"
 
 # The hard contact's specification from other seeds, its approaches one after another.

@@ -33,7 +33,7 @@ done
 if ((${#scenes[@]} == 0)); then
   for file in "$ROOT"/experiments/extreme/*.json; do scenes+=("$(basename "$file" .json)"); done
 fi
-PYTHON="$(find_python h5py numpy)"
+PYTHON="$(find_python h5py matplotlib numpy)"
 
 mkdir -p "$out"
 results=()

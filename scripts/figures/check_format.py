@@ -8,6 +8,8 @@ import argparse
 import re
 from pathlib import Path
 
+import interpreter  # noqa: F401  (chooses one that has what follows)
+
 import h5py
 
 from lmdbench_results import EXIT_CHECK_FAILED, Result, run_script

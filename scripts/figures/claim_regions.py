@@ -10,6 +10,7 @@ import argparse
 import json
 from pathlib import Path
 
+import interpreter  # noqa: F401  (chooses one that has what follows)
 from lmdbench_results import Result, ResultError, run_script, texts_of
 from readings import readings
 from region_cost import k5, k6, k7, k8, k9

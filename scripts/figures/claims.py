@@ -11,6 +11,8 @@ import os
 import textwrap
 from dataclasses import asdict
 
+import interpreter  # noqa: F401  (chooses one that has what follows)
+
 import numpy as np
 
 from claim_rules import rows

@@ -12,6 +12,8 @@ import argparse
 import json
 from pathlib import Path
 
+import interpreter  # noqa: F401  (chooses one that has what follows)
+
 import numpy as np
 
 import figure_style as style

@@ -13,6 +13,7 @@ import resource
 import subprocess
 import sys
 
+import interpreter  # noqa: F401  (chooses one that has what follows)
 from program import PROGRAM, settings_words
 
 DEVICES = ["phantom-desktop", "phantom-premium-1.5", "phantom-omni", "phantom-premium-3.0-6dof"]

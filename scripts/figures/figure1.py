@@ -10,6 +10,8 @@ import json
 import os
 from pathlib import Path
 
+import interpreter  # noqa: F401  (chooses one that has what follows)
+
 import numpy as np
 
 import figure_style as style

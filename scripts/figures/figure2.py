@@ -4,6 +4,8 @@
 """The paper's Figure 2, a normal cone, on a real mesh: a patch of the surface with the normals that its cone has to cover,
 and the same normals at one point with the cone that the program keeps for the patch."""
 
+import interpreter  # noqa: F401  (chooses one that has what follows)
+
 import numpy as np
 
 import figure_style as style

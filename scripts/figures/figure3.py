@@ -4,6 +4,8 @@
 """The paper's Figure 3, levels of a spatialized normal cone hierarchy, on a real mesh: bounding spheres on the left, normal
 cones on the right. Cones of all directions are drawn as dotted circles: at the top of the hierarchy they are the rule."""
 
+import interpreter  # noqa: F401  (chooses one that has what follows)
+
 import numpy as np
 
 import figure_style as style

@@ -6,6 +6,8 @@ two real meshes, the nearest pair of nodes whose spheres do not overlap. A test 
 drawn true: G1 the spheres and the cutoff, G2 the cone of A against the reversed cone of B, G3.a and G3.b each cone against
 the cone of all directions from one sphere to the other."""
 
+import interpreter  # noqa: F401  (chooses one that has what follows)
+
 import numpy as np
 
 import figure_style as style

@@ -4,6 +4,8 @@
 """The paper's Figure 5, the triangles that local tracking looks at, on a real mesh: for a contact point inside a triangle
 (both readings of the paper's drawing), on an edge and at a vertex, as the program's tracking takes them."""
 
+import interpreter  # noqa: F401  (chooses one that has what follows)
+
 import numpy as np
 
 import figure_style as style

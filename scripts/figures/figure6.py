@@ -5,6 +5,8 @@
 is seen and the nearest one that is culled. Above both triangles with their corners moved along the vertex normals, below what
 the pre-test compares in each plane."""
 
+import interpreter  # noqa: F401  (chooses one that has what follows)
+
 import numpy as np
 
 import figure_style as style

@@ -11,10 +11,13 @@ import argparse
 import math
 from types import SimpleNamespace
 
+import interpreter  # noqa: F401  (chooses one that has what follows)
+
 import numpy as np
 
 import figure_style as style
-from lmdbench_results import Result, ResultError, reference_force, run_script, true_forces, truth_of
+from lmdbench_results import ResultError, reference_force, run_script, true_forces, truth_of
+from variants import open_results
 
 import matplotlib.pyplot as plt
 from matplotlib.lines import Line2D
@@ -71,8 +74,28 @@ def columns_of(results):
     return columns
 
 
-def note(axes, text):
-    axes.text(0.995, 0.97, text, transform=axes.transAxes, ha="right", va="top", zorder=9,
+def share_axes(columns, rows):
+    """Variants of one experiment are there to be compared: one scale, which holds all that each shows."""
+    for panels in rows:
+        groups = {}
+        for panel, column in zip(panels, columns):
+            if panel.lines:
+                groups.setdefault((column.result.experiment_name, column.profile()), []).append(panel)
+        for group in (group for group in groups.values() if len(group) > 1):
+            bottom = min(panel.get_ylim()[0] for panel in group)
+            tallest = max(group, key=lambda panel: panel.get_ylim()[1])
+            for panel in group:
+                if panel is not tallest:
+                    panel.sharey(tallest)
+            tallest.set_ylim(bottom=bottom)
+
+
+def note_beyond(axes):
+    """What a search axis cuts off."""
+    beyond = [value for value in drawn_values(axes) if value > axes.get_ylim()[1]] if axes.lines else []
+    if not beyond:
+        return
+    axes.text(0.995, 0.97, f"{len(beyond)} above, up to {max(beyond):.3g} ms", transform=axes.transAxes, ha="right", va="top", zorder=9,
               bbox={"facecolor": "white", "edgecolor": "none", "alpha": 0.85, "pad": 0.8}, **NOTE)
 
 
@@ -115,6 +138,11 @@ def plot_counts(axes, column):
     axes.set_ylim(0, 1.15 * highest)
 
 
+def drawn_values(axes):
+    values = np.concatenate([line.get_ydata() for line in axes.lines])
+    return values[np.isfinite(values)]
+
+
 def plot_searches(axes, column):
     searching = [method for method in column.methods if method.tracks_locally]
     if not searching:
@@ -129,15 +157,10 @@ def plot_searches(axes, column):
             axes.plot(time, search, color=style.SKY, lw=0.9, zorder=2)
             search = search + np.nan_to_num(method.median_times("first_reduction_time")) * 1e3
         axes.plot(time, search, **{**column.look[method.label], "lw": 0.9})
-    values = np.concatenate([line.get_ydata() for line in axes.lines])
-    values = values[np.isfinite(values)]
+    values = drawn_values(axes)
     top = AXIS_MARGIN * np.quantile(values, AXIS_QUANTILE) if values.size else 1.0
-    beyond = values[values > top]
-    if beyond.size and beyond.max() > NOTABLE_EXCESS * top:
-        note(axes, f"{beyond.size} above, up to {beyond.max():.3g} ms")
-        axes.set_ylim(0, top)
-    else:
-        axes.set_ylim(bottom=0)
+    cut_off = values.size and values.max() > NOTABLE_EXCESS * top
+    axes.set_ylim(0, top if cut_off else None)
     axes.yaxis.set_major_locator(MaxNLocator(4, steps=[1, 2, 5, 10]))
 
 
@@ -222,6 +245,10 @@ def draw(*results):
     for panels, column in zip(axes.T, columns):
         for panel, (plot, _, _) in zip(panels, ROWS):
             plot(panel, column)
+    share_axes(columns, axes)
+    for panel in axes[[plot for plot, _, _ in ROWS].index(plot_searches)]:
+        note_beyond(panel)
+    for panels, column in zip(axes.T, columns):
         box = panels[0].get_position()
         beyond = 0.4 * (axes[0, 1].get_position().x0 - axes[0, 0].get_position().x1) if len(columns) > 1 else 0.05
         title = panels[0].set_title(column.title(), pad=19, fontweight="bold", linespacing=1.1)
@@ -243,7 +270,7 @@ def main(argv):
     parser.add_argument("results", nargs="+", metavar="RESULT.h5", help="result files, from left to right: in the paper hard, soft")
     parser.add_argument("--out", required=True, metavar="DIR", help="directory of figure7.svg and figure7.png")
     arguments = parser.parse_args(argv)
-    return style.leave(draw(*map(Result, arguments.results)), arguments.out, "figure7")
+    return style.leave(draw(*open_results(arguments.results)), arguments.out, "figure7")
 
 
 if __name__ == "__main__":

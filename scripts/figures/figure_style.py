@@ -98,8 +98,8 @@ def width_of(figure, artist):
 
 
 def fit_title(figure, text, left, right):
-    """Breaks a title that is wider than its place after its colon, and shrinks it as far as it must be."""
-    line, two_lines = text.get_text(), text.get_text().replace(": ", ":\n", 1)
+    """Breaks a title that is wider than its place after its last colon, and shrinks it as far as it must be."""
+    line, two_lines = text.get_text(), ":\n".join(text.get_text().rsplit(": ", 1))
     for words, size in ((line, 8.5), (line, 7.5), (two_lines, 8.5), (two_lines, 7.0), (two_lines, 6.0), (two_lines, 5.0), (two_lines, 4.0)):
         text.set_text(words)
         text.set_fontsize(size)

@@ -13,6 +13,8 @@ import os
 import resource
 from pathlib import Path
 
+import interpreter  # noqa: F401  (chooses one that has what follows)
+
 import numpy as np
 
 import figure_style as style

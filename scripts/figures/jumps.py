@@ -18,6 +18,8 @@ changes by more:
 import argparse
 import collections
 
+import interpreter  # noqa: F401  (chooses one that has what follows)
+
 import numpy as np
 
 from lmdbench_results import Result, ResultError, law, run_script

@@ -16,6 +16,8 @@ import tempfile
 import time
 from pathlib import Path
 
+import interpreter  # noqa: F401  (chooses one that has what follows)
+
 import numpy as np
 
 import figure_style as style

@@ -12,6 +12,7 @@ import os
 import sys
 from pathlib import Path
 
+import interpreter  # noqa: F401  (chooses one that has what follows)
 import figure_style as style
 from lmdbench_results import EXIT_CHECK_FAILED, run_script
 from program import PROGRAM, printed, settings_words

@@ -8,6 +8,8 @@ import argparse
 import json
 import math
 
+import interpreter  # noqa: F401  (chooses one that has what follows)
+
 import numpy as np
 
 import figure_style as style

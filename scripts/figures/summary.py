@@ -7,10 +7,13 @@ what the time bought. Every number is read from the summary that the program wro
 import argparse
 import os
 
+import interpreter  # noqa: F401  (chooses one that has what follows)
+
 import numpy as np
 
-from lmdbench_results import Result, run_script, truth_of
+from lmdbench_results import run_script, truth_of
 from tables import shown
+from variants import open_results
 
 NOT_MEASURED = "-"
 
@@ -124,7 +127,7 @@ def main(argv):
     parser.add_argument("results", nargs="+", metavar="RESULT.h5")
     parser.add_argument("--files", nargs="*", default=[], metavar="FILE", help="further files to name at the end")
     arguments = parser.parse_args(argv)
-    results = [Result(file) for file in arguments.results]
+    results = open_results(arguments.results)
     for result in results:
         print(describe(result), end="\n\n")
     print(LEGEND, end="\n\n")

@@ -8,6 +8,8 @@ which method at which budget, where one gets cheaper than another, and every poi
 import argparse
 import math
 
+import interpreter  # noqa: F401  (chooses one that has what follows)
+
 import numpy as np
 
 import figure_style as style

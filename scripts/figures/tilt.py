@@ -16,6 +16,8 @@ import subprocess
 import sys
 import tempfile
 
+import interpreter  # noqa: F401  (chooses one that has what follows)
+
 import numpy as np
 
 import figure_style as style

@@ -7,6 +7,8 @@ finds them within the cutoff, the nearest pair among them, and the force that ea
 import argparse
 import tempfile
 
+import interpreter  # noqa: F401  (chooses one that has what follows)
+
 import numpy as np
 
 import figure_style as style

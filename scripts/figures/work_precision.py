@@ -10,10 +10,13 @@ fails is shown as a failure, not left out."""
 import argparse
 import math
 
+import interpreter  # noqa: F401  (chooses one that has what follows)
+
 import numpy as np
 
 import figure_style as style
-from lmdbench_results import Result, ResultError, run_script, truth_of
+from lmdbench_results import ResultError, run_script, truth_of
+from variants import open_results
 
 import matplotlib.pyplot as plt
 from matplotlib.lines import Line2D
@@ -140,7 +143,7 @@ def main(argv):
     parser.add_argument("--out", required=True, metavar="DIR",
                         help="directory of work_precision.svg and work_precision.png")
     arguments = parser.parse_args(argv)
-    return style.leave(draw([Result(file) for file in arguments.results]), arguments.out, "work_precision")
+    return style.leave(draw(open_results(arguments.results)), arguments.out, "work_precision")
 
 
 if __name__ == "__main__":

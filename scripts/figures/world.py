@@ -8,6 +8,8 @@ a frame looks at. Meshes are drawn from the built OFF files that the result name
 import argparse
 import os
 
+import interpreter  # noqa: F401  (chooses one that has what follows)
+
 import numpy as np
 
 import figure_style as style

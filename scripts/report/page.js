@@ -71,7 +71,7 @@ function draw_panel(place, number, panel, time) {
     axisLineColor: grid_colour(),
     gridLineColor: grid_colour(),
     digitsAfterDecimal: 4,
-    axes: {x: {valueFormatter: (value) => `${value.toFixed(3)} s`}, y: {axisLabelWidth: 56}},
+    axes: {x: {valueFormatter: (value) => `${value.toFixed(3)} s`}, y: {axisLabelWidth: 56, valueRange: panel.range || null}},
     clickCallback: (event, x) => page.views[number] && page.views[number].go_to(x),
   });
 }

@@ -13,6 +13,7 @@ from lmdbench_results import reference_force, true_forces, truth_of
 # Lines must be seen on a white and on a dark page.
 TRUTH_COLOURS = {"linear": style.GREY, "exponential": style.SKY}
 ON_BOTH = {style.BLACK: "#777777"}
+RANGE_MARGIN = 1.05
 RECALL_WINDOW = 40  # probed frames: a frame has so few LMDs that its own recall is mostly 0 or 1
 
 
@@ -114,6 +115,25 @@ PANELS = (force_panel, movers_panel, count_panel, search_panel, update_panel, ag
 def page_colours(result):
     """{label: colour} as in the figures."""
     return {label: ON_BOTH.get(colour, colour) for label, colour in style.colours_of(result.methods.values()).items()}
+
+
+def drawn_values(panel):
+    values = np.concatenate([np.frombuffer(base64.b64decode(line["values"]), dtype="<f4") for line in panel["series"]])
+    return values[np.isfinite(values) & (values > 0 if panel.get("log") else True)]
+
+
+def panels_of(results):
+    """The panels of each result; those of variants of one experiment, which are there to be compared, with one range of values."""
+    made, same = [time_panels(result) for result in results], {}
+    for result, entry in zip(results, made):
+        for panel in entry["panels"]:
+            same.setdefault((result.experiment_name, panel["id"]), []).append(panel)
+    for panels in (panels for panels in same.values() if len(panels) > 1):
+        values = np.concatenate([drawn_values(panel) for panel in panels])
+        if values.size and values.max() > 0:
+            for panel in panels:
+                panel["range"] = [float(values.min()) if panel.get("log") else 0.0, RANGE_MARGIN * float(values.max())]
+    return made
 
 
 def time_panels(result):

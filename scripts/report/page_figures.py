@@ -15,6 +15,7 @@ import sweep as sweep_figure
 import work_precision
 from clock_results import age_table, clocks, draw_timing, excess_table, lateness_table, role_table
 from lmdbench_results import truth_of
+from studies import slug
 
 
 def csv_text(headings, rows):
@@ -62,8 +63,8 @@ def sweep_entry(sweep, folder):
     return {**made, "html": markdown.markdown("\n".join(tables), extensions=["tables"])}
 
 
-def figure7_entry(results, folder):
-    """Hard beside soft where there are two results; as many columns as a page holds."""
+def over_time_entry(results, folder, by_paper):
+    """The paper's Figure 7, hard beside soft, or the same of any results; as many columns as a page holds."""
     columns, taken = 0, []
     for number, result in enumerate(results):
         wanted = len(figure7.columns_of([result]))
@@ -72,9 +73,10 @@ def figure7_entry(results, folder):
             taken.append(number)
     if not taken:
         return None
-    names = ", ".join(column.title().split(":")[0] for column in figure7.columns_of([results[i] for i in taken]))
-    made = entry(figure7.draw(*(results[i] for i in taken)), folder, "figure7", "The paper's Figure 7",
-                 f"From left to right {names}: force, LMD counts, search and update times, and beyond the paper the true force and the share "
+    names = ", ".join(column.title().rpartition(":")[0] for column in figure7.columns_of([results[i] for i in taken]))
+    name, title, beyond = ("figure7", "The paper's Figure 7", " beyond the paper") if by_paper else ("over_time", "Over time", "")
+    made = entry(figure7.draw(*(results[i] for i in taken)), folder, name, title,
+                 f"From left to right {names}: force, LMD counts, search and update times, and{beyond} the true force and the share "
                  "of true LMDs that each method knows. The same over all methods, to zoom: the next section.")
     return {**made, "csv_results": [(i, results[i].name) for i in taken]}
 
@@ -84,7 +86,7 @@ def clock_entry(result, folder):
     named = [(clock.label, clock) for clock in clocks(result)]
     lists = (excess_table(named), lateness_table(named), age_table(named), role_table(named))
     made = entry(
-        draw_timing(named), folder, f"clock-{result.name}", f"On the clock: {result.name}",
+        draw_timing(named), folder, f"clock-{slug(result.name)}", f"On the clock: {result.name}",
         "How late the servo loop wakes and how late its force is, over an empty loop of the same priority on the same core; and how old "
         "the sets in use are. What the empty loop is late by is the machine's own: verdicts rest on what exceeds it. Intervals are 95 %.",
         csv_text(["method", "series", "share", "value [s]", "low [s]", "high [s]"],
@@ -93,7 +95,7 @@ def clock_entry(result, folder):
     return {**made, "html": markdown.markdown("\n\n".join("\n".join(table) for table in lists), extensions=["tables"])}
 
 
-def figures(results, sweeps, folder):
+def figures(results, sweeps, folder, by_paper):
     entries = [sweep_entry(sweep, folder) for sweep in sweeps]
     probed = [result for result in results if any(truth_of(method) for method in result.methods.values())]
     if probed:
@@ -102,5 +104,5 @@ def figures(results, sweeps, folder):
             "A point a method and experiment: what error it leaves for what run time of a frame in contact. Lower left is better; "
             "shaded lanes hold errors of exactly zero and methods that fail.", work_precision_csv(probed)))
     entries += [clock_entry(result, folder) for result in results if clocks(result)]
-    paper = figure7_entry(results, folder)
-    return entries + ([paper] if paper else [])
+    over_time = over_time_entry(results, folder, by_paper)
+    return entries + ([over_time] if over_time else [])

@@ -14,19 +14,22 @@ from pathlib import Path
 HERE = os.path.dirname(os.path.abspath(__file__))
 sys.path.insert(0, os.path.join(HERE, "..", "figures"))
 
-import jinja2  # noqa: E402  (the figures' folder must be found first)
+import interpreter  # noqa: E402, F401  (in the figures' folder; chooses one that has what follows)
+
+import jinja2  # noqa: E402
 import markupsafe  # noqa: E402
 
 from answer import answer  # noqa: E402
 from claims_section import claims_of, evidence  # noqa: E402
-from lmdbench_results import Result, run_script, truth_of  # noqa: E402
-from page_data import page_colours, time_panels  # noqa: E402
+from lmdbench_results import run_script, truth_of  # noqa: E402
+from page_data import page_colours, panels_of  # noqa: E402
 from page_figures import figures  # noqa: E402
 from paper_figures import paper_figures  # noqa: E402
 from scene_data import scene  # noqa: E402
 from studies import FIRST, studies as study_sections  # noqa: E402
 from sweep_results import Sweep, is_sweep  # noqa: E402
 from tables import write_text  # noqa: E402
+from variants import open_results  # noqa: E402
 
 JAVASCRIPT = "/usr/share/javascript"
 LIBRARIES = (("three/three.min.js", "libjs-three"), ("three/examples/js/controls/OrbitControls.js", "libjs-three"),
@@ -77,9 +80,9 @@ def sweep_provenance(sweep):
     return {"name": sweep.name, "provenance": [(name, value) for name, value in rows if value], "experiment": sweep.definition}
 
 
+PAPERS_OMISSION = ("The paper states neither force constants, cutoffs, saturation distance, paths nor the exact meshes: they are ours, and stand in "
+                   "the experiment under Provenance.")
 OMISSIONS = (
-    "The paper states neither force constants, cutoffs, saturation distance, paths nor the exact meshes: they are ours, and stand in the "
-    "experiment under Provenance.",
     "Times are of one machine and one process a result: compare methods within a result, not results of different machines.",
     "A time is the median of the repetitions of its frame; the largest frame is the largest of these medians, not of all samples.",
     "In a run truth is probed at a stride: events between the probed frames are not seen by recall, precision and force error. True jumps are "
@@ -94,36 +97,35 @@ OMISSIONS = (
 )
 
 
-def navigation(entries, results, studies, paper):
+def navigation(entries, results, studies, claims, paper):
     """Every section of the page in its order; the tables that nobody looks for by name share one entry."""
-    of_runs = [{"id": "frames", "title": "Frame by frame"}, {"id": "scene", "title": "In space"},
-               {"id": "claims", "title": "The paper's claims"}] if results else []
-    of_paper = [{"id": "paper", "title": "Figures 1 to 6"}] if paper else []
+    of_runs = [{"id": "frames", "title": "Frame by frame"}, {"id": "scene", "title": "In space"}] if results else []
+    of_paper = ([{"id": "claims", "title": "The paper's claims"}] if claims else []) + ([{"id": "paper", "title": "Figures 1 to 6"}] if paper else [])
     first = [entry for entry in studies if entry["name"] in FIRST]
     more = [{"id": "more", "title": "More tables"}] if len(first) < len(studies) else []
     return [{"id": "answer", "title": "Answer"}, *entries, *of_runs, *of_paper, *first, *more, {"id": "omissions", "title": "Omissions"},
             {"id": "provenance", "title": "Provenance"}]
 
 
-def page(results, sweeps, scenes, study_files, paper, folder):
+def page(results, sweeps, scenes, study_files, by_paper, paper, folder):
     raw = markupsafe.Markup
-    entries = [{**entry, "csv": raw(in_script(entry["csv"])), "html": raw(entry["html"])} for entry in figures(results, sweeps, folder)]
+    entries = [{**entry, "csv": raw(in_script(entry["csv"])), "html": raw(entry["html"])} for entry in figures(results, sweeps, folder, by_paper)]
     studies = [{**entry, "html": raw(entry["html"])} for entry in study_sections(study_files)]
-    sections = navigation(entries, results, studies, paper)
-    claims = claims_of(results) if results else {"problem": ""}
+    claims = claims_of(results) if by_paper and results else {}
+    sections = navigation(entries, results, studies, claims, paper)
     linked = [(claim, evidence(claim.id, [*sections, *studies])) for claim in claims.get("claims", [])]
-    data = {"results": [time_panels(result) for result in results], "scenes": scenes,
+    data = {"results": panels_of(results), "scenes": scenes,
             "colours": [page_colours(result) for result in results]}
     environment = jinja2.Environment(loader=jinja2.FileSystemLoader(HERE), autoescape=True, undefined=jinja2.StrictUndefined)
     described = [{"name": result.name, "what": what_was_run(result), "answer": answer(result), "provenance": provenance(result),
                   "experiment": json.dumps(result.experiment, indent=2),
                   "warnings": result.texts("/scene/warnings") if result.has("/scene/warnings") else []} for result in results]
     return environment.get_template("page.html.j2").render(
-        title=" and ".join(result.experiment.get("title") or result.name for result in results)
+        title=" and ".join(dict.fromkeys(result.experiment.get("title") or result.experiment_name for result in results))
         or " and ".join(sweep.title for sweep in sweeps),
         results=described, sections=sections, provenances=[*described, *map(sweep_provenance, sweeps)],
-        figures=entries, paper=paper, studies=studies, first_studies=FIRST, claims=claims, linked_claims=linked,
-        omissions=OMISSIONS, style=raw(text_of(HERE, "page.css")),
+        figures=entries, by_paper=by_paper, paper=paper, studies=studies, first_studies=FIRST, claims=claims, linked_claims=linked,
+        omissions=[PAPERS_OMISSION, *OMISSIONS] if by_paper else OMISSIONS, style=raw(text_of(HERE, "page.css")),
         libraries={"script": raw(in_script("\n".join(library(*item) for item in LIBRARIES))),
                    "style": raw("\n".join(library(*item) for item in STYLES))},
         script=raw(in_script(text_of(HERE, "page.js") + text_of(HERE, "scene.js"))),
@@ -137,16 +139,17 @@ def main(argv):
     parser.add_argument("--out", required=True, metavar="DIR", help="folder of index.html and of its figures")
     parser.add_argument("--scenes", metavar="DIR", help="folder with a scene for each result, 0, 1, ...; sweeps count")
     parser.add_argument("--study", nargs="*", default=[], metavar="FILE.md", help="tables of studies to show as well")
-    parser.add_argument("--paper", metavar="DIR", help="folder with the paper's Figures 1 to 6 (scripts/figures/figure1.py to figure6.py)")
+    parser.add_argument("--paper", nargs="?", const="", metavar="DIR", help="hold the results against the paper: its Figure 7, its claims and, "
+                        "of a folder, its Figures 1 to 6 (scripts/figures/figure1.py to figure6.py)")
     arguments = parser.parse_args(argv)
     sweeps = [Sweep(file) for file in arguments.results if is_sweep(file)]
     runs = [(i, file) for i, file in enumerate(arguments.results) if not is_sweep(file)]
-    results = [Result(file) for _, file in runs]
+    results = open_results([file for _, file in runs])
     folders = [os.path.join(arguments.scenes, str(i)) if arguments.scenes else None for i, _ in runs]
     scenes = [scene(result, folder) for result, folder in zip(results, folders)]
     os.makedirs(arguments.out, exist_ok=True)
     paper = paper_figures(arguments.paper) if arguments.paper else []
-    text = page(results, sweeps, scenes, arguments.study, paper, arguments.out)
+    text = page(results, sweeps, scenes, arguments.study, arguments.paper is not None, paper, arguments.out)
     print(write_text(text, arguments.out, "index.html"))
     return 0
 

@@ -38,6 +38,11 @@ def pictures_inside(text, folder):
     return re.sub(r"!\[([^\]]*)\]\(([^)]*)\)", inside, text)
 
 
+def slug(name):
+    """For an id or the name of a file."""
+    return re.sub(r"[^a-z0-9]+", "-", name.lower())
+
+
 def study(file):
     """A section: its first heading is its title."""
     with open(file, encoding="utf-8") as stream:
@@ -48,7 +53,7 @@ def study(file):
     body = markdown.markdown(pictures_inside(body, os.path.dirname(file)), extensions=["tables", "fenced_code"])
     # Links to files beside the study lead nowhere from the page.
     body = re.sub(r'<a href="(?!https?:|#)[^"]*">(.*?)</a>', r"\1", body)
-    return {"id": "study-" + re.sub(r"[^a-z0-9]+", "-", name.lower()), "name": name, "title": title.group(1) if title else name, "html": body,
+    return {"id": "study-" + slug(name), "name": name, "title": title.group(1) if title else name, "html": body,
             "open": False}
 
 

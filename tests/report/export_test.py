@@ -4,6 +4,7 @@
 """What `lmdbench export` writes (argument 1 is the program), read as VTK's readers do: every array has the length that its
 grid gives it, every index a point, every cell its end; and the numbers are those of the result."""
 
+import json
 import os
 import pathlib
 import sys
@@ -15,7 +16,7 @@ import numpy as np
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "scripts", "figures", "tests"))
 
-from cases import ROOT, Scratch, call  # noqa: E402  (the figures' tests must be found first)
+from cases import ROOT, SCRIPTS, Scratch, call, text_of  # noqa: E402  (the figures' tests must be found first)
 from mesh_drawing import rotation  # noqa: E402
 
 TYPES = {"Float32": np.float32, "Float64": np.float64, "Int32": np.int32, "UInt8": np.uint8}
@@ -121,6 +122,59 @@ class ExportTest(Scratch):
         mine.write_text("mine")
         self.call("export", result, "--out", out, code=2)
         self.assertEqual(mine.read_text(), "mine")
+
+    def own_run(self):
+        """A result of a project's folder, run there under relative names: mesh, manifest and path are files of the project."""
+        project = pathlib.Path(self.folder, "project")
+        shapes = json.loads(text_of("experiments", "shapes.json"))
+        shapes["moving"]["mesh"] = "../parts/part.off"
+        self.write("project/experiments/own.json", json.dumps(shapes))
+        self.write("project/paths/shapes.tum", text_of("paths", "shapes.tum"))
+        self.write("project/meshes/manifest.json", text_of("meshes", "manifest.json"))
+        self.write("project/parts/part.off", "OFF\n4 4 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 0 3 2\n3 1 2 3\n")
+        (project / "out").mkdir()
+        done = call(PROGRAM, "-q", "run", "experiments/own.json", "--out", "out/own.h5", "--set", "/frames=40", cwd=project)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        return project
+
+    def export_from(self, folder, result):
+        return call(PROGRAM, "-q", "export", result, "--out", self.path("vtk"), "--frames", "2", cwd=folder)
+
+    def test_a_result_knows_from_any_folder_where_its_meshes_are(self):
+        project = self.own_run()
+        with h5py.File(project / "out" / "own.h5") as h5:
+            self.assertEqual(h5["provenance"].attrs["run_folder"], "..")
+        elsewhere = pathlib.Path(self.folder, "elsewhere")
+        elsewhere.mkdir()
+        moved = project.rename(self.path("moved"))
+        result = moved / "out" / "own.h5"
+        done = self.export_from(elsewhere, result)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        # Another mesh of that name where the program is now is passed over; beside the result file is a place, too.
+        self.write("elsewhere/parts/part.off", "OFF\n")
+        self.assertEqual(self.export_from(elsewhere, result).returncode, 0)
+        part = moved / "parts" / "part.off"
+        part.rename(result.with_name("part.off"))
+        self.assertEqual(self.export_from(elsewhere, result).returncode, 0)
+
+    def test_a_mesh_that_is_gone_is_told_with_the_places(self):
+        project = self.own_run()
+        result, part = project / "out" / "own.h5", project / "parts" / "part.off"
+        part.write_text(part.read_text() + "\n")
+        done = self.export_from("/", result)
+        self.assertEqual(done.returncode, 3, done.stderr)
+        self.assertIn("parts/part.off: has changed since the run", done.stderr)
+        part.unlink()
+        done = self.export_from("/", result)
+        self.assertEqual(done.returncode, 3, done.stderr)
+        for text in ("part.off: ", f"seen from /, {result.parent}, {project}", "remedy: put it beside the result file"):
+            self.assertIn(text, done.stderr)
+        # A page is made without it, and says so.
+        done = call(PROGRAM, "report", result, "--out", self.path("page"), cwd="/", env={**os.environ, "LMDBENCH_SCRIPTS": str(SCRIPTS)})
+        self.assertEqual(done.returncode, 0, done.stderr)
+        (line,) = [line for line in done.stderr.splitlines() if "no 3D view" in line]
+        for text in ("own.h5", "part.off", f"seen from /, {result.parent}, {project}", "remedy: "):
+            self.assertIn(text, line)
 
 
 if __name__ == "__main__":

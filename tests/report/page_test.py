@@ -94,6 +94,12 @@ class Page(SharedScratch):
         for other in after[1:]:
             self.assertAlmostEqual(other[0], after[0][0], places=9)
 
+    def test_variants_share_their_axes(self):
+        open_loop, closed_loop = self.browser.execute_script("return page.plots.map((plots) => plots[0].yAxisRange())")
+        self.assertEqual(open_loop, closed_loop)
+        headings = [heading.text for heading in self.browser.find_elements(By.CSS_SELECTOR, "#answer h2")]
+        self.assertEqual(headings, ["shapes: loop kind open", "shapes: loop kind closed"])
+
     def picture(self):
         return self.browser.execute_script("return page.views[0].renderer.domElement.toDataURL()")
 

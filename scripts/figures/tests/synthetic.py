@@ -17,9 +17,9 @@ def dataset(group, name, values, units, long_name):
 
 
 def write_result(file, name="hard", frames=2000, repetitions=5, methods=("original", "improved"), search_every=20,
-                 truth_stride=50, maximum_force=2.0, seed=1, true_counts=None, triangles=16_298):
+                 truth_stride=50, maximum_force=2.0, seed=1, true_counts=None, triangles=16_298, settings=None):
     """A run of `frames` haptic frames in contact in its middle; the original loses LMDs now and then, the improved
-    one follows truth, every other method equals it."""
+    one follows truth, every other method equals it. `settings` are keys of the experiment, for what it says of itself alone."""
     random = np.random.default_rng(seed)
     time = np.arange(frames) / 1000.0
     depth = np.clip(np.sin(np.pi * np.arange(frames) / frames) * 1.6 - 0.4, 0.0, 1.0)
@@ -40,6 +40,7 @@ def write_result(file, name="hard", frames=2000, repetitions=5, methods=("origin
             "fixed": [{"mesh": "b"}],
             "methods": [{"name": label, "label": label, "force_law": LAWS[label]} for label in methods],
             "driver": {"search_every_frames": search_every, "repetitions": repetitions},
+            **(settings or {}),
         }
         dataset(provenance, "experiment", [json.dumps(experiment)], "1", "the experiment, JSON")
         provenance.create_group("machine").attrs["processor"] = "Synthetic"

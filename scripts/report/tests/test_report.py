@@ -187,14 +187,14 @@ class Page(Scratch):
         super().setUp()
         self.file = write_result(self.path("hard.h5"))
 
-    def made(self, *more):
-        self.printed(report.main, self.file, "--out", self.path("out"), *more)
+    def made(self, *more, others=()):
+        self.printed(report.main, self.file, *others, "--out", self.path("out"), *more)
         return self.read("out", "index.html")
 
     def test_stands_alone_and_is_the_same_bytes_twice(self):
         text = self.made()
         self.assertNotRegex(text, r'(?:src|href)="(?!data:|#)')
-        for name in ("work_precision.svg", "work_precision.png", "figure7.svg", "figure7.png"):
+        for name in ("work_precision.svg", "work_precision.png", "over_time.svg", "over_time.png"):
             self.assertTrue(os.path.getsize(self.path("out", name)) > 0)
         self.assertEqual(text, self.made())
 
@@ -240,8 +240,32 @@ class Page(Scratch):
         self.assertIn('<a href="#paper">Figures 1 to 6</a>', text)
         self.assertNotIn('id="paper"', self.made())
 
+    def test_the_paper_is_there_where_it_is_asked_for(self):
+        own, papers = (self.made(*options).split("<main>")[1].split("</main>")[0] for options in ((), ("--paper",)))
+        for words in ('<section id="figure7">', "Figure 7, frame by frame", 'id="claims"', '<th scope="row">K9</th>', "The paper states neither"):
+            self.assertIn(words, papers)
+            self.assertNotIn(words, own)
+        for words in ("Over time", "Frame by frame and over all methods"):
+            self.assertIn(f"<h2>{words}</h2>", own)
+
+    def test_variants_of_an_experiment_are_told_apart_and_share_ranges(self):
+        other = write_result(self.path("other.h5"), maximum_force=6.0, settings={"device": "ideal"})
+        with h5py.File(self.file, "a") as h5:
+            experiment = {**json.loads(h5["provenance/experiment"][0]), "device": "phantom-desktop"}
+            h5["provenance/experiment"][0] = json.dumps(experiment)
+        text = self.made(others=[other])
+        names = ["hard: device phantom-desktop", "hard: device ideal"]
+        for mark in ("<h2>{}</h2>", "<h3>{}</h3>", "<figcaption>{}</figcaption>", "Download CSV of {}<"):
+            for name in names:
+                self.assertIn(mark.format(name), text)
+        self.assertIn("<h1>synthetic hard</h1>", text)
+        self.assertEqual(len(re.findall(r' id="([^"]+)"', text)), len(set(re.findall(r' id="([^"]+)"', text))))
+        left, right = json.loads(text.split('id="page-data">', 1)[1].split("</script>", 1)[0])["results"]
+        self.assertEqual([panel["range"] for panel in left["panels"]], [panel["range"] for panel in right["panels"]])
+        self.assertGreater(left["panels"][0]["range"][1], 6.0)
+
     def test_claims_link_to_sections_that_are_there(self):
-        text = self.made()
+        text = self.made("--paper")
         claims = text.split('<section id="claims">', 1)[1].split("</section>", 1)[0]
         self.assertIn('<th scope="row">K10</th>', claims)
         links = re.findall(r'href="#([^"]+)"', claims)
@@ -253,7 +277,7 @@ class Page(Scratch):
 
     def test_a_run_without_contact_judges_nothing(self):
         self.file = write_result(self.path("apart.h5"), true_counts=np.zeros(2000, dtype=int))
-        self.assertIn("and frames in contact", self.made())
+        self.assertIn("and frames in contact", self.made("--paper"))
 
     def test_own_scenes_get_what_they_have_and_are_told_what_they_lack(self):
         """Labels of one's own, one method that searches in every frame, no truth probe, two profiles."""
@@ -268,7 +292,7 @@ class Page(Scratch):
             self.file = write_result(self.path(f"{name}.h5"), methods=methods, truth_stride=stride)
             with h5py.File(self.file, "a") as h5:
                 change(h5)
-            text = self.made()
+            text = self.made("--paper")
             self.assertTrue(os.path.exists(self.path("out", "figure7.svg")))
             self.assertEqual('<section id="work_precision">' in text, stride > 0)
             claims = text.split('<section id="claims">', 1)[1].split("</section>", 1)[0]

@@ -63,30 +63,34 @@ std::string last_line(std::string text) {
 }
 
 /// A scene for the 3D view, or the reason why there is none.
-void write_scene_or_reason(const ResultReader& result, const fs::path& folder) {
+void write_scene_or_reason(const ResultReader& result, const fs::path& folder, const Tell& warn) {
   fs::create_directory(folder);
   try {
     write_report_scene(result, folder);
   } catch (const Error& error) {
+    warn(fmt::format("{} gets no 3D view: {}", result.file().string(), error.what()));
     write_file_atomically(folder / "problem.txt", fmt::format("No view: {}", error.what()));
   }
 }
 
 }  // namespace
 
-fs::path write_report(const ReportRequest& request, const std::function<void(const std::string&)>& progress) {
+fs::path write_report(const ReportRequest& request, const Tell& progress, const Tell& warn) {
   const fs::path script = report_script();
   const std::string python = find_python();
   const TemporaryFolder scenes(fs::temp_directory_path(), "lmdbench-report-");
   std::vector<std::string> argv{python, script.string()};
   for (std::size_t i = 0; i < request.results.size(); ++i) {
     progress(fmt::format("reading {}", request.results[i].string()));
-    write_scene_or_reason(ResultReader(request.results[i]), scenes.path() / fmt::to_string(i));
+    const ResultReader result(request.results[i]);
+    // A sweep has no frames to look at.
+    if (!result.has("/sweep")) write_scene_or_reason(result, scenes.path() / fmt::to_string(i), warn);
     argv.push_back(fs::absolute(request.results[i]).string());
   }
   const fs::path out = fs::absolute(request.out);
   argv.insert(argv.end(), {"--out", out.string(), "--scenes", scenes.path().string()});
-  if (!request.paper.empty()) argv.insert(argv.end(), {"--paper", fs::absolute(request.paper).string()});
+  if (request.paper) argv.emplace_back("--paper");
+  if (!request.paper_figures.empty()) argv.push_back(fs::absolute(request.paper_figures).string());
   if (!request.studies.empty()) argv.emplace_back("--study");
   for (const fs::path& study : request.studies) argv.push_back(fs::absolute(study).string());
 
