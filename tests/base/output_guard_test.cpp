@@ -70,6 +70,11 @@ TEST_F(OutputGuard, RefusesWhatIsNoFileOfOurs) {
   EXPECT_THAT(refusal(folder_ / "dangling"), HasSubstr("symbolic link"));
 }
 
+TEST_F(OutputGuard, RefusesStandardOutput) {
+  EXPECT_THAT(refusal("-"), HasSubstr("--out -: \"-\" stands for standard output"));
+  refuse_unsafe_output("./-", OURS, {}, "--out");
+}
+
 TEST(AtomicFile, LeavesNoPartAndFollowsNoLink) {
   const ScratchDirectory folder;
   folder.write("victim", "mine");

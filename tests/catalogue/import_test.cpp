@@ -13,6 +13,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
@@ -100,6 +101,26 @@ TEST(ImportTest, KeepsTheTrianglesOfEveryFormatInTheirOrder) {
   expect_same_triangles(import_mesh(folder.write("blob.ply", to_binary_ply(mesh))), mesh, 0.0);
   // Text through assimp is right to single precision only.
   expect_same_triangles(import_mesh(folder.write("blob.obj", to_obj(mesh))), mesh, 3e-7);
+}
+
+// The first number of the content may begin with the byte of a line feed, whatever ends the lines of the header.
+TEST(ImportTest, ReadsABinaryPlyWhoseFirstByteIsALineFeed) {
+  const ScratchDirectory folder;
+  TriangleMesh mesh = single_precision_blob();
+  mesh.vertices.front().x() = static_cast<double>(std::bit_cast<float>(0x3F80000AU));
+  const std::string text = to_binary_ply(mesh);
+  const std::size_t content = text.find("end_header\n") + 11;
+  ASSERT_EQ(text[content], '\n');
+  expect_same_triangles(import_mesh(folder.write("line_feed.ply", text)), mesh, 0.0);
+  std::string header = text.substr(0, content);
+  for (std::size_t at = header.find('\n'); at != std::string::npos; at = header.find('\n', at + 2))
+    header.insert(at, 1, '\r');
+  expect_same_triangles(import_mesh(folder.write("dos.ply", header + text.substr(content))), mesh, 0.0);
+  // In text it is an empty line.
+  const std::string ascii =
+      "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
+      "element face 1\nproperty list uchar int vertex_indices\nend_header\n\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
+  EXPECT_EQ(import_mesh(folder.write("text.ply", ascii)).vertices[1], Vec3(1, 0, 0));
 }
 
 TEST(ImportTest, WeldedStlIsClosed) {

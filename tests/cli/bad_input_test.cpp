@@ -133,12 +133,50 @@ TEST_F(BadInput, OutputThatCannotBeWritten) {
   EXPECT_THAT(outcome.err, HasSubstr("/proc/no"));
 }
 
+TEST_F(BadInput, StandardOutputIsNoPlaceForFiles) {
+  for (const std::string& line :
+       {"run " + SHAPES + "--set /frames=30 --out -",
+        std::string("record '" LMDBENCH_SOURCE_DIR "/experiments/wall.json' -o -"),
+        std::string("work-precision '" LMDBENCH_SOURCE_DIR "/experiments/sweeps/budget.json' --out -")}) {
+    const Outcome outcome = lmdbench(line, scratch_.path());
+    EXPECT_EQ(outcome.code, USAGE) << line;
+    EXPECT_THAT(outcome.err, AllOf(HasSubstr("\"-\" stands for standard output"),
+                                   HasSubstr("(remedy: name a file with --out")));
+    EXPECT_FALSE(std::filesystem::exists(scratch_ / "-")) << line;
+  }
+}
+
+TEST_F(BadInput, MisspeltCommandsAndOptionsAreNamedWithTheNearest) {
+  struct Case {
+    const char* line;
+    const char* problem;
+    const char* remedy;
+  };
+  for (const Case& c :
+       {Case{"", "lmdbench needs a command", "the commands are run, plan, "},
+        {"rn x.json --out r.h5", "lmdbench has no command \"rn\"", "did you mean \"run\"?"},
+        {"dance", "lmdbench has no command \"dance\"", "the commands are run, plan, "},
+        {"run --otu x", "lmdbench run has no option --otu", "did you mean \"--out\"?"},
+        {"run x.json --otu=x", "lmdbench run has no option --otu", "did you mean \"--out\"?"},
+        {"run x.json --verbos", "lmdbench run has no option --verbos", "did you mean \"--verbose\"?"},
+        {"run x.json --no-such-option", "lmdbench run has no option --no-such-option", "lmdbench run --help"},
+        {"query --moving a --fixd b --cutoff 1", "has no option --fixd", "did you mean \"--fixed\"?"},
+        {"--limt a=1 plan x.json", "has no option --limt", "did you mean \"--limit\"?"},
+        {"mesh", "lmdbench mesh needs a command", "the commands are "},
+        {"mesh bild bunny", "lmdbench mesh has no command \"bild\"", "did you mean \"build\"?"},
+        {"path info x.tum --sepc y", "lmdbench path info has no option --sepc", "did you mean \"--spec\"?"},
+        {"run a.json b.json", "lmdbench run takes no further argument \"b.json\"", "lmdbench run --help"},
+        {"query --moving a --fixed b", "--cutoff is required", "lmdbench query --help"}}) {
+    const Outcome outcome = lmdbench(c.line);
+    EXPECT_EQ(outcome.code, USAGE) << c.line;
+    EXPECT_THAT(outcome.out, IsEmpty()) << c.line;
+    EXPECT_THAT(outcome.err, AllOf(HasSubstr(c.problem), HasSubstr("(remedy: "), HasSubstr(c.remedy)))
+        << c.line;
+  }
+}
+
 TEST_F(BadInput, CommandLine) {
-  EXPECT_EQ(lmdbench("").code, USAGE);
-  EXPECT_EQ(lmdbench("dance").code, USAGE);
   EXPECT_EQ(lmdbench("run").code, USAGE);
-  EXPECT_EQ(lmdbench("run " + SHAPES + " --no-such-option").code, USAGE);
-  EXPECT_EQ(lmdbench("query --moving sphere --fixed sphere").code, USAGE) << "the cutoff is missing";
   EXPECT_EQ(lmdbench("query --moving sphere --fixed sphere --cutoff 0").code, USAGE);
   EXPECT_EQ(lmdbench("query --moving sphere --fixed sphere --cutoff -1").code, USAGE);
   EXPECT_EQ(lmdbench("query --moving sphere --fixed sphere --cutoff nan").code, USAGE);

@@ -72,6 +72,26 @@ TEST(RunCommand, JsonSummaryIsOneDocument) {
   EXPECT_THAT(outcome.err, IsEmpty()) << "-q tells errors only";
 }
 
+TEST(Program, QuietTellsErrorsAlone) {
+  const ScratchDirectory scratch;
+  for (const std::string& line :
+       {"-q run " + SHORT_RUN + "--out r.h5", "run " + SHORT_RUN + "--out r.h5 --quiet",
+        std::string("-q init cube wedge --dir '" LMDBENCH_SOURCE_DIR "/meshes' --out new"),
+        std::string("-q path generate new/cube-wedge.path.json --dir '" LMDBENCH_SOURCE_DIR
+                    "/meshes' --out p.tum")}) {
+    const Outcome outcome = lmdbench(line, scratch.path());
+    EXPECT_EQ(outcome.code, 0) << line << outcome.err;
+    EXPECT_THAT(outcome.out, IsEmpty()) << line;
+    EXPECT_THAT(outcome.err, IsEmpty()) << line;
+  }
+  EXPECT_TRUE(std::filesystem::exists(scratch / "r.h5"));
+  EXPECT_TRUE(std::filesystem::exists(scratch / "p.tum"));
+  const Outcome broken =
+      lmdbench("-q run " + SHORT_RUN + "--out r.h5 --set /limits/recall=1.5", scratch.path());
+  EXPECT_EQ(broken.code, USAGE);
+  EXPECT_THAT(broken.err, HasSubstr("/limits/recall"));
+}
+
 class StopSignals : public ::testing::TestWithParam<std::pair<const char*, int>> {};
 
 TEST_P(StopSignals, EndTheRunByTheSignalKeepWhatWasMeasuredAndTheEarlierResult) {

@@ -163,11 +163,23 @@ TEST_F(CompareCommand, OneProcessASideIsUnsureHoweverItsTimesLie) {
   }
 }
 
-TEST_F(CompareCommand, DifferentExperimentsAndSweepsAreRefusedInOneLine) {
-  ASSERT_EQ(lmdbench(RUN + "--set /force/maximum_force_n=2 --out other.h5", scratch_->path()).code, 0);
+TEST_F(CompareCommand, TwoForceLawsAreCompared) {
+  const std::string run = RUN + "--set '/methods=[{\"name\":\"certified\",\"force_law\":\"linear\"}]' ";
+  ASSERT_EQ(lmdbench(run + "--out sum.h5", scratch_->path()).code, 0);
+  ASSERT_EQ(lmdbench(run + "--set /force/aggregation=shared --out shared.h5", scratch_->path()).code, 0);
+  const Outcome outcome = compare("sum.h5 shared.h5 --json");
+  EXPECT_EQ(outcome.code, 1) << outcome.err;
+  const auto json = nlohmann::json::parse(outcome.out);
+  EXPECT_EQ(json["differences"][0]["dataset"], "/provenance/experiment:/force/aggregation");
+  EXPECT_EQ(json["differences"][0]["candidate"], "shared");
+  EXPECT_EQ(json["timings"].size(), 1U);
+}
+
+TEST_F(CompareCommand, OtherFramesAndSweepsAreRefusedInOneLine) {
+  ASSERT_EQ(lmdbench(RUN + "--set /frames=50 --out other.h5", scratch_->path()).code, 0);
   const Outcome other = compare("a.h5 other.h5");
   EXPECT_EQ(other.code, 2);
-  EXPECT_THAT(other.err, HasSubstr("/force/maximum_force_n"));
+  EXPECT_THAT(other.err, HasSubstr("/frames"));
   EXPECT_EQ(std::count(other.err.begin(), other.err.end(), '\n'), 1) << other.err;
   EXPECT_EQ(other.out, "");
   std::ofstream(*scratch_ / "sweep.json")

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/base/error.h>
 #include <lmdbench/comparison/compare.h>
+#include <lmdbench/comparison/comparison_text.h>
 
 #include "synthetic_result.h"
 #include <gmock/gmock.h>
@@ -13,6 +14,7 @@
 namespace lmdbench {
 namespace {
 
+using ::testing::Contains;
 using ::testing::HasSubstr;
 using testing::ScratchDirectory;
 using testing::SyntheticResult;
@@ -172,19 +174,38 @@ std::string refusal(const Paths& base, const Paths& candidate) {
   return {};
 }
 
-TEST_F(Compare, AnotherExperimentIsRefusedInOneLine) {
-  SyntheticResult cutoff, mesh, methods;
-  cutoff.cutoff = 0.02;
-  cutoff.moving_hash = mesh.moving_hash = "bb";
-  const std::string both = refusal(side({}, "a", 1), side(cutoff, "b", 1));
+TEST_F(Compare, ResultsOfOtherFramesAreRefusedInOneLine) {
+  SyntheticResult scaled, mesh, methods;
+  scaled.moving = R"({"scale": 2})";
+  scaled.moving_hash = mesh.moving_hash = "bb";
+  scaled.cutoff = 0.02;
+  SyntheticResult base;
+  base.moving = R"({"scale": 1})";
+  const std::string both = refusal(side(base, "a", 1), side(scaled, "b", 1));
   EXPECT_THAT(both, HasSubstr(DIFFERENT_EXPERIMENTS));
-  EXPECT_THAT(both, HasSubstr("/force/cutoff_m differs: 0.01 became 0.02 (and 1 more)"));
+  EXPECT_THAT(both, HasSubstr("/moving/scale differs: 1 became 2 (and 1 more)")) << "the cutoff is a setting";
   EXPECT_EQ(both.find('\n'), std::string::npos);
-  EXPECT_THAT(refusal(side({}, "a", 1), side(mesh, "b", 1)), HasSubstr("sha256:mesh:moving"));
+  EXPECT_THAT(refusal(side({}, "c", 1), side(mesh, "d", 1)), HasSubstr("sha256:mesh:moving"));
   methods.methods = {"certified"};
   SyntheticResult original;
   original.methods = {"original"};
   EXPECT_THAT(refusal(side(original, "a", 1), side(methods, "b", 1)), HasSubstr("no method of the base"));
+}
+
+/// The force constants of the scene follow from the experiment, which names them once.
+TEST_F(Compare, OtherSettingsOnTheSameFramesAreNamedFirstAndTimed) {
+  SyntheticResult cutoff;
+  cutoff.cutoff = 0.02;
+  cutoff.frame_with_other_force = 2;
+  cutoff.slowdown["original/search"] = 1.5;
+  const Comparison found = compare_results(side({}, "a", 6), side(cutoff, "b", 6), {});
+  EXPECT_EQ(found.verdict, Verdict::CHANGED);
+  ASSERT_EQ(found.differences.size(), 2U);
+  EXPECT_EQ(difference_text(found.differences[0]),
+            "/provenance/experiment:/force/cutoff_m differs: 0.01 became 0.02");
+  EXPECT_EQ(found.differences[1].dataset, "force");
+  EXPECT_EQ(timing(found, "original", "search").verdict, Verdict::SLOWER);
+  EXPECT_THAT(found.notes, Contains(HasSubstr("differ in the settings named first")));
 }
 
 TEST_F(Compare, AnotherSceneOfOneExperimentIsChangedAndNotTimed) {

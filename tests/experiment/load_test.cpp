@@ -4,6 +4,7 @@
 #include <lmdbench/experiment/experiment.h>
 #include <lmdbench/methods/registry.h>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -16,7 +17,10 @@ namespace lmdbench {
 namespace {
 
 using ::testing::AllOf;
+using ::testing::ElementsAre;
 using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::Not;
 
 const char* const MINIMAL = R"({
   "name": "small",
@@ -183,13 +187,44 @@ TEST(LoadExperiment, RepeatedKeysAreRefused) {
 }
 
 TEST(LoadExperiment, ForceConstantsMustFitTogether) {
-  EXPECT_THAT(message({"/force/cutoff_diagonal=0.1"}), HasSubstr("/force: two cutoffs"));
   EXPECT_FALSE(parse(MINIMAL, {R"(/force={"maximum_force_n": 1})"}).profiles[0].cutoff(1.0).has_value())
       << "the scene decides";
   EXPECT_THAT(message({"/force/saturation_m=0.01"}), HasSubstr("/force/saturation_m: saturation at 0.01 m"));
   EXPECT_THAT(message({"/force/saturation_m=0.001", "/force/saturation_cutoff=0.5"}),
-              HasSubstr("/force: two saturation distances"));
+              HasSubstr("/force: \"saturation_cutoff\" and \"saturation_m\" exclude each other"));
   EXPECT_THAT(message({"/force/saturation_cutoff=1"}), HasSubstr("/force/saturation_cutoff: "));
+}
+
+TEST(LoadExperiment, AnOverrideTakesThePlaceOfWhatTheSchemaSaysItExcludes) {
+  const Experiment experiment = parse(MINIMAL, {"/force/cutoff_diagonal=0.1"});
+  EXPECT_EQ(experiment.profiles[0].cutoff_diagonal, 0.1);
+  EXPECT_FALSE(experiment.profiles[0].cutoff_m.has_value());
+  EXPECT_THAT(experiment.notes,
+              ElementsAre("/force/cutoff_diagonal takes the place of /force/cutoff_m, which is "
+                          "0.01 in the file"));
+  EXPECT_THAT(experiment.resolved_json, Not(HasSubstr("cutoff_m")));
+  EXPECT_THAT(parse(MINIMAL, {"/force/cutoff_m=0.1"}).notes, IsEmpty());
+  const std::string listed = R"({"moving": {"mesh": "a", "scale": 2}, "fixed": [{"mesh": "b"}],
+      "force": [{"name": "x", "saturation_cutoff": 0.5}],
+      "movers": [{"mesh": "c", "path": {"turn_rad": 1, "seed": 3}}]})";
+  const Experiment several = parse(listed, {"/force/0/saturation_m=0.001", "/force/0/cutoff_m=0.1",
+                                            "/moving/diagonal_m=1", "/movers/0/path/file=p.tum"});
+  EXPECT_EQ(several.profiles[0].saturation_m, 0.001);
+  EXPECT_EQ(several.notes.size(), 4u) << "a saturation, a scale, and two of how it sways";
+}
+
+TEST(LoadExperiment, KeysThatExcludeEachOtherAreRefused) {
+  EXPECT_THAT(message({"/force/cutoff_m=0.1", "/force/cutoff_diagonal=0.1"}),
+              AllOf(HasSubstr("/force: \"cutoff_diagonal\" and \"cutoff_m\" exclude each other"),
+                    HasSubstr("at most one")))
+      << "of two overrides neither is meant to go";
+  for (
+      const char* entry :
+      {R"("moving": {"mesh": "a", "scale": 2, "diagonal_m": 3}, "fixed": [{"mesh": "b"}])",
+       R"("moving": {"mesh": "a"}, "fixed": [{"mesh": "b", "scale": 2, "diagonal_m": 3}])",
+       R"("moving": {"mesh": "a"}, "fixed": [{"mesh": "b"}], "movers": [{"mesh": "c", "path": {"file": "p", "seed": 1}}])",
+       R"("moving": {"mesh": "a", "deformation": {"files": ["b"], "folder": "c"}}, "fixed": [{"mesh": "b"}])"})
+    EXPECT_THAT(message({}, fmt::format("{{{}}}", entry)), HasSubstr(" exclude each other")) << entry;
 }
 
 TEST(LoadExperiment, ForceDistancesScaleWithTheDiagonal) {

@@ -78,7 +78,7 @@ TEST(Profiles, MistakesNameTheProfile) {
   EXPECT_THAT(place_of(fmt::format("[{}, {}]", HARD, HARD)), HasSubstr("/force/1/name"));
   EXPECT_THAT(place_of(fmt::format("[{}, [{}]]", HARD, SOFT)), HasSubstr("/force/1"));
   EXPECT_THAT(place_of(fmt::format(R"([{}, {{"name": "b", "cutoff_m": 1, "cutoff_diagonal": 1}}])", HARD)),
-              HasSubstr("/force/1: two cutoffs"));
+              HasSubstr("/force/1: \"cutoff_diagonal\" and \"cutoff_m\" exclude each other"));
   EXPECT_THAT(place_of(fmt::format(R"([{}, {{"name": "b", "cutof_m": 1, "maximum_force_n": 3}}])", HARD)),
               HasSubstr("/force/1/cutof_m"));
   EXPECT_THAT(place_of("[]"), HasSubstr("/force"));

@@ -6,6 +6,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 namespace lmdbench {
 namespace {
 
@@ -24,13 +26,28 @@ JsonDocument::JsonDocument(std::string text, std::string file, const nlohmann::j
     : text_(std::move(text)), file_(std::move(file)), code_(code), overrides_(std::move(overrides)) {
   locate([&] {
     json_ = parse_json(text_, file_);
-    for (const std::string& entry : overrides_) apply_override(json_, entry);
+    for (const std::string& entry : overrides_) override_with(entry, schema);
     if (early) early(json_);
     // The validator goes last but one: a misspelt key would else be reported as a missing one.
     refuse_unknown_keys(json_, schema, file_);
     validate_against_schema(json_, schema, file_);
     fill_defaults(json_, schema);
   });
+}
+
+void JsonDocument::override_with(const std::string& entry, const nlohmann::json& schema) {
+  const auto target_of = [](const std::string& override_text) {
+    return override_text.substr(0, override_text.find('='));
+  };
+  apply_override(json_, entry);
+  for (const std::string& other : excluded_by(json_, schema, target_of(entry))) {
+    // Two overrides that exclude each other are refused below.
+    if (std::ranges::find(overrides_, other, target_of) != overrides_.end()) continue;
+    const nlohmann::json::json_pointer pointer(other);
+    notes_.push_back(fmt::format("{} takes the place of {}, which is {} in the file", target_of(entry), other,
+                                 json_[pointer].dump()));
+    json_[pointer.parent_pointer()].erase(pointer.back());
+  }
 }
 
 void JsonDocument::fail(const std::string& pointer, const std::string& problem,

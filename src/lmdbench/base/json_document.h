@@ -16,7 +16,7 @@ namespace lmdbench {
 
 class JsonDocument {
  public:
-  /// Parses, applies overrides ("/json/pointer=value"), refuses keys that the schema does not know (suggesting the
+  /// Parses, applies overrides ("/json/pointer=value"; each replaces what the file gives that excludes it), refuses keys that the schema does not know (suggesting the
   /// nearest), checks against the schema and adds what is absent and has a default.
   /// @param schema outlives nothing: it is read here only
   /// @param code   of the errors: USAGE for what a user writes to command the program, INPUT_DATA for data
@@ -29,6 +29,8 @@ class JsonDocument {
   const nlohmann::json& json() const { return json_; }
   nlohmann::json& json() { return json_; }
   const std::string& text() const { return text_; }
+  /// What overrides replaced beside their own value, in words.
+  const std::vector<std::string>& notes() const { return notes_; }
 
   /// For what a schema cannot say.
   /// @param pointer of the value at fault
@@ -46,6 +48,7 @@ class JsonDocument {
   }
 
  private:
+  void override_with(const std::string& entry, const nlohmann::json& schema);
   [[noreturn]] void rethrow(const Error& error) const;
   std::string place(const std::string& pointer) const;
 
@@ -53,6 +56,7 @@ class JsonDocument {
   std::string file_;
   ExitCode code_;
   std::vector<std::string> overrides_;
+  std::vector<std::string> notes_;
   nlohmann::json json_;
 };
 

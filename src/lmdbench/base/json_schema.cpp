@@ -14,6 +14,7 @@
 #include <memory>
 #include <mutex>
 #include <numeric>
+#include <utility>
 #include <vector>
 
 namespace lmdbench {
@@ -68,6 +69,19 @@ std::string where_it_exists(const std::string& key, const Json& choices) {
   return text;
 }
 
+/// The present keys that must not stand beside another one.
+std::vector<std::string> excluded_keys(const Json& object, const std::string& key, const Json& schema) {
+  std::vector<std::string> excluded;
+  if (!schema.contains("dependencies")) return excluded;
+  for (const auto& [one, rule] : schema["dependencies"].items())
+    for (const auto& [other, allowed] : rule["properties"].items()) {
+      if (allowed != false) continue;
+      if (one == key && object.contains(other)) excluded.push_back(other);
+      if (other == key && object.contains(one)) excluded.push_back(one);
+    }
+  return excluded;
+}
+
 void refuse_unknown(const Json& value, const Json& schema_or_reference, const Json& root,
                     const Pointer& place, const std::string& file) {
   const Json& whole = follow(schema_or_reference, root);
@@ -83,6 +97,10 @@ void refuse_unknown(const Json& value, const Json& schema_or_reference, const Js
     const Json& properties = (*schema)["properties"];
     for (const auto& [key, child] : value.items()) {
       if (properties.contains(key)) {
+        if (const auto excluded = excluded_keys(value, key, *schema); !excluded.empty())
+          throw UsageError(file, place.to_string(),
+                           fmt::format("\"{}\" and \"{}\" exclude each other", key, excluded.front()),
+                           "give at most one of the two");
         refuse_unknown(child, properties[key], root, place / key, file);
       } else if (schema->contains("additionalProperties") && (*schema)["additionalProperties"] == false) {
         std::vector<std::string> known;
@@ -180,6 +198,20 @@ void refuse_unknown_keys(const Json& document, const Json& schema, const std::st
   refuse_unknown(document, schema, schema, Pointer(), file);
 }
 
+std::vector<std::string> excluded_by(const Json& document, const Json& schema, const std::string& pointer) {
+  Pointer parent(pointer);
+  if (parent.empty()) return {};
+  const std::string key = parent.back();
+  parent.pop_back();
+  if (!document.contains(parent) || !document[parent].is_object()) return {};
+  std::vector<std::string> place;
+  for (Pointer rest = parent; !rest.empty(); rest.pop_back()) place.insert(place.begin(), rest.back());
+  std::vector<std::string> excluded =
+      excluded_keys(document[parent], key, schema_at(place, schema, document));
+  for (std::string& other : excluded) other = (parent / other).to_string();
+  return excluded;
+}
+
 void validate_against_schema(const Json& document, const Json& schema_json, const std::string& file) {
   valijson::ValidationResults results;
   const valijson::adapters::NlohmannJsonAdapter target(document);
@@ -212,14 +244,16 @@ std::string nearest_word(const std::string& word, const std::vector<std::string>
   // A slip is a third of the word at most; farther words would be guesses.
   std::size_t least = std::max<std::size_t>(word.size() / 3, 1) + 1;
   for (const std::string& candidate : candidates) {
-    std::vector<std::size_t> row(candidate.size() + 1);  // Levenshtein distance, one row at a time
+    // Levenshtein distance, one row at a time; two neighbours that are swapped are one slip, too.
+    std::vector<std::size_t> row(candidate.size() + 1), above, above_that;
     std::iota(row.begin(), row.end(), std::size_t{0});
     for (std::size_t i = 0; i < word.size(); ++i) {
-      std::size_t diagonal = row[0]++;
+      above_that = std::exchange(above, row);
+      row[0] = i + 1;
       for (std::size_t j = 0; j < candidate.size(); ++j) {
-        const std::size_t substituted = diagonal + (word[i] == candidate[j] ? 0 : 1);
-        diagonal = row[j + 1];
-        row[j + 1] = std::min({substituted, row[j] + 1, row[j + 1] + 1});
+        row[j + 1] = std::min({above[j] + (word[i] == candidate[j] ? 0 : 1), row[j] + 1, above[j + 1] + 1});
+        if (i > 0 && j > 0 && word[i] == candidate[j - 1] && word[i - 1] == candidate[j])
+          row[j + 1] = std::min(row[j + 1], above_that[j - 1] + 1);
       }
     }
     if (row.back() < least) {

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include <string>
+#include <vector>
 
 /// Checking and completing JSON documents against a draft-07 schema. Two things are done here
 /// instead of by the validator, because its messages could not help the user: unknown keys (with
@@ -14,9 +15,16 @@ namespace lmdbench {
 /// Keys that the schema does not know are refused wherever it says "additionalProperties": false. Properties
 /// that exist only beside certain values are given by "allOf": [{"if": {"properties": {KEY: {"const":
 /// VALUE}}}, "then": SCHEMA}].
-/// @throws UsageError with the JSON pointer of the first such key
+/// Keys that exclude each other, given by "dependencies": {KEY: {"properties": {OTHER: false}}}, are refused as well.
+/// @throws UsageError with the JSON pointer of the first such key or of the object that has two that exclude each other
 void refuse_unknown_keys(const nlohmann::json& document, const nlohmann::json& schema,
                          const std::string& file);
+
+/// The values of the document that must not stand beside the one at a place.
+/// @param pointer of a value that is there
+/// @return JSON pointers
+std::vector<std::string> excluded_by(const nlohmann::json& document, const nlohmann::json& schema,
+                                     const std::string& pointer);
 
 /// @throws UsageError with the JSON pointer of the first violation
 void validate_against_schema(const nlohmann::json& document, const nlohmann::json& schema,
@@ -25,7 +33,7 @@ void validate_against_schema(const nlohmann::json& document, const nlohmann::jso
 /// Adds every absent property that has a "default" (and applies), to any depth.
 void fill_defaults(nlohmann::json& document, const nlohmann::json& schema);
 
-/// The candidate nearest to `word` by edit distance, or an empty string when none
+/// The candidate nearest to `word` by edit distance (swapped neighbours are one edit), or an empty string when none
 /// is near enough to be a slip.
 std::string nearest_word(const std::string& word, const std::vector<std::string>& candidates);
 

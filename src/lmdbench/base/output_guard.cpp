@@ -11,6 +11,14 @@
 
 namespace lmdbench {
 
+void refuse_standard_output(const std::filesystem::path& file, const std::string& what,
+                            const std::string& option) {
+  if (file != "-") return;
+  throw UsageError("", fmt::format("{} -", option),
+                   fmt::format("\"-\" stands for standard output, and a {} is not written there", what),
+                   fmt::format("name a file with {}, or ./- for one of this name", option));
+}
+
 void refuse_unsafe_output(const std::filesystem::path& file, const OutputKind& kind,
                           const std::vector<std::filesystem::path>& inputs, const std::string& option) {
   const std::string remedy = fmt::format("choose another name with {}", option);
@@ -18,6 +26,7 @@ void refuse_unsafe_output(const std::filesystem::path& file, const OutputKind& k
     throw UsageError(file.string(), option, problem, other_remedy);
   };
   if (!file.has_filename()) refuse("names no file", fmt::format("end {} with a file name", option));
+  refuse_standard_output(file, kind.what, option);
   struct stat there {};
   if (::lstat(file.c_str(), &there) != 0) return;  // free, or a problem that opening will tell
   for (const std::filesystem::path& input : inputs) {

@@ -17,9 +17,14 @@ struct OutputKind {
   std::function<bool(const std::filesystem::path& file)> is_ours;
 };
 
+/// @param what  would be written: "result file"
+/// @throws UsageError for `-`, which people mean as standard output
+void refuse_standard_output(const std::filesystem::path& file, const std::string& what,
+                            const std::string& option);
+
 /// Makes sure that writing a file replaces nothing but an earlier output of the same kind: the name is free, or
 /// names an empty file or one of ours. Symbolic links are refused, dangling ones too, as are directories,
-/// devices, FIFOs, foreign files, and whatever is one of the inputs by any name (hard links included).
+/// devices, FIFOs, foreign files, and whatever is one of the inputs by any name (hard links included); `-` as well.
 /// @param option  that named the file, for the remedy: "--out"
 /// @throws UsageError; nothing was touched
 void refuse_unsafe_output(const std::filesystem::path& file, const OutputKind& kind,

@@ -37,7 +37,9 @@ TriangleMesh read_format(const FileContent& content) {
     throw InputError(
         file, "", fmt::format("'{}' is no extension of a mesh format that is read", extension),
         fmt::format("convert it to OFF, PLY, OBJ or STL (extensions off, {})", fmt::join(known, ", ")));
-  if (extension == "ply") check_ply(content.bytes, file);
+  if (extension == "ply")
+    return read_with_assimp(with_its_first_byte(content.bytes, check_ply(content.bytes, file)), extension,
+                            file);
   if (extension == "obj") {
     check_obj(content.bytes, file);
     return read_with_assimp(without_materials(content.bytes), extension, file);

@@ -233,10 +233,18 @@ class BodyWalk {
 
 }  // namespace
 
-void check_ply(std::string_view bytes, const std::string& file) {
+PlyContent check_ply(std::string_view bytes, const std::string& file) {
   HeaderReader header(bytes, file);
   const std::vector<Element> elements = header.read();
   BodyWalk(header.body(), header.form(), file).walk(elements);
+  return {bytes.size() - header.body().size(), header.form() == Form::TEXT};
+}
+
+std::string with_its_first_byte(std::string_view ply, const PlyContent& content) {
+  std::string result(ply);
+  if (!content.is_text && ply.substr(content.offset).starts_with('\n') && ply[content.offset - 2] != '\r')
+    result.insert(content.offset - 1, 1, '\r');
+  return result;
 }
 
 namespace {

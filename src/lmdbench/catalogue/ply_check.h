@@ -7,6 +7,12 @@
 
 namespace lmdbench {
 
+/// What stands behind the header of a PLY file.
+struct PlyContent {
+  std::size_t offset = 0;  ///< In the file.
+  bool is_text = true;
+};
+
 /// Checks that a PLY file holds what its header announces, before assimp (5.2.5) reads it: that one loops for
 /// ever on a header that was cut, and takes a file with fewer faces than announced, or a property of unknown
 /// type, for other geometry. Text and both binary forms, in time linear in the file.
@@ -14,7 +20,11 @@ namespace lmdbench {
 /// @param file   its name, for messages
 /// @throws InputError naming the header's line, or the element at which the content ends; also for more faces
 ///         than the limit of triangles and for polygons with more corners than theirs
-void check_ply(std::string_view bytes, const std::string& file);
+PlyContent check_ply(std::string_view bytes, const std::string& file);
+
+/// The PLY file as assimp (5.2.5) reads it right: that one takes a line feed at the begin of binary content for the second half of the
+/// header's last line end, where it may be a number's first byte. Such a header gets an end of two bytes (CR LF).
+std::string with_its_first_byte(std::string_view ply, const PlyContent& content);
 
 /// Refuses what assimp (5.2.5) reads in more than linear time from OBJ text: lines without end and polygons of
 /// more corners than the limit. Linear in the text.

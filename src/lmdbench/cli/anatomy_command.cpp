@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/base/error.h>
 #include <lmdbench/cli/commands.h>
-#include <lmdbench/experiment/experiment.h>
+#include <lmdbench/cli/experiment_argument.h>
 #include <lmdbench/run/contact.h>
 #include <lmdbench/run/prepare.h>
 #include <lmdbench/view/anatomy.h>
@@ -38,8 +38,7 @@ std::size_t frame_at(const PreparedRun& prepared, std::optional<double> time) {
 
 void add_anatomy_command(CLI::App& app) {
   struct Options {
-    std::string experiment;
-    std::vector<std::string> overrides;
+    ExperimentArgument experiment;
     std::optional<double> time;
     std::vector<int> levels{2, 5, 8};
   };
@@ -49,9 +48,7 @@ void add_anatomy_command(CLI::App& app) {
       "node "
       "pair for each verdict of G1 to G3, neighbourhoods of local tracking, the visibility pre-test");
   const auto options = std::make_shared<Options>();
-  command->add_option("experiment", options->experiment, "experiment file (JSON)")->required();
-  command->add_option("--set", options->overrides, "override a value: /json/pointer=value; repeatable")
-      ->allow_extra_args(false);
+  add_experiment_argument(*command, options->experiment)->required();
   command->add_option("--time", options->time,
                       "time of the path [s]; without it the middle one of the frames in contact");
   command
@@ -60,10 +57,10 @@ void add_anatomy_command(CLI::App& app) {
       ->check(CLI::Range(0, 64))
       ->capture_default_str();
   command->callback([options] {
-    const Experiment experiment = load_experiment(options->experiment, options->overrides);
+    const Experiment experiment = options->experiment.load();
     if (experiment.is_world())
-      throw UsageError(options->experiment, "/fixed", "anatomy looks at one fixed mesh, not at instances",
-                       "leave \"instances\" out");
+      throw UsageError(options->experiment.file, "/fixed",
+                       "anatomy looks at one fixed mesh, not at instances", "leave \"instances\" out");
     const PreparedRun prepared = prepare(experiment);
     const std::size_t frame = frame_at(prepared, options->time);
     fmt::print("{}\n", anatomy_json(prepared.scene(), prepared.input.poses[frame], prepared.times[frame],

@@ -43,8 +43,9 @@ void add_path_command(CLI::App& app);
 /// details. Colours are used on terminals only, and never where NO_COLOR is set (no-color.org).
 void set_up_talk(int verbosity);
 
-/// Whether a progress bar is welcome: not when quiet.
-bool progress_welcome();
+/// Whether progress bars and what a command tells of the file that it has written are welcome: not when quiet. Answers
+/// that were asked for (of query, compare, plan, --json) are printed all the same.
+bool talk_welcome();
 
 /// For commands that put their work into order first: from now on the first of the signals that users, terminals and
 /// schedulers send to end a program (SIGINT, SIGTERM and SIGHUP) is only remembered; a second one ends the program at once. What `nohup`

@@ -68,12 +68,14 @@ int compare(CompareArguments& arguments) {
 }  // namespace
 
 void add_compare_command(CLI::App& app, int& exit_status) {
-  auto* command = app.add_subcommand(
-      "compare", "Compare results of two builds: exactly what is deterministic, statistically what is timed");
+  auto* command = app.add_subcommand("compare",
+                                     "Compare results of two builds, or of two settings on the same meshes "
+                                     "and path: exactly what is deterministic, "
+                                     "statistically what is timed");
   command->footer(
-      "Exit code: 0 same or faster, 1 slower or changed, 2 different experiments, 3 no result file, 4 unsure "
-      "(one "
-      "process a side always is, unless results differ).");
+      "Exit code: 0 same or faster, 1 slower, changed or other settings, 2 other meshes or path, 3 no result "
+      "file, 4 "
+      "unsure (one process a side always is, unless results differ).");
   const auto arguments = std::make_shared<CompareArguments>();
   command->add_option("files", arguments->files, "BASE.h5 CANDIDATE.h5, one process a side");
   command->add_option("--base", arguments->base, "results of the base, one a process");

@@ -48,7 +48,7 @@ void add_init_command(CLI::App& app) {
     if (!options->unit.empty()) chosen.unit = options->unit;
     if (!options->orient.empty()) chosen.orientation = parse_orientation(options->orient, "", "--orient");
     chosen.contact = options->contact;
-    ProgressBar bar(progress_welcome());
+    ProgressBar bar(talk_welcome());
     const NewExperiment made = new_experiment(
         options->moving, options->fixed, options->out, options->mesh_folder,
         [&bar, phase = std::string(chosen.contact ? "resting pose" : "path")](std::int64_t done,
@@ -59,6 +59,7 @@ void add_init_command(CLI::App& app) {
         chosen);
     bar.wipe();
     write_new_experiment(made);
+    if (!talk_welcome()) return;
     fmt::print("{}\n", made.experiment_file.string());
     if (!made.specification_text.empty()) fmt::print("{}\n", made.specification_file.string());
     fmt::print("{}\n", made.path_file.string());

@@ -29,8 +29,8 @@ int run_program(int argc, char** argv) {
   try {
     app->parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    const int code = app->exit(error);  // prints help or what is wrong
-    return code == 0 ? 0 : static_cast<int>(ExitCode::USAGE);
+    if (error.get_exit_code() != 0) throw usage_error(*app, error);
+    return app->exit(error);  // prints help or the version
   }
   // Results that did not arrive must not look like success; a command that flushes by itself leaves the mark.
   if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0)

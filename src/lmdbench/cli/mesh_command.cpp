@@ -71,7 +71,7 @@ void print_outcome(const BuildOutcome& outcome, bool json) {
         {"state", state},           {"triangles", outcome.triangles},
         {"sha256", outcome.sha256}, {"matches_manifest", outcome.matches_manifest}};
     fmt::print("{}\n", json_line(line));
-  } else {
+  } else if (talk_welcome()) {
     fmt::print("{:<20} {:>8} triangles  {:<10}  {}\n", outcome.name, outcome.triangles, state,
                outcome.file.string());
   }

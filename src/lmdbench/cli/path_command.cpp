@@ -92,7 +92,7 @@ struct GapNote {
 
 GapNote note_gaps(const PathInterpolator& interpolator, const PathSpec& spec, const PathScene& scene,
                   const std::string& file) {
-  ProgressBar bar(progress_welcome());
+  ProgressBar bar(talk_welcome());
   const Path frames = resample(interpolator, spec.frame_rate);
   const GapMeasure measure = measure_gaps(frames, scene.distance, progress_on(bar, "check", file));
   std::size_t at_wanted_gap = 0;
@@ -174,7 +174,7 @@ void generate(const PathArguments& arguments) {
   const PathScene scene = load_scene(spec, arguments);
   Path path;
   {
-    ProgressBar bar(progress_welcome());
+    ProgressBar bar(talk_welcome());
     path = generate_path(spec, scene, progress_on(bar, "generate", arguments.spec));
   }
   const std::string comment =
@@ -194,8 +194,9 @@ void generate(const PathArguments& arguments) {
         "store more poses a second, move more slowly, or keep the gaps further above the floor");
   write_file_atomically(arguments.path, text);
   spdlog::info("wrote {}", arguments.path);
-  print_facts(arguments.path, path_facts(interpolator, spec.frame_rate), spec.frame_rate, gaps,
-              arguments.json);
+  if (arguments.json || talk_welcome())
+    print_facts(arguments.path, path_facts(interpolator, spec.frame_rate), spec.frame_rate, gaps,
+                arguments.json);
 }
 
 void info(const PathArguments& arguments) {

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/base/error.h>
 #include <lmdbench/cli/commands.h>
+#include <lmdbench/cli/experiment_argument.h>
 #include <lmdbench/cli/progress_bar.h>
-#include <lmdbench/experiment/experiment.h>
 #include <lmdbench/methods/registry.h>
 #include <lmdbench/run/contact.h>
 #include <lmdbench/run/mover_probe.h>
@@ -22,17 +22,14 @@ namespace lmdbench {
 
 void add_plan_command(CLI::App& app) {
   struct PlanOptions {
-    std::string experiment;
-    std::vector<std::string> overrides;
+    ExperimentArgument experiment;
     bool json = false;
     bool schema = false;
   };
   auto* command =
       app.add_subcommand("plan", "Say what an experiment needs, what is left out and why; run nothing");
   const auto options = std::make_shared<PlanOptions>();
-  command->add_option("experiment", options->experiment, "experiment file (JSON)");
-  command->add_option("--set", options->overrides, "override a value: /json/pointer=value; repeatable")
-      ->allow_extra_args(false);
+  add_experiment_argument(*command, options->experiment);
   command->add_flag("--json", options->json, "JSON, with the experiment and all its defaults");
   command->add_flag(
       "--schema", options->schema,
@@ -43,10 +40,10 @@ void add_plan_command(CLI::App& app) {
       fmt::print("{}\n", experiment_schema().dump(2));
       return;
     }
-    if (options->experiment.empty())
+    if (options->experiment.file.empty())
       throw UsageError("", "plan", "no experiment file", "name one: lmdbench plan EXPERIMENT.json");
-    const Experiment experiment = load_experiment(options->experiment, options->overrides);
-    ProgressBar bar(progress_welcome());
+    const Experiment experiment = options->experiment.load();
+    ProgressBar bar(talk_welcome());
     const PreparedRun prepared = prepare(
         experiment,
         [&bar](std::int64_t done, std::int64_t total) {

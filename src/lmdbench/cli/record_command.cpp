@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include <lmdbench/base/error.h>
+#include <lmdbench/base/output_guard.h>
 #include <lmdbench/cli/commands.h>
+#include <lmdbench/cli/experiment_argument.h>
 #include <lmdbench/cli/progress_bar.h>
 #include <lmdbench/motion/tum_file.h>
 #include <lmdbench/run/record_path.h>
@@ -19,15 +20,15 @@ namespace lmdbench {
 namespace {
 
 struct RecordOptions {
-  std::string experiment;
+  ExperimentArgument experiment;
   std::string out;
-  std::vector<std::string> overrides;
   std::size_t every = 1;
 };
 
 void record(const RecordOptions& options) {
-  const Experiment experiment = load_experiment(options.experiment, options.overrides);
-  ProgressBar bar(progress_welcome());
+  refuse_standard_output(options.out, "path", "--out");
+  const Experiment experiment = options.experiment.load();
+  ProgressBar bar(talk_welcome());
   const Path path = record_path(experiment, options.every,
                                 [&bar](const std::string& phase, std::int64_t done, std::int64_t total) {
                                   bar.update(phase, done, total);
@@ -46,11 +47,9 @@ void add_record_command(CLI::App& app) {
   auto* command =
       app.add_subcommand("record", "Record the path that the simulated device takes in a closed loop");
   const auto options = std::make_shared<RecordOptions>();
-  command->add_option("experiment", options->experiment, "experiment file (JSON) whose loop is closed")
+  add_experiment_argument(*command, options->experiment, "experiment file (JSON) whose loop is closed")
       ->required();
   command->add_option("--out,-o", options->out, "path to write (TUM trajectory)")->required();
-  command->add_option("--set", options->overrides, "override a value: /json/pointer=value; repeatable")
-      ->allow_extra_args(false);
   command->add_option("--every", options->every, "keep every so many-th frame; all of them without it")
       ->check(CLI::PositiveNumber);
   command->callback([options] { record(*options); });

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/base/error.h>
 #include <lmdbench/cli/commands.h>
+#include <lmdbench/cli/experiment_argument.h>
 #include <lmdbench/cli/progress_bar.h>
-#include <lmdbench/experiment/experiment.h>
 #include <lmdbench/methods/registry.h>
 #include <lmdbench/metrics/summary.h>
 #include <lmdbench/result/run_to_file.h>
@@ -26,9 +26,8 @@ namespace lmdbench {
 namespace {
 
 struct RunOptions {
-  std::string experiment;
+  ExperimentArgument experiment;
   std::string out;
-  std::vector<std::string> overrides;
   std::string driver;
   bool json = false;
   bool resume = false;
@@ -36,14 +35,15 @@ struct RunOptions {
 };
 
 void run_to_file(const RunOptions& options, const std::vector<std::string>& argv) {
-  std::vector<Override> overrides = options.overrides;
+  ExperimentArgument argument = options.experiment;
+  std::vector<Override>& overrides = argument.overrides;
   if (!options.driver.empty()) overrides.push_back("/driver/kind=" + options.driver);
   if (options.require_realtime)
     overrides.insert(overrides.end(), {"/driver/kind=realtime", "/driver/realtime/required=true"});
-  const Experiment experiment = load_experiment(options.experiment, overrides);
+  const Experiment experiment = argument.load();
   const std::filesystem::path out = options.out.empty() ? "results/" + experiment.name + ".h5" : options.out;
 
-  ProgressBar bar(progress_welcome());
+  ProgressBar bar(talk_welcome());
   heed_stop_signals();
   try {
     const RunResult result = run_experiment_to_file(
@@ -74,13 +74,13 @@ void run_to_file(const RunOptions& options, const std::vector<std::string>& argv
       nlohmann::ordered_json json = nlohmann::ordered_json::parse(summary_json(summary));
       if (!result.clocks.empty()) json["realtime"] = realtime_json(result.clocks);
       fmt::print("{}\n", json.dump(2));
-    } else {
+    } else if (talk_welcome()) {
       fmt::print("{}{}", summary_text(summary), realtime_text(result.clocks));
     }
     spdlog::info("wrote {}", out.string());
     if (!summary.broken_limits.empty())
       throw Error(
-          ExitCode::CHECK_FAILED, options.experiment, "/limits",
+          ExitCode::CHECK_FAILED, argument.file, "/limits",
           fmt::format("{} broken: {}", summary.broken_limits.size(), fmt::join(summary.broken_limits, "; ")),
           "the result is written: look there, or move the limits");
   } catch (const Interrupted&) {
@@ -100,10 +100,8 @@ void run_to_file(const RunOptions& options, const std::vector<std::string>& argv
 void add_run_command(CLI::App& app, const std::vector<std::string>& argv) {
   auto* command = app.add_subcommand("run", "Run an experiment and write its result file");
   const auto options = std::make_shared<RunOptions>();
-  command->add_option("experiment", options->experiment, "experiment file (JSON)")->required();
+  add_experiment_argument(*command, options->experiment)->required();
   command->add_option("--out,-o", options->out, "result file; results/<name>.h5 without it");
-  command->add_option("--set", options->overrides, "override a value: /json/pointer=value; repeatable")
-      ->allow_extra_args(false);
   command->add_option("--driver", options->driver, "same as --set /driver/kind=...");
   command->add_flag(
       "--require-realtime", options->require_realtime,

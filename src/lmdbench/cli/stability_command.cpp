@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/base/error.h>
 #include <lmdbench/cli/commands.h>
+#include <lmdbench/cli/experiment_argument.h>
 #include <lmdbench/cli/progress_bar.h>
 #include <lmdbench/stability/stability_search.h>
 
@@ -17,16 +18,15 @@ namespace lmdbench {
 namespace {
 
 struct StabilityOptions {
-  std::string experiment;
-  std::vector<std::string> overrides;
+  ExperimentArgument experiment;
   StabilityBudget budget;
   bool json = false;
 };
 
 /// @return whether every row has an answer
 bool search(const StabilityOptions& options) {
-  const Experiment experiment = load_experiment(options.experiment, options.overrides);
-  ProgressBar bar(progress_welcome());
+  const Experiment experiment = options.experiment.load();
+  ProgressBar bar(talk_welcome());
   const std::vector<StabilityRow> rows = find_critical_stiffness(
       experiment,
       [&bar](const std::string& phase, std::int64_t done, std::int64_t total) {
@@ -50,10 +50,8 @@ bool search(const StabilityOptions& options) {
 void add_stability_command(CLI::App& app, int& exit_status) {
   auto* command = app.add_subcommand("stability", "Find the largest clean stiffness of a closed loop");
   const auto options = std::make_shared<StabilityOptions>();
-  command->add_option("experiment", options->experiment, "experiment file (JSON) whose loop is closed")
+  add_experiment_argument(*command, options->experiment, "experiment file (JSON) whose loop is closed")
       ->required();
-  command->add_option("--set", options->overrides, "override a value: /json/pointer=value; repeatable")
-      ->allow_extra_args(false);
   command->add_flag("--json", options->json, "a JSON array, one object a method");
   command
       ->add_option("--seconds", options->budget.seconds, "a method's search ends after this time, undecided")

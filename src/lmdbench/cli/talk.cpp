@@ -45,7 +45,7 @@ void set_up_talk(int verbosity) {
   spdlog::set_default_logger(logger);
 }
 
-bool progress_welcome() {
+bool talk_welcome() {
   return spdlog::should_log(spdlog::level::info);
 }
 

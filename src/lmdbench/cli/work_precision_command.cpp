@@ -47,8 +47,10 @@ void measure_or_collect(const SweepOptions& options, const Sweep& sweep, const s
   const SweepResult result = options.collect ? collect_sweep_to_file(sweep, out, argv)
                                              : run_sweep_to_file(sweep, out, argv, progress);
   bar.wipe();
-  fmt::print("{}{}", options.json ? sweep_json(sweep, result) : sweep_text(sweep, result),
-             options.json ? "\n" : "");
+  if (options.json)
+    fmt::print("{}\n", sweep_json(sweep, result));
+  else if (talk_welcome())
+    fmt::print("{}", sweep_text(sweep, result));
   for (const std::string& line : done_again(sweep, out)) spdlog::info("done again: {}", line);
   if (result.resumed_runs > 0)
     spdlog::info("{} of {} traversals were done before: {}", result.resumed_runs,
@@ -60,7 +62,7 @@ void sweep_to_file(const SweepOptions& options, const std::vector<std::string>& 
   const Sweep sweep = load_sweep(options.sweep, options.overrides);
   const std::filesystem::path out = options.out.empty() ? "results/" + sweep.name + ".h5" : options.out;
   if (options.list) return print_points(sweep, out, options.json);
-  ProgressBar bar(progress_welcome());
+  ProgressBar bar(talk_welcome());
   heed_stop_signals();
   const RunProgress progress = [&bar](const std::string& phase, std::int64_t done, std::int64_t total) {
     bar.update(phase, done, total);

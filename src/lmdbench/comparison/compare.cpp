@@ -66,9 +66,9 @@ void check_replicates(const Files& files) {
   }
 }
 
-/// Other experiments have other results by design, which is no news about a program.
-void refuse_different_experiments(const ResultReader& base, const ResultReader& candidate) {
-  const std::vector<Difference> differences = experiment_differences(base, candidate);
+/// Where two experiments ask of the same frames under other settings. Results of other frames have nothing to compare.
+std::vector<Difference> setting_differences(const ResultReader& base, const ResultReader& candidate) {
+  std::vector<Difference> differences = experiment_differences(base, candidate);
   const std::vector<std::string> methods = base.groups("/methods");
   const bool in_common = std::any_of(methods.begin(), methods.end(), [&](const std::string& label) {
     return candidate.has("/methods/" + label);
@@ -78,13 +78,14 @@ void refuse_different_experiments(const ResultReader& base, const ResultReader& 
         candidate.file().string(), "/methods",
         fmt::format("{} {}: it has no method of the base", DIFFERENT_EXPERIMENTS, base.file().string()),
         "compare results of one experiment file");
-  if (differences.empty()) return;
-  const std::string more =
-      differences.size() == 1 ? "" : fmt::format(" (and {} more)", differences.size() - 1);
-  throw UsageError(candidate.file().string(), "",
-                   fmt::format("{} {}: {}{}", DIFFERENT_EXPERIMENTS, base.file().string(),
-                               difference_text(differences.front()), more),
-                   "compare results of one experiment file on the same inputs");
+  const auto first = std::ranges::find_if(differences, is_of_frames);
+  if (first == differences.end()) return differences;
+  const std::ptrdiff_t others = std::ranges::count_if(differences, is_of_frames) - 1;
+  throw UsageError(
+      candidate.file().string(), "",
+      fmt::format("{} {}: {}{}", DIFFERENT_EXPERIMENTS, base.file().string(), difference_text(*first),
+                  others == 0 ? "" : fmt::format(" (and {} more)", others)),
+      "compare results on the same meshes and path; lmdbench report shows any results beside each other");
 }
 
 void check_allowed(const std::vector<std::string>& names, const ResultReader& base,
@@ -264,11 +265,19 @@ Comparison compare_results(const std::vector<std::filesystem::path>& base_names,
   check_replicates(candidate);
   Comparison comparison;
   comparison.machine = compare_machines(base, candidate);
-  refuse_different_experiments(base.front(), candidate.front());
-  comparison.differences = scene_differences(base.front(), candidate.front());
-  const bool same_scene = comparison.differences.empty();
-  for (Difference& difference : exact_differences(base.front(), candidate.front(), options.exact))
-    comparison.differences.push_back(std::move(difference));
+  comparison.differences = setting_differences(base.front(), candidate.front());
+  std::vector<Difference> of_scenes = scene_differences(base.front(), candidate.front());
+  if (!comparison.differences.empty()) {
+    comparison.notes.emplace_back(
+        "the experiments differ in the settings named first: what else differs, times included, may come "
+        "from them");
+    // So do the force constants, which are attributes of the group itself.
+    std::erase_if(of_scenes, [](const Difference& d) { return d.dataset.starts_with("/scene:"); });
+  }
+  const bool same_scene = of_scenes.empty();
+  std::ranges::move(of_scenes, std::back_inserter(comparison.differences));
+  std::ranges::move(exact_differences(base.front(), candidate.front(), options.exact),
+                    std::back_inserter(comparison.differences));
   for (const std::string& name : additions(base.front(), candidate.front()))
     comparison.notes.push_back("only the candidate has " + name);
   if (same_scene) {

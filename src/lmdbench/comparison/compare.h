@@ -12,7 +12,8 @@
 #include <utility>
 #include <vector>
 
-/// Comparing the results of two builds on one experiment: first what must be the same bits, then times.
+/// Comparing the results of two builds on one experiment, or of two settings of it: first what must be the same bits, then
+/// times.
 namespace lmdbench {
 
 struct CompareOptions {
@@ -43,11 +44,12 @@ struct Comparison {
 
 /// Compares results; several files a side are replicates by process. Times are compared by stage and method where the
 /// machines are alike; else the times of the methods relative to each other within every file are compared, with a least
-/// effect of at least CROSS_MACHINE_EFFECT. Where one experiment made different scenes, that is `changed`, and no times are
-/// compared.
+/// effect of at least CROSS_MACHINE_EFFECT. Experiments that ask of the same frames under other settings (force, methods,
+/// searches) are `changed`, which settings said first. Where one experiment made different scenes, that is `changed`, and no
+/// times are compared.
 /// @throws InputError  when a file is no result, or when replicates of one side have other results than their first
-/// @throws UsageError  when a side has no file, one file twice or a sweep's file, when the two sides' experiments or inputs
-///                     differ (the message holds DIFFERENT_EXPERIMENTS), or for an unknown counter in `allowed_counters`
+/// @throws UsageError  when a side has no file, one file twice or a sweep's file, when the two sides' experiments have
+///                     other frames or inputs (the message holds DIFFERENT_EXPERIMENTS), or for an unknown counter in `allowed_counters`
 Comparison compare_results(const std::vector<std::filesystem::path>& base,
                            const std::vector<std::filesystem::path>& candidate,
                            const CompareOptions& options);

@@ -7,7 +7,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 #include <map>
+#include <string_view>
 #include <utility>
 
 namespace lmdbench {
@@ -122,6 +124,14 @@ std::vector<Difference> experiment_differences(const ResultReader& base, const R
   compare_json(deciding_part(base), deciding_part(candidate), "", differences);
   compare_inputs(base, candidate, differences);
   return differences;
+}
+
+bool is_of_frames(const Difference& difference) {
+  constexpr std::string_view KEYS[] = {"/moving", "/fixed", "/movers", "/path", "/frame_rate_hz", "/frames"};
+  const std::string in_experiment = EXPERIMENT + std::string(":");
+  if (!difference.dataset.starts_with(in_experiment)) return true;  // a file's SHA-256
+  const std::string pointer = difference.dataset.substr(in_experiment.size());
+  return std::ranges::find(KEYS, pointer.substr(0, pointer.find('/', 1))) != std::end(KEYS);
 }
 
 std::vector<Difference> scene_differences(const ResultReader& base, const ResultReader& candidate) {

@@ -16,6 +16,10 @@ namespace lmdbench {
 /// every input. A key that only one side knows is no difference: versions of the program may differ in their options.
 std::vector<Difference> experiment_differences(const ResultReader& base, const ResultReader& candidate);
 
+/// Whether a difference of experiments is one of their frames (meshes, path, rate, how many) rather than of what is done in
+/// them: force, methods, searches, device.
+bool is_of_frames(const Difference& difference);
+
 /// What two programs made of one experiment before any method ran: meshes and force constants of /scene, poses of /path.
 std::vector<Difference> scene_differences(const ResultReader& base, const ResultReader& candidate);
 

@@ -150,6 +150,7 @@ struct Experiment {
                        [](const MeshChoice& choice) { return choice.deformation.has_value(); });
   }
   std::vector<DefaultNote> defaults;  ///< What the file leaves open and no mesh is needed for.
+  std::vector<std::string> notes;     ///< What overrides replaced beside their own value.
   std::string resolved_json;          ///< The file with overrides and defaults, for the record.
 };
 

@@ -33,7 +33,7 @@ MeshChoice mesh_choice(const Json& entry, const std::string& place, const std::s
   // A number's own text is among those that the option takes.
   const std::string text = tolerance.is_string() ? tolerance.get<std::string>() : tolerance.dump();
   return {entry["mesh"].get<std::string>(),
-          read_placement(entry, file, place),
+          read_placement(entry),
           Pose{},
           parse_planar_tolerance(text, file, place + "/planar_tolerance"),
           parse_orientation(entry["orient"].get<std::string>(), file, place + "/orient"),
@@ -70,11 +70,6 @@ ForceChoice force_choice(const Json& entry, const std::string& place, const std:
   force.aggregation =
       &aggregation_named(entry["aggregation"].get<std::string>(), file, place + "/aggregation");
   force.clip_at_maximum = entry["clip"] == "maximum";
-  if (force.cutoff_m && force.cutoff_diagonal)
-    throw UsageError(file, place, "two cutoffs", "give at most one of cutoff_m and cutoff_diagonal");
-  if (force.saturation_m && force.saturation_cutoff)
-    throw UsageError(file, place, "two saturation distances",
-                     "give at most one of saturation_m and saturation_cutoff");
   if (force.saturation_m && force.cutoff_m && *force.saturation_m >= *force.cutoff_m)
     throw UsageError(file, place + "/saturation_m",
                      fmt::format("saturation at {} m is not below the cutoff of {} m", *force.saturation_m,
@@ -93,10 +88,6 @@ MoverChoice mover_choice(const Json& entry, const std::string& place, const std:
     mover.path_file = (file.parent_path() / path["file"].get<std::string>()).lexically_normal();
   mover.interpolation = path["interpolation"] == "linear" ? Interpolation::LINEAR : Interpolation::CUBIC;
   mover.gap_intervals = path["gap_intervals"].get<double>();
-  for (const char* key : {"way_diagonals", "turn_rad", "period_s", "seed"})
-    if (path.contains("file") && path.contains(key))
-      throw UsageError(file.string(), fmt::format("{}/path/{}", place, key),
-                       "a path from a file does not sway", "give either \"file\" or how it sways");
   mover.sway.way_diagonals = path.value("way_diagonals", mover.sway.way_diagonals);
   mover.sway.turn_rad = path.value("turn_rad", mover.sway.turn_rad);
   mover.sway.period_s = path.value("period_s", mover.sway.period_s);
@@ -333,6 +324,7 @@ Experiment parse_experiment(const std::string& text, const std::filesystem::path
                               });
   Experiment experiment = document.locate([&] { return from_json(document.json(), file); });
   experiment.defaults = std::move(defaults);
+  experiment.notes = document.notes();
   return experiment;
 }
 

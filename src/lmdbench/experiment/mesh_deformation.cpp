@@ -25,12 +25,8 @@ std::string_view to_string(SequenceEnd end) {
 
 MeshDeformation read_mesh_deformation(const nlohmann::json& entry, const std::string& place,
                                       const std::filesystem::path& file) {
-  const int sources = static_cast<int>(entry.contains("generator")) +
-                      static_cast<int>(entry.contains("files")) + static_cast<int>(entry.contains("folder"));
-  if (sources != 1)
-    throw UsageError(file.string(), place,
-                     sources == 0 ? "neither a generator nor vertex files"
-                                  : "more than one of generator, files and folder",
+  if (!entry.contains("generator") && !entry.contains("files") && !entry.contains("folder"))
+    throw UsageError(file.string(), place, "neither a generator nor vertex files",
                      R"(give one, as in "generator": "bend", "amplitude": 0.5)");
   MeshDeformation deformation;
   deformation.experiment = file;

@@ -25,10 +25,8 @@ std::optional<double> optional_number(const Json& object, const char* key) {
   return found == object.end() ? std::nullopt : std::optional(found->get<double>());
 }
 
-PlacedMesh placed_mesh(const JsonDocument& document, const char* key, const std::string& name) {
-  const Json& entry = document.json()[key];
-  return {.mesh = entry["mesh"].get<std::string>(),
-          .placement = document.locate([&] { return read_placement(entry, name, fmt::format("/{}", key)); })};
+PlacedMesh placed_mesh(const Json& entry) {
+  return {.mesh = entry["mesh"].get<std::string>(), .placement = read_placement(entry)};
 }
 
 double stored_rate(const JsonDocument& document, double frame_rate) {
@@ -79,8 +77,8 @@ PathSpec parse_path_spec(const std::string& text, const std::string& name) {
   const JsonDocument document(text, name, schema, ExitCode::USAGE);
   const Json& json = document.json();
   PathSpec spec;
-  spec.moving = placed_mesh(document, "moving", name);
-  spec.fixed = placed_mesh(document, "fixed", name);
+  spec.moving = placed_mesh(json["moving"]);
+  spec.fixed = placed_mesh(json["fixed"]);
   spec.frame_rate = json["frame_rate_hz"].get<double>();
   spec.stored_rate = stored_rate(document, spec.frame_rate);
   spec.seed = json["seed"].get<std::uint64_t>();

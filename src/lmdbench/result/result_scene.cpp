@@ -11,34 +11,82 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <iterator>
 #include <map>
 #include <numeric>
 #include <string_view>
+#include <system_error>
 #include <utility>
 
 namespace lmdbench {
 namespace {
 
+namespace fs = std::filesystem;
+
 /// How the inputs of a result name the file of a mesh: "mesh:bunny-16k".
 constexpr std::string_view MESH_ROLE = "mesh:";
 
-/// Lets the experiment read its meshes where the run read them, and makes sure that they are still the same.
-void use_recorded_files(Experiment& experiment, const ResultReader& result) {
+/// Where files that a result names are looked for, in this order.
+struct Places {
+  fs::path beside;              ///< Folder of the result file.
+  std::vector<fs::path> bases;  ///< What names may be relative to: working folder, `beside`, run's folder.
+};
+
+Places places_of(const ResultReader& result) {
+  const fs::path beside = fs::weakly_canonical(result.file()).parent_path();
+  Places places{beside, {fs::current_path()}};
+  // Results of before have no run folder.
+  const std::string run_folder = result.text_attribute("/provenance", "run_folder").value_or("");
+  std::error_code none;  // A name that no folder can have finds nothing.
+  for (const fs::path& base : {beside, fs::weakly_canonical(beside / run_folder, none)})
+    if (std::ranges::find(places.bases, base) == places.bases.end()) places.bases.push_back(base);
+  return places;
+}
+
+/// @param name   of the file as the run named it
+/// @param sha256 of its bytes then
+fs::path find_recorded_file(const fs::path& name, const std::string& sha256, const Places& places) {
+  std::vector<fs::path> candidates;
+  for (const fs::path& base : places.bases) {
+    candidates.push_back(base / name);
+    if (base == places.beside) candidates.push_back(base / name.filename());
+  }
+  std::string changed, looked_in;
+  for (const fs::path& candidate : candidates) {
+    std::error_code none;
+    if (!fs::is_regular_file(candidate, none)) continue;
+    if (sha256_of_file(candidate) == sha256) return candidate;
+    if (changed.empty()) changed = candidate.string();
+  }
+  if (!changed.empty())
+    throw InputError(changed, "", "has changed since the run: the result was made from other bytes",
+                     "give the mesh back its content, or run the experiment again");
+  for (const fs::path& base : places.bases) looked_in += (looked_in.empty() ? "" : ", ") + base.string();
+  throw InputError(name.string(), "", "the run's mesh is not there, seen from " + looked_in,
+                   "put it beside the result file, or run the experiment again");
+}
+
+/// Files of the meshes that the run read, found again with the same bytes; by names of the meshes.
+std::map<std::string, std::string> recorded_meshes(const ResultReader& result, const Places& places) {
   const std::vector<std::string> roles = result.texts("/provenance/inputs/role");
   const std::vector<std::string> files = result.texts("/provenance/inputs/file");
   const std::vector<std::string> hashes = result.texts("/provenance/inputs/sha256");
-  std::vector<MeshChoice*> choices{&experiment.moving};
-  for (MeshChoice& fixed : experiment.fixed) choices.push_back(&fixed);
-  for (MoverChoice& mover : experiment.movers) choices.push_back(&mover.mesh);
-  for (std::size_t i = 0; i < roles.size(); ++i) {
-    if (!roles[i].starts_with(MESH_ROLE)) continue;
-    if (sha256_of_file(files[i]) != hashes[i])
-      throw InputError(files[i], "", "has changed since the run: the result was made from other bytes",
-                       "give the mesh back its content, or run the experiment again");
-    const std::string name = roles[i].substr(MESH_ROLE.size());
-    for (MeshChoice* choice : choices)
-      if (choice->mesh == name) choice->mesh = std::filesystem::absolute(files[i]).string();
-  }
+  std::map<std::string, std::string> meshes;
+  for (std::size_t i = 0; i < roles.size(); ++i)
+    if (roles[i].starts_with(MESH_ROLE))
+      meshes[roles[i].substr(MESH_ROLE.size())] =
+          fs::absolute(find_recorded_file(files[i], hashes[i], places)).string();
+  return meshes;
+}
+
+/// Lets the experiment read its meshes where they are.
+void use_files(Experiment& experiment, const std::map<std::string, std::string>& meshes) {
+  const auto use = [&](MeshChoice& choice) {
+    if (const auto found = meshes.find(choice.mesh); found != meshes.end()) choice.mesh = found->second;
+  };
+  use(experiment.moving);
+  for (MeshChoice& fixed : experiment.fixed) use(fixed);
+  for (MoverChoice& mover : experiment.movers) use(mover.mesh);
 }
 
 /// @param row of arrays of positions and of quaternions x, y, z, w
@@ -63,9 +111,10 @@ ResultTrack track_of(const ResultReader& result, const std::string& method, std:
   return track;
 }
 
-Experiment experiment_of_result(const ResultReader& result) {
+/// @param base what the name of the experiment's file is relative to
+Experiment experiment_of_result(const ResultReader& result, const fs::path& base) {
   return parse_experiment(result.texts("/provenance/experiment").at(0),
-                          result.text_attribute("/provenance", "experiment_file").value_or(""));
+                          base / result.text_attribute("/provenance", "experiment_file").value_or(""));
 }
 
 /// Vertex files must be those that were run.
@@ -104,8 +153,7 @@ std::shared_ptr<const MoverPlay> recorded_play(const LoadedMovers& loaded, const
   return std::make_shared<const MoverPlay>(make_play(bodies, names, scene.fixed, poses));
 }
 
-ResultScene scene_of_experiment(Experiment experiment, const ResultReader& result) {
-  use_recorded_files(experiment, result);
+ResultScene scene_of_experiment(const Experiment& experiment, const ResultReader& result) {
   std::vector<MeshNote> notes;
   Scene scene = load_scene(experiment, notes);
   check_vertex_files(notes, result);
@@ -128,7 +176,18 @@ const MethodDescription& exact_description() {
 }  // namespace
 
 ResultScene scene_of_result(const ResultReader& result) {
-  return scene_of_experiment(experiment_of_result(result), result);
+  const Places places = places_of(result);
+  const std::map<std::string, std::string> meshes = recorded_meshes(result, places);
+  // What else the experiment names (manifest, vertex files, instances) is relative to its own file.
+  for (auto base = places.bases.begin();; ++base) {
+    try {
+      Experiment experiment = experiment_of_result(result, *base);
+      use_files(experiment, meshes);
+      return scene_of_experiment(experiment, result);
+    } catch (const InputError&) {
+      if (std::next(base) == places.bases.end()) throw;
+    }
+  }
 }
 
 std::vector<ResultTrack> tracks_of_result(const ResultReader& result, std::size_t most_frames) {

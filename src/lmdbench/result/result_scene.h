@@ -24,6 +24,8 @@ struct ResultScene {
   std::shared_ptr<const MoverPlay> movers =
       nullptr;  ///< Where several meshes move: with the poses that the result has.
 };
+/// The run's files are looked for from the working folder, beside the result file and from the folder of the run, and taken only with the
+/// bytes that were run.
 /// @throws InputError where a mesh is not to be had any more or is no longer what was run; UsageError where the result's
 /// experiment is none
 ResultScene scene_of_result(const ResultReader& result);

@@ -54,11 +54,15 @@ RunResult run_experiment_to_file(const Experiment& experiment, const std::filesy
       }
     }
   } remove_empty_part{part};
+  // Seen from the result file: stays right where both folders move together.
+  const std::filesystem::path run_folder = std::filesystem::relative(
+      std::filesystem::current_path(), std::filesystem::absolute(file).parent_path());
   const auto write_head = [&](ResultWriter& to, const RunResult& result) {
     write_provenance(to, argv, experiment.resolved_json, plan_json(result.plan, experiment),
                      result.prepared.files);
-    // Relative names of the experiment are relative to its folder.
+    // Relative names of the experiment are relative to its folder; its own and those of the inputs to that of the run.
     to.attribute("/provenance", "experiment_file", experiment.file.string());
+    to.attribute("/provenance", "run_folder", run_folder.generic_string());
   };
   const auto make_keeper = [&](const RunResult& result, std::int64_t frames) {
     const auto write = [&](ResultWriter& to) {
