@@ -82,7 +82,7 @@ end_to_end() {
   python="$(find_python h5py matplotlib numpy)" || return
   (cd "$ROOT" && build/release/lmdbench run experiments/shapes.json --out "$result" </dev/null) &&
     "$python" "$ROOT/scripts/figures/check_format.py" "$result" &&
-    "$python" "$ROOT/scripts/figures/figure7.py" "$result" "$result" --out "$folder" &&
+    "$python" "$ROOT/scripts/figures/figure7.py" "$result" --out "$folder" &&
     [[ -s $folder/figure7.png ]]
 }
 
