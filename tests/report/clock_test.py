@@ -26,7 +26,7 @@ NO_PROBES = ("--set", '/probes={"truth": {"stride_frames": 0}, "fcl": {"stride_f
 
 
 def command(out, *more, seconds=None):
-    return [PROGRAM, "-q", "run", "experiments/shapes.json", "--driver", "realtime", "--out", out, "--set", f"/frames={FRAMES}", "--set",
+    return [PROGRAM, "run", "experiments/shapes.json", "--driver", "realtime", "--out", out, "--set", f"/frames={FRAMES}", "--set",
             "/driver/realtime/floor_s=0.1", "--set", '/methods/-={"name": "certified"}', *(["--set", f"/driver/realtime/seconds={seconds}"] if seconds else []), *more]
 
 
