@@ -351,7 +351,7 @@ TEST(Movers, WhatDoesNotGoTogetherWithThemNamesThePlace) {
   EXPECT_THAT(message_of<UsageError>([&] {
                 movers_scene({BALL, R"({"mesh":"ball","path":{"file":"a.tum","turn_rad":1}})"});
               }),
-              AllOf(HasSubstr("/movers/1/path"), HasSubstr("\"turn_rad\" and \"file\" exclude each other")));
+              AllOf(HasSubstr("/movers/1/path"), HasSubstr("\"file\" and \"turn_rad\" exclude each other")));
 }
 
 TEST(Movers, ABadEntryNamesItsPlace) {

@@ -34,10 +34,10 @@ struct Places {
 
 Places places_of(const ResultReader& result) {
   const fs::path beside = fs::weakly_canonical(result.file()).parent_path();
-  Places places{beside, {fs::current_path()}};
+  std::error_code none;  // A name that no folder can have finds nothing.
+  Places places{beside, {fs::current_path(none)}};
   // Results of before have no run folder.
   const std::string run_folder = result.text_attribute("/provenance", "run_folder").value_or("");
-  std::error_code none;  // A name that no folder can have finds nothing.
   for (const fs::path& base : {beside, fs::weakly_canonical(beside / run_folder, none)})
     if (std::ranges::find(places.bases, base) == places.bases.end()) places.bases.push_back(base);
   return places;

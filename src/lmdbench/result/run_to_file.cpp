@@ -54,9 +54,10 @@ RunResult run_experiment_to_file(const Experiment& experiment, const std::filesy
       }
     }
   } remove_empty_part{part};
-  // Seen from the result file: stays right where both folders move together.
+  // Seen from the result file: stays right where both folders move together. Nothing where the working folder is gone.
+  std::error_code none;
   const std::filesystem::path run_folder = std::filesystem::relative(
-      std::filesystem::current_path(), std::filesystem::absolute(file).parent_path());
+      std::filesystem::current_path(none), std::filesystem::absolute(file, none).parent_path(), none);
   const auto write_head = [&](ResultWriter& to, const RunResult& result) {
     write_provenance(to, argv, experiment.resolved_json, plan_json(result.plan, experiment),
                      result.prepared.files);
