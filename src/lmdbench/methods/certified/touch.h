@@ -14,4 +14,8 @@ namespace lmdbench {
 ClearGap clear_gap(const Triangle& a, const Vec3& normal_a, const Triangle& b, const Vec3& normal_b,
                    double margin);
 
+/// The same along the normals alone: nearly all triangles that a hierarchy cannot tell apart are, and their planes say so.
+ClearGap gap_along_normals(const Triangle& a, const Vec3& normal_a, const Triangle& b, const Vec3& normal_b,
+                           double margin);
+
 }  // namespace lmdbench

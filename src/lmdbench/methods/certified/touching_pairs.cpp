@@ -162,6 +162,7 @@ struct TouchingPairs::Batch {
 std::span<const Certificate> TouchingPairs::decide(Frame& frame, std::span<const WidePair> pairs) {
   const ShapeSide &moving = frame.pair.moving, &fixed = frame.pair.fixed;
   const bool is_joined = moving.shape.is_joined || fixed.shape.is_joined;
+  const double margin = MARGIN_IN_TOUCHES * frame.touch;
   certificates_.assign(pairs.size(), Certificate{});
   Batch batch, not_crossing;
   for (std::size_t k = 0; k < pairs.size(); ++k) {
@@ -171,12 +172,17 @@ std::span<const Certificate> TouchingPairs::decide(Frame& frame, std::span<const
       certificates_[k] = decide_regions(frame, pairs[k]);
       continue;
     }
-    batch.push(triangle_of(moving, on_moving.index), triangle_of(fixed, on_fixed.index),
-               {on_moving.index, on_fixed.index, k});
+    const Triangle t_moving = triangle_of(moving, on_moving.index),
+                   t_fixed = triangle_of(fixed, on_fixed.index);
+    if (!frame.keeps && gap_along_normals(t_moving, face_normal(moving, on_moving.index), t_fixed,
+                                          face_normal(fixed, on_fixed.index), margin)
+                                .gap > margin)
+      continue;
+    batch.push(t_moving, t_fixed, {on_moving.index, on_fixed.index, k});
     if (batch.is_full()) decide_batch(frame, batch, not_crossing);
   }
-  decide_batch(frame, batch, not_crossing);
-  decide_not_crossing(frame, not_crossing);
+  if (batch.count > 0) decide_batch(frame, batch, not_crossing);
+  if (not_crossing.count > 0) decide_not_crossing(frame, not_crossing);
   // Each once: a vertex is a corner of all its triangles, and asking for it looks at all of them.
   std::ranges::sort(asked_);
   asked_.erase(std::unique(asked_.begin(), asked_.end()), asked_.end());

@@ -28,6 +28,7 @@ class TouchingPairs {
     const ShapePair& pair;
     std::int32_t body;
     double touch;  ///< metres
+    bool keeps;    ///< Whether certificates are made use of: else any gap will do, not the widest.
     ContactSet& contacts;
     std::vector<Intersection>& intersections;
     std::vector<CrossingPair>& crossing_pairs;  ///< Of triangles that intersect but do not clearly cross.

@@ -72,9 +72,10 @@ HWY_INLINE WideLifetimes test_lifetime(const WideNode& node, const WideProbe& pr
   const WideTransform& X = forecast.in_moving;
   Number least_frames = infinite, least_budget = infinite;
 
+  const WidePlaces places(node, widths);
   WideLifetimes result;
   for (std::uint32_t first = 0; first < WIDE_WIDTH; first += Lanes::count()) {
-    const Bounds bounds(node, first, probe, limits.rounding);
+    const Bounds bounds(node, places, first, probe, limits.rounding);
     // Motion of the lane's centre against the probe's in a frame, and what nothing is known of but its size.
     Number ex = set(-test.probe_velocity[0]);
     Number ey = set(-test.probe_velocity[1]);
@@ -131,7 +132,7 @@ HWY_INLINE WideLifetimes test_lifetime(const WideNode& node, const WideProbe& pr
     auto touching = better(farther_than(touch_limit),
                            better(past(below_probe, touch_limit), past(below_lane, touch_limit)));
     if constexpr (std::is_same_v<Widths, WideWidthTest>) {
-      const LaneWidths<Lanes> across(bounds, node, first, probe, widths, limits.rounding);
+      const LaneWidths<Lanes> across(bounds, node, places, first, probe, widths, limits.rounding);
       const auto beyond = [&](Number gap, Number along, Number rise)
                               HWY_ATTR { return criterion(gap, lost(select(along < zero, rise, -rise))); };
       const auto across_probe =

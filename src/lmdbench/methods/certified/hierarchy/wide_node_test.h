@@ -40,8 +40,8 @@
 ///
 /// where limit is sin(phi) cutoff for LMDs, and touch for what touches.
 ///
-/// Everything is computed in single precision in the lane's frame; why no LMD is lost: probe and lane are
-/// rounded outwards when built; what moving the probe into the lane's frame and the sums below lose is less
+/// Everything is computed in single precision in the frame of one of the two; why no LMD is lost: probe and lane are
+/// rounded outwards when built; what moving one of them into the other's frame and the sums below lose is less
 /// than POSITION_ROUNDING of the largest length in play (radii of both meshes plus the distance of their
 /// origins), which is added to r + r' and to both slabs; products of directions lose less than
 /// DIRECTION_ROUNDING, which is granted in G2, in the slab and, times |D|^2, in |D across u|^2 = |D|^2 - z^2,
@@ -54,7 +54,7 @@ inline constexpr double POSITION_ROUNDING = 2e-6;
 /// Rounding of products of two directions that is granted.
 inline constexpr float DIRECTION_ROUNDING = 2e-6F;
 
-/// One child in the frame of the other mesh's nodes.
+/// One child in the frame of the test.
 struct alignas(16) WideProbe {
   float centre[4];
   float axis[4];
@@ -73,6 +73,19 @@ struct WideWidthTest {
 
 /// Where neither mesh has long features.
 struct NoWidths {};
+
+/// Where a test reads the lanes' centres, axes and directions across: a node's own, or as moved into the other mesh's frame.
+struct WidePlaces {
+  using Rows = const float (*)[WIDE_WIDTH];
+  Rows centre, axis;
+  Rows across = nullptr;  ///< With WideWidthTest alone.
+
+  WidePlaces(const WideNode& node, const NoWidths&) : centre(node.centre), axis(node.axis) {}
+  WidePlaces(const WideNode& node, const WideWidthTest& widths)
+      : centre(node.centre), axis(node.axis), across(widths.lanes.across) {}
+  WidePlaces(Rows of_centres, Rows of_axes, Rows of_across)
+      : centre(of_centres), axis(of_axes), across(of_across) {}
+};
 
 /// Lengths that a query fixes, rounded outwards.
 struct WideLimits {
@@ -164,7 +177,8 @@ inline WideWidthTest make_width_test(const WideHierarchy& opened, std::size_t no
 
 /// The test, lane by lane: the reference that the vector form is checked against, bit for bit.
 /// @param widths  null: NoWidths
+/// @param places  null: the node's own
 WideMasks test_lanes_scalar(const WideNode& node, const WideProbe& probe, const WideLimits& limits,
-                            const WideWidthTest* widths = nullptr);
+                            const WideWidthTest* widths = nullptr, const WidePlaces* places = nullptr);
 
 }  // namespace lmdbench

@@ -53,10 +53,12 @@ struct WideOpening {
   std::uint32_t node;  ///< The opened child's node.
 };
 
-/// What opening a child narrows: its size, and more so the wider its cone is. The weight is
-/// swept by scripts/tuned_constants.py.
-inline float opening_gain(const WideNode& node, std::uint32_t lane) {
-  return node.radius[lane] * (0.2F + node.sine[lane]);
+/// Weight of a child's size beside its cone's sine (scripts/tuned_constants.py --only CONE_GAIN).
+inline constexpr float CONE_GAIN = 0.2F;
+
+/// What opening a child narrows: its size, and more so the wider its cone is.
+constexpr float opening_gain(float radius, float sine) {
+  return radius * (CONE_GAIN + sine);
 }
 
 /// The child with more to gain; a feature cannot be opened, and one of the two is a node.
@@ -71,14 +73,26 @@ inline WideOpening choose_opening(const WideHierarchy& a, const WideHierarchy& b
   const bool open_a =
       static_cast<bool>(static_cast<int>(ref_b.is_feature()) |
                         (static_cast<int>(!ref_a.is_feature()) &
-                         static_cast<int>(opening_gain(home_a, lane_a) > opening_gain(home_b, lane_b))));
+                         static_cast<int>(opening_gain(home_a.radius[lane_a], home_a.sine[lane_a]) >
+                                         opening_gain(home_b.radius[lane_b], home_b.sine[lane_b]))));
   return {open_a, open_a ? ref_a.node_index() : ref_b.node_index()};
 }
 
+/// Children of a node of the first hierarchy as a query has them in the second one's frame: moved once, however often they are tested.
+struct alignas(64) WideMovedNode {
+  float centre[3][WIDE_WIDTH];
+  float axis[3][WIDE_WIDTH];
+  std::uint32_t moved_child[WIDE_WIDTH];  ///< In WideScratch::moved; 0: not moved yet.
+  std::uint32_t node;
+  alignas(32) float across[3][WIDE_WIDTH];  ///< Where there are long features.
+};
+
 /// Memory of traversals, kept between them so that none is allocated after the first few.
 struct WideScratch {
-  /// Pairs of children to be tested, each child named by node * 8 + lane.
+  /// Pairs of children to be tested: the first named by 8 times its node's place in `moved` + lane, the second by
+  /// node * 8 + lane and, in its top bit, whether the first one is opened.
   std::vector<std::uint32_t> queue_a, queue_b;
+  std::vector<WideMovedNode> moved;
   std::vector<WidePair> lmd_pairs;    ///< Pairs that may be LMDs.
   std::vector<WidePair> touch_pairs;  ///< Pairs of faces that may touch.
 

@@ -61,18 +61,19 @@ struct LaneBounds {
   Number between, across;                    ///< u . u' and the sine of their angle, rounded up.
   Number radii, slab_probe, slab_lane;       ///< With the rounding that is granted.
 
-  HWY_INLINE LaneBounds(const WideNode& node, std::uint32_t first, const WideProbe& probe, float granted) {
+  HWY_INLINE LaneBounds(const WideNode& node, const WidePlaces& places, std::uint32_t first,
+                        const WideProbe& probe, float granted) {
     const auto set = [](float x) HWY_ATTR { return Lanes::set(x); };
     const Number rounding = set(granted);
-    cx = Lanes::load(node.centre[0] + first);
-    cy = Lanes::load(node.centre[1] + first);
-    cz = Lanes::load(node.centre[2] + first);
+    cx = Lanes::load(places.centre[0] + first);
+    cy = Lanes::load(places.centre[1] + first);
+    cz = Lanes::load(places.centre[2] + first);
     dx = cx - set(probe.centre[0]);
     dy = cy - set(probe.centre[1]);
     dz = cz - set(probe.centre[2]);
-    ux = Lanes::load(node.axis[0] + first);
-    uy = Lanes::load(node.axis[1] + first);
-    uz = Lanes::load(node.axis[2] + first);
+    ux = Lanes::load(places.axis[0] + first);
+    uy = Lanes::load(places.axis[1] + first);
+    uz = Lanes::load(places.axis[2] + first);
     axis_x = set(probe.axis[0]);
     axis_y = set(probe.axis[1]);
     axis_z = set(probe.axis[2]);
@@ -109,13 +110,14 @@ struct LaneWidths {
   Number along_probe, along_lane;       ///< D . b
   Number gap_probe, gap_lane;           ///< Least |d . b|, with the rounding that is granted; often negative.
 
-  HWY_INLINE LaneWidths(const LaneBounds<Lanes>& bounds, const WideNode& node, std::uint32_t first,
-                        const WideProbe& probe, const WideWidthTest& widths, float granted) {
+  HWY_INLINE LaneWidths(const LaneBounds<Lanes>& bounds, const WideNode& node, const WidePlaces& places,
+                        std::uint32_t first, const WideProbe& probe, const WideWidthTest& widths,
+                        float granted) {
     const auto set = [](float x) HWY_ATTR { return Lanes::set(x); };
     using Bounds = LaneBounds<Lanes>;
-    bx = Lanes::load(widths.lanes.across[0] + first);
-    by = Lanes::load(widths.lanes.across[1] + first);
-    bz = Lanes::load(widths.lanes.across[2] + first);
+    bx = Lanes::load(places.across[0] + first);
+    by = Lanes::load(places.across[1] + first);
+    bz = Lanes::load(places.across[2] + first);
     across_x = set(widths.across[0]);
     across_y = set(widths.across[1]);
     across_z = set(widths.across[2]);
