@@ -28,7 +28,7 @@ REFIT = "src/lmdbench/methods/certified/hierarchy/wide_refit.cpp"
 TRAVERSAL = "src/lmdbench/methods/certified/hierarchy/wide_traversal.h"
 # name: file, text around the value, values
 CONSTANTS = {
-    "opening weight": (TRAVERSAL, "({}F + node.sine[lane])", ("0.05", "0.1", "0.2", "0.4", "100.0")),
+    "CONE_GAIN": (TRAVERSAL, "CONE_GAIN = {}F", ("0.05", "0.1", "0.2", "0.4", "100.0")),
     "LARGEST_HORIZON": (FORECAST, "LARGEST_HORIZON = {},", ("1.0", "2.0", "4.0", "8.0", "16.0")),
     "HORIZON_CUTOFFS": (FORECAST, "HORIZON_CUTOFFS = {},", ("0.25", "0.5", "1.0", "2.0", "4.0")),
     "MOST_CORNER_PAIRS": (TOUCHING, "MOST_CORNER_PAIRS = {};", ("0", "16", "64", "1024")),  # experiments/extreme/peg-square.json moves it
