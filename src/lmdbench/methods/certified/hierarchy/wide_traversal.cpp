@@ -31,7 +31,8 @@ constexpr std::size_t LOOK_AHEAD = 8;
 constexpr std::size_t QUEUE_START = 4096, MOVED_START = 256;
 /// Of an entry of queue_b: the first child is opened.
 constexpr int OPEN_A_SHIFT = 31;
-static_assert(WideRef::INDEX_MASK / WIDE_WIDTH < (1u << OPEN_A_SHIFT) / WIDE_WIDTH, "a slot fits below the bit");
+static_assert(WideRef::INDEX_MASK / WIDE_WIDTH < (1u << OPEN_A_SHIFT) / WIDE_WIDTH,
+              "a slot fits below the bit");
 
 /// The test of wide_node_test.h.
 /// @param widths  WideWidthTest or NoWidths
@@ -113,8 +114,9 @@ HWY_INLINE void move_rows(const float (*from)[WIDE_WIDTH], const WideTransform& 
     const VectorNumber x = VectorLanes::load(from[0] + first), y = VectorLanes::load(from[1] + first),
                        z = VectorLanes::load(from[2] + first);
     for (int i = 0; i < 3; ++i) {
-      const VectorNumber turned = (VectorLanes::set(X.columns[0][i]) * x + VectorLanes::set(X.columns[1][i]) * y) +
-                                  VectorLanes::set(X.columns[2][i]) * z;
+      const VectorNumber turned =
+          (VectorLanes::set(X.columns[0][i]) * x + VectorLanes::set(X.columns[1][i]) * y) +
+          VectorLanes::set(X.columns[2][i]) * z;
       const VectorNumber moved = turned + VectorLanes::set(translation[i]);
       hn::Store(moved.raw, FloatTag(), to[i] + first);
     }
@@ -137,8 +139,8 @@ class MovedNodes {
   HWY_INLINE std::uint32_t child(std::uint32_t slot) {
     const std::uint32_t known = moved_[slot / WIDE_WIDTH].moved_child[slot % WIDE_WIDTH];
     if (known != 0) return known;
-    const std::uint32_t place = append(
-        WideRef::from_bits(node(slot / WIDE_WIDTH).child[slot % WIDE_WIDTH]).node_index());
+    const std::uint32_t place =
+        append(WideRef::from_bits(node(slot / WIDE_WIDTH).child[slot % WIDE_WIDTH]).node_index());
     moved_[slot / WIDE_WIDTH].moved_child[slot % WIDE_WIDTH] = place;
     return place;
   }
@@ -173,7 +175,8 @@ HWY_INLINE std::uint32_t lanes_that_gain_more(const WideNode& node, float of_pro
     // opening_gain
     const VectorNumber gain = VectorLanes::load(node.radius + first) *
                               (VectorLanes::set(CONE_GAIN) + VectorLanes::load(node.sine + first));
-    bits |= lanes_are_first ? VectorLanes::bits(gain > probe, first) : VectorLanes::bits(gain >= probe, first);
+    bits |=
+        lanes_are_first ? VectorLanes::bits(gain > probe, first) : VectorLanes::bits(gain >= probe, first);
   }
   return bits;
 }
@@ -263,7 +266,8 @@ void descend(const WideHierarchy& a, const WideHierarchy& b, const WideQuery& qu
     const std::uint32_t final_pairs = probe_ref.is_feature() ? kinds.features : 0u;
     const LaneList& list = LANE_LISTS[alive & ~final_pairs];
     // As choose_opening says: the child with more to gain, where neither is a feature.
-    const std::uint32_t gains_more = lanes_that_gain_more(node, opening_gain(probe.radius, probe.sine), open_a);
+    const std::uint32_t gains_more =
+        lanes_that_gain_more(node, opening_gain(probe.radius, probe.sine), open_a);
     const std::uint32_t of_lane = probe_ref.is_feature() ? ALL_LANES : gains_more & ~kinds.features;
     const std::uint32_t opens_a = open_a ? of_lane : ~of_lane;
     // Eight entries are written, as many as survive are kept.
@@ -310,9 +314,8 @@ void descend_scalar(const WideHierarchy& a, const WideHierarchy& b, const WideQu
 
 void test_vector(const WideNode& node, const WideProbe& probe, const WideLimits& limits,
                  const WideWidthTest* widths, WideMasks& masks) {
-  masks = widths == nullptr
-              ? VectorTest{}(node, WidePlaces(node, NoWidths()), probe, limits, NoWidths())
-              : VectorTest{}(node, WidePlaces(node, *widths), probe, limits, *widths);
+  masks = widths == nullptr ? VectorTest{}(node, WidePlaces(node, NoWidths()), probe, limits, NoWidths())
+                            : VectorTest{}(node, WidePlaces(node, *widths), probe, limits, *widths);
 }
 
 const char* traversal_target_name() {

@@ -74,7 +74,7 @@ inline WideOpening choose_opening(const WideHierarchy& a, const WideHierarchy& b
       static_cast<bool>(static_cast<int>(ref_b.is_feature()) |
                         (static_cast<int>(!ref_a.is_feature()) &
                          static_cast<int>(opening_gain(home_a.radius[lane_a], home_a.sine[lane_a]) >
-                                         opening_gain(home_b.radius[lane_b], home_b.sine[lane_b]))));
+                                          opening_gain(home_b.radius[lane_b], home_b.sine[lane_b]))));
   return {open_a, open_a ? ref_a.node_index() : ref_b.node_index()};
 }
 
