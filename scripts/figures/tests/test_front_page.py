@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: The lmdbench authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""README.md, the page for strangers: short, with no number that no table of results/reference has, one verdict a claim, links and commands that
-there are. And the links of the other READMEs."""
+"""README.md, the page for strangers: short, its plot the numbers of results/reference, its links and commands there. And one verdict a claim, and the
+links of the other READMEs."""
 
 import os
 import re
@@ -9,14 +9,11 @@ import unittest
 
 from cases import ROOT, call, text_of
 from claim_verdicts import read_verdicts
+import front_page
+from lmdbench_results import ResultError
 
-MOST_LINES = 80
-# Its row of the sweep where the page's table says no other.
-POINTS = {"original": "original, a search every 20 frames", "improved": "improved, a search every 20 frames", "certified": "certified", "nearest": "nearest"}
-# Column of the page: columns of the sweep, the second in parentheses or after a comma.
-COLUMNS = {"recall, exact feature (or a neighbouring one) [%]": ("recall [%]", "with neighbours [%]"),
-           "force error, RMS [% of F_max]": ("force error, RMS [% of F_max]",),
-           "time a frame, searches spread evenly: median, 99 % [us]": ("frame, median [us]", "99 % [us]")}
+MOST_LINES = 60
+MOST_WORDS = 120  # before the first command
 
 
 def table_after(text, heading):
@@ -43,27 +40,24 @@ class FrontPage(unittest.TestCase):
     def test_it_is_short(self):
         self.assertLessEqual(len(self.page.splitlines()), MOST_LINES)
 
-    def test_numbers_of_methods_are_the_tables(self):
-        sweep = text_of("results", "reference", "work-precision.md")
-        points = {row["point"].strip("*"): row for row in table_after(sweep[sweep.index("\n## bunny-hard"):], "| point |")}
-        shown = {row["method"].strip("`"): row for row in table_after(self.page, "| method |")}
-        self.assertEqual(set(shown), set(POINTS) | {"exhaustive"})
-        for method, point in POINTS.items():
-            for column, names in COLUMNS.items():
-                numbers = re.findall(r"[\d.]+", shown[method][column])
-                self.assertEqual(numbers, [points[point][name] for name in names][:len(numbers)], (method, column))
-                self.assertGreaterEqual(len(numbers), 1, (method, column))
-        self.assertIn("(", shown["original"]["recall, exact feature (or a neighbouring one) [%]"])
+    def test_a_command_comes_soon(self):
+        before = re.sub(r"\]\([^)]*\)", "]", self.page.split("```", maxsplit=1)[0])
+        self.assertLess(len(re.findall(r"\w[\w'-]*", before)), MOST_WORDS)
 
-    def test_what_the_command_prints_is_the_summary(self):
-        printed = re.search(r"```text\n(.*?)```", self.page, re.DOTALL).group(1).splitlines()
-        self.assertGreaterEqual(len(printed), 4)
-        summary = [line.rstrip() for line in text_of("results", "reference", "summary.txt").splitlines()]
-        for line in printed:
-            self.assertIn(line, summary)
+    def test_every_method_has_its_use(self):
+        self.assertEqual({row["method"].strip("`") for row in table_after(self.page, "| method |")}, set(front_page.METHODS) - {"certified-cold"} | {"exhaustive"})
+
+    def test_the_plot_is_the_tables(self):
+        found = front_page.points(text_of("results", "reference", "work-precision.md"), "bunny-hard")
+        self.assertEqual([(every, error) for every, _, _, error in found["certified"] + found["certified-cold"]], [(None, 0.0)] * 2)
+        self.assertEqual(sorted(every for every, *_ in found["original"]), [1, 2, 5, 10, 20, 50, 100, 200, 500, 1000])
+        drawn = front_page.draw(found).axes[0]
+        self.assertEqual(sum(len(line.get_xdata()) for line in drawn.lines), sum(len(found[series]) for series in front_page.METHODS) + 2)  # and 1 ms
+        with self.assertRaises(ResultError):
+            front_page.points("## another\n", "bunny-hard")
 
     def test_each_claim_has_the_ledgers_verdict(self):
-        rows = {row[""]: row for row in table_after(self.page, "| | claim |")}
+        rows = {row[""]: row for row in table_after(text_of("results", "reference", "claims.md"), "| | claim |")}
         ledger = read_verdicts()
         self.assertEqual(list(rows), list(ledger))
         for name, entry in ledger.items():
