@@ -33,7 +33,7 @@ namespace {
 constexpr int FORMAT_VERSION = 1;
 
 struct ScalingChoice {
-  std::filesystem::path meshes = DEFAULT_MESH_FOLDER;
+  std::filesystem::path meshes = "meshes";
   double diagonal = 0.15;
   double gap = 0.002;
   double cutoff = 0.005;

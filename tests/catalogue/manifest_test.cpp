@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/base/build_info.h>
 #include <lmdbench/base/error.h>
 #include <lmdbench/base/file_hash.h>
 #include <lmdbench/catalogue/manifest.h>
@@ -141,12 +142,28 @@ TEST(ResolveMeshTest, ReadsBuiltMeshesAndTellsHowToBuildMissingOnes) {
   const ScratchDirectory folder;
   folder.write("manifest.json", small_manifest().dump());
   EXPECT_THAT(message_of<InputError>([&] { resolve_mesh("thing-1k", folder.path()); }),
-              HasSubstr("run 'lmdbench mesh build thing-1k'"));
+              HasSubstr("run 'lmdbench mesh build thing-1k --dir " + folder.path().string() + "'"));
   write_off(folder.path() / "thing-1k.off", make_box({1, 1, 1}));
   const ResolvedMesh resolved = resolve_mesh("thing-1k", folder.path());
   EXPECT_EQ(resolved.mesh.triangles.size(), 12u);
   EXPECT_EQ(resolved.file, folder.path() / "thing-1k.off");
   EXPECT_EQ(resolved.sha256, sha256_of_file(folder.path() / "thing-1k.off"));
+}
+
+TEST(DefaultMeshFolderTest, IsTheNearOneAndElseTheProgramsOwn) {
+  const ScratchDirectory folder;
+  EXPECT_EQ(default_mesh_folder(folder.path()), data_folder() / "meshes");
+  folder.write("manifest.json", small_manifest().dump());
+  EXPECT_EQ(default_mesh_folder(folder.path()), folder.path());
+}
+
+TEST(DefaultMeshFolderTest, RemediesNameTheFolderWhereCommandsWouldNotFindIt) {
+  const Manifest own = load_manifest(data_folder() / "meshes" / "manifest.json");
+  EXPECT_EQ(mesh_command(own, "list"), "lmdbench mesh list");
+  const ScratchDirectory folder;
+  const Manifest other = load_manifest(folder.write("my meshes/manifest.json", small_manifest().dump()));
+  EXPECT_EQ(mesh_command(other, "list"),
+            "lmdbench mesh list --dir \"" + (folder.path() / "my meshes").string() + "\"");
 }
 
 TEST(ResolveMeshTest, TakesPathsWithoutAManifest) {

@@ -4,8 +4,10 @@
 clang++, Debug and Release, and by pkg-config; the program with the data and scripts beside it. Arguments: the build tree; with
 --every the consumer of every compiler, build type and prefix, without it of one, and all the rest."""
 
+import hashlib
 import json
 import os
+import re
 import shlex
 import shutil
 import subprocess
@@ -148,6 +150,43 @@ class Installed(unittest.TestCase):
             done = run(program, "-q", "plan", os.path.join(self.prefix, "share/lmdbench/experiments", other), cwd=work)
             if done.returncode != 0:
                 self.assertRegex(done.stderr, r"is not built yet", other)
+
+    def test_who_may_not_write_beside_the_program_finds_and_builds_meshes_from_any_folder(self):
+        home = os.path.join(self.folder, "home")
+        sources = os.path.join(home, "lmdbench", "meshes", "sources")
+        os.makedirs(sources)
+        shutil.copy(self.mesh, os.path.join(sources, "box.off"))
+        manifest = os.path.join(self.prefix, "share/lmdbench/meshes/manifest.json")
+        document = json.loads(Path(manifest).read_text(encoding="utf-8"))
+        document["sources"]["box-file"] = {"package": "none", "archive": "a.tar", "path": "box.off", "licence": "l", "credit": "c",
+                                           "sha256": hashlib.sha256(BOX.encode()).hexdigest()}
+        document["meshes"]["box-of-file"] = {"description": "d", "source": "box-file", "triangles": 12}
+        Path(manifest).write_text(json.dumps(document), encoding="utf-8")
+        os.chmod(self.folder, 0o755)
+        nobody = {}
+        if os.getuid() == 0:  # who may write anywhere
+            nobody = {"user": 65534}
+            for folder in (home, os.path.dirname(os.path.dirname(sources)), os.path.dirname(sources), sources):
+                os.chown(folder, 65534, 65534)
+        else:
+            os.chmod(os.path.dirname(manifest), 0o555)
+        environment = {**os.environ, "XDG_DATA_HOME": home, "PATH": os.path.join(self.prefix, "bin") + ":" + os.environ["PATH"]}
+
+        def lmdbench(*arguments, code=0):
+            done = run("lmdbench", *arguments, cwd=home, env=environment, **nobody)
+            self.assertEqual(done.returncode, code, done.stdout + done.stderr)
+            return done
+
+        self.assertIn("bunny-5k", lmdbench("mesh", "list").stdout)
+        lmdbench("init", "box", "torus", "--out", "new")
+        self.assertNotIn("mesh_folder", Path(home, "new", "box-torus.json").read_text(encoding="utf-8"))
+        lmdbench("-q", "run", "new/box-torus.json", "--set", "/frames=20")
+        Path(home, "own.json").write_text('{"moving": {"mesh": "box-of-file"}, "fixed": [{"mesh": "box"}], '
+                                          '"path": {"file": "new/box-torus.tum"}}', encoding="ascii")
+        remedy = re.search(r"run '(lmdbench mesh build box-of-file)'", lmdbench("plan", "own.json", code=3).stderr)
+        lmdbench(*remedy.group(1).split()[1:])
+        self.assertTrue(os.path.exists(os.path.join(home, "lmdbench", "meshes", "box-of-file.off")))
+        lmdbench("plan", "own.json")
 
     def test_the_program_without_its_data_says_what_it_lacks(self):
         lonely = os.path.join(self.folder, "lonely")

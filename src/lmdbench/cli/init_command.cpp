@@ -18,7 +18,7 @@ void add_init_command(CLI::App& app) {
     std::string moving;
     std::string fixed;
     std::string out = ".";
-    std::string mesh_folder = DEFAULT_MESH_FOLDER;
+    std::string mesh_folder;
     std::string unit;
     std::string orient;
     bool contact = false;
@@ -30,8 +30,7 @@ void add_init_command(CLI::App& app) {
       ->required();
   command->add_option("FIXED", options->fixed, "mesh that stands")->required();
   command->add_option("--out,-o", options->out, "folder of the new files")->capture_default_str();
-  command->add_option("--dir", options->mesh_folder, "folder of manifest.json and of the built meshes")
-      ->capture_default_str();
+  add_mesh_folder_option(*command, options->mesh_folder);
   command->add_option("--unit", options->unit,
                       "what a unit of the files' coordinates is: m, cm, mm, um, in, ft or a number of "
                       "metres; of the moving and the "

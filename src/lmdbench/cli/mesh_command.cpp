@@ -27,7 +27,7 @@ namespace {
 
 struct MeshArguments {
   std::vector<std::string> names;
-  std::string folder = DEFAULT_MESH_FOLDER;
+  std::string folder;
   std::string planar_tolerance = "auto";
   bool json = false;
 };
@@ -81,7 +81,7 @@ void print_outcome(const BuildOutcome& outcome, bool json) {
 const ManifestEntry& entry_of(const Manifest& manifest, const std::string& name) {
   if (const ManifestEntry* entry = manifest.find(name)) return *entry;
   throw UsageError("", "NAME", fmt::format("{} has no mesh '{}'", manifest.file.string(), name),
-                   "'lmdbench mesh list' shows the names");
+                   fmt::format("'{}' shows the names", mesh_command(manifest, "list")));
 }
 
 void build(const MeshArguments& arguments) {
@@ -132,13 +132,18 @@ void list(const MeshArguments& arguments) {
 
 }  // namespace
 
+void add_mesh_folder_option(CLI::App& command, std::string& folder) {
+  folder = default_mesh_folder().string();
+  command.add_option("--dir", folder,
+                     "folder of manifest.json; without it meshes/, or where that has none the program's own");
+}
+
 void add_mesh_command(CLI::App& app) {
   CLI::App* mesh = app.add_subcommand("mesh", "check meshes, and make those of the manifest");
   mesh->require_subcommand(1);
   const auto arguments = std::make_shared<MeshArguments>();
   const auto add_common = [&](CLI::App* command) {
-    command->add_option("--dir", arguments->folder, "folder of manifest.json and of the built meshes")
-        ->capture_default_str();
+    add_mesh_folder_option(*command, arguments->folder);
     command->add_flag("--json", arguments->json, "one JSON object a mesh, a line each");
   };
 

@@ -41,7 +41,7 @@ constexpr double DEGREES = 180.0 / std::numbers::pi;
 struct PathArguments {
   std::string spec;
   std::string path;
-  std::string mesh_folder = DEFAULT_MESH_FOLDER;
+  std::string mesh_folder;
   double rate = 1000.0;
   bool json = false;
 };
@@ -161,7 +161,7 @@ bool is_generated_path(const std::filesystem::path& file) {
 
 /// File of a mesh that a specification names, whether it is there or not.
 std::filesystem::path mesh_file(const PlacedMesh& placed, const PathArguments& arguments) {
-  if (is_mesh_name(placed.mesh)) return std::filesystem::path(arguments.mesh_folder) / (placed.mesh + ".off");
+  if (is_mesh_name(placed.mesh)) return built_mesh_file(arguments.mesh_folder, placed.mesh);
   return std::filesystem::path(arguments.spec).parent_path() / placed.mesh;
 }
 
@@ -227,8 +227,7 @@ void add_path_command(CLI::App& app) {
   path->require_subcommand(1);
   const auto arguments = std::make_shared<PathArguments>();
   const auto add_common = [&](CLI::App* command) {
-    command->add_option("--dir", arguments->mesh_folder, "folder of manifest.json and of the built meshes")
-        ->capture_default_str();
+    add_mesh_folder_option(*command, arguments->mesh_folder);
     command->add_flag("--json", arguments->json, "one JSON object");
   };
 

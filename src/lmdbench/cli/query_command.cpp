@@ -39,7 +39,7 @@ struct QueryOptions {
   std::string planar_tolerance = "auto";
   std::string unit = "m";
   std::string orient = "keep";
-  std::string folder = DEFAULT_MESH_FOLDER;
+  std::string folder;
   bool critical = false;
   bool json = false;
 };
@@ -136,8 +136,7 @@ void add_query_command(CLI::App& app) {
           "--orient", options->orient,
           "keep, or outward: triangles are turned away from the solid, for meshes that are inside out")
       ->capture_default_str();
-  command->add_option("--dir", options->folder, "folder of manifest.json and of the built meshes")
-      ->capture_default_str();
+  add_mesh_folder_option(*command, options->folder);
   command->add_flag(
       "--critical", options->critical,
       "saddles too: all critical pairs of the distance, each with its index; over disjoint solids and an "

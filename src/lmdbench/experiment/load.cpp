@@ -4,6 +4,7 @@
 #include <lmdbench/base/input_file.h>
 #include <lmdbench/base/json_document.h>
 #include <lmdbench/base/json_schema.h>
+#include <lmdbench/catalogue/manifest.h>
 #include <lmdbench/experiment/experiment.h>
 #include <lmdbench/force/aggregation.h>
 #include <lmdbench/methods/registry.h>
@@ -178,7 +179,9 @@ Experiment from_json(Json document, const std::filesystem::path& path) {
   experiment.name = document["name"].get<std::string>();
   experiment.title = document["title"].get<std::string>();
   experiment.mesh_folder =
-      (path.parent_path() / document["mesh_folder"].get<std::string>()).lexically_normal();
+      document.contains("mesh_folder")
+          ? (path.parent_path() / document["mesh_folder"].get<std::string>()).lexically_normal()
+          : default_mesh_folder((path.parent_path() / ".." / "meshes").lexically_normal());
   experiment.moving = mesh_choice(document["moving"], "/moving", file);
   for (std::size_t i = 0; i < document["fixed"].size(); ++i) {
     experiment.fixed.push_back(mesh_choice(document["fixed"][i], fmt::format("/fixed/{}", i), file));

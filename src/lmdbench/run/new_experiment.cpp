@@ -174,7 +174,10 @@ NewExperiment new_experiment(const std::string& moving, const std::string& fixed
 
   OrderedJson json{{"name", result.name},
                    {"title", fmt::format("{} past {}", stem_of(moving), stem_of(fixed))}};
-  if (is_mesh_name(moving) || is_mesh_name(fixed))
+  std::error_code none;
+  if ((is_mesh_name(moving) || is_mesh_name(fixed)) &&
+      !std::filesystem::equivalent(default_mesh_folder((folder / ".." / "meshes").lexically_normal()),
+                                   mesh_folder, none))
     json["mesh_folder"] = std::filesystem::proximate(mesh_folder, folder).generic_string();
   GivenMesh moving_part = part_of(moving, "/moving", mesh_folder);
   GivenMesh fixed_part = part_of(fixed, "/fixed/0", mesh_folder);

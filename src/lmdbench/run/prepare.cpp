@@ -388,7 +388,7 @@ std::vector<std::filesystem::path> input_files(const Experiment& experiment) {
   std::vector<std::filesystem::path> files{experiment.file, experiment.mesh_folder / "manifest.json"};
   if (!experiment.path_file.empty()) files.push_back(experiment.path_file);
   const auto add = [&](const MeshChoice& choice) {
-    files.push_back(is_mesh_name(choice.mesh) ? experiment.mesh_folder / (choice.mesh + ".off")
+    files.push_back(is_mesh_name(choice.mesh) ? built_mesh_file(experiment.mesh_folder, choice.mesh)
                                               : folder / choice.mesh);
     if (!choice.deformation) return;
     std::error_code none;  // A folder that is not there has no file; loading it says so.
