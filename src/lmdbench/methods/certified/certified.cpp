@@ -173,18 +173,20 @@ void Certified::follow_deformations() {
 }
 
 void Certified::enumerate_from_scratch(Frame& frame) {
-  find_wide_pairs(frame.moving, frame.fixed, frame.query, kernel_, scratch_, frame.work);
+  // Of all methods of a thread: the thousand pairs of a pile are searched one after another.
+  thread_local WideScratch scratch;
+  find_wide_pairs(frame.moving, frame.fixed, frame.query, kernel_, scratch, frame.work);
   const auto fetch = [&](std::size_t k, const auto& fetch_part) {
-    if (k >= scratch_.lmd_pairs.size()) return;
-    fetch_part(frame.filter.moving, scratch_.lmd_pairs[k].a.feature_id());
-    fetch_part(frame.filter.fixed, scratch_.lmd_pairs[k].b.feature_id());
+    if (k >= scratch.lmd_pairs.size()) return;
+    fetch_part(frame.filter.moving, scratch.lmd_pairs[k].a.feature_id());
+    fetch_part(frame.filter.fixed, scratch.lmd_pairs[k].b.feature_id());
   };
-  for (std::size_t k = 0; k < scratch_.lmd_pairs.size(); ++k) {
+  for (std::size_t k = 0; k < scratch.lmd_pairs.size(); ++k) {
     fetch(k + 2 * FETCH_DISTANCE, fetch_indices);
     fetch(k + FETCH_DISTANCE, fetch_vertices);
-    frame.decide_pair(scratch_.lmd_pairs[k], 1.0);
+    frame.decide_pair(scratch.lmd_pairs[k], 1.0);
   }
-  touching_.decide(frame.touching, scratch_.touch_pairs);
+  touching_.decide(frame.touching, scratch.touch_pairs);
 }
 
 void Certified::enumerate_coherently(Frame& frame, FixedBody& body) {

@@ -112,7 +112,6 @@ class Certified : public Method {
   double touch_ = 0.0;            ///< Of the last frame [m].
   std::uint32_t seen_frame_ = 0;  ///< Deformation of the moving hierarchy after which the forecast began.
 
-  WideScratch scratch_;
   ContactSet contacts_;
   std::vector<Intersection> intersections_;
   std::vector<CrossingPair> crossing_pairs_;

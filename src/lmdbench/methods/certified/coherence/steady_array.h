@@ -7,8 +7,8 @@
 
 namespace lmdbench {
 
-/// An array whose entries stay where they are when it grows: moving tens of thousands would make one frame take three times as long
-/// as its neighbours. (A std::deque does it, too, in pieces of 512 bytes: a tenth more for a frame, twice as much for the first.)
+/// An array whose entries stay where they are when it grows, but for the first few: moving tens of thousands would make one frame take
+/// three times as long as its neighbours, and room for more than there are would be most of what a pair in a pile needs. (A std::deque does it, too, in pieces of 512 bytes: a tenth more for a frame, twice as much for the first.)
 template <class T>
 class SteadyArray {
  public:
@@ -18,12 +18,12 @@ class SteadyArray {
   T& operator[](std::size_t i) { return chunks_[i / CHUNK][i % CHUNK]; }
   const T& operator[](std::size_t i) const { return chunks_[i / CHUNK][i % CHUNK]; }
   void push_back(const T& entry) {
-    if (size() == chunks_.size() * CHUNK) chunks_.emplace_back().reserve(CHUNK);
+    if (size() == chunks_.size() * CHUNK) chunks_.emplace_back().reserve(chunks_.size() == 1 ? FIRST : CHUNK);
     chunks_.back().push_back(entry);
   }
 
  private:
-  static constexpr std::size_t CHUNK = 256;
+  static constexpr std::size_t CHUNK = 256, FIRST = 16;
   std::vector<std::vector<T>> chunks_;  ///< Full but for the last one.
 };
 
