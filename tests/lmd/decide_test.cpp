@@ -441,9 +441,10 @@ TEST(PolarCondition, LooksUpHowTrianglesHangTogether) {
   const ShapeSide side{surface, shape, identity, false};
   const Vec3 away = surface.mesh.vertices[0].normalized();
   const PolarSlack exact;
-  EXPECT_FALSE(corner_admits(side, 0, away, exact)) << "inside of the solid";
+  EXPECT_FALSE(admits(side, {FeatureKind::VERTEX, 0}, away, exact)) << "inside of the solid";
   surface.vertex_has_several_fans[0] = true;
-  EXPECT_TRUE(corner_admits(side, 0, away, exact)) << "no side is asked for where surfaces touch";
+  EXPECT_TRUE(admits(side, {FeatureKind::VERTEX, 0}, away, exact))
+      << "no side is asked for where surfaces touch";
 }
 
 }  // namespace

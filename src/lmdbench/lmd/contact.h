@@ -35,6 +35,36 @@ struct ShapeSide {
     const Plane& own = shape.regions.planes[static_cast<std::size_t>(region)];
     return is_moving ? Plane{X_WS.point(own.point), X_WS.direction(own.normal)} : own;
   }
+  /// By how much a point of this mesh moves against the other for a displacement of the moving mesh by 1.
+  double sign() const { return is_moving ? 1.0 : -1.0; }
+
+  // Of leads. What is in the mesh itself is read there: of a scan that is all.
+
+  /// The feature of the shape, its index counting regions, chains or vertices; -1 where the mesh's feature is part of none.
+  FeatureId feature_of_lead(const FeatureId& lead) const {
+    if (lead.kind == FeatureKind::EDGE) return {lead.kind, shape.chain_of(lead.index)};
+    if (lead.kind == FeatureKind::FACE) return {lead.kind, shape.region_of(lead.index)};
+    // A vertex without triangles is no corner either.
+    const bool is_one = shape.is_corner(lead.index) && !surface.incident_triangles(lead).empty();
+    return {lead.kind, is_one ? lead.index : -1};
+  }
+  /// Ends of the chain of a lead.
+  const std::array<std::int32_t, 2>& ends_of_lead(std::int32_t edge) const {
+    return shape.is_joined ? shape.ends_of_chain(shape.chain_of(edge))
+                           : surface.adjacency.edges[static_cast<std::size_t>(edge)];
+  }
+  /// Plane in the world of the region of a lead; its normal is zero where the face has no area.
+  Plane plane_of_lead(std::int32_t face) const {
+    const std::int32_t region = shape.is_joined ? shape.region_of(face) : -1;
+    if (region >= 0) return plane(region);
+    const auto t = static_cast<std::size_t>(face);
+    return {vertex(surface.mesh.triangles[t][0]), direction(surface.face_normals[t])};
+  }
+  /// Shape of the region of a lead; null for a face alone.
+  const RegionShape* shape_of_lead(std::int32_t face) const {
+    const std::int32_t region = shape.is_joined ? shape.region_of(face) : -1;
+    return region < 0 ? nullptr : shape.shapes.of_region(region);
+  }
 };
 
 /// What two features of the shapes share: a point of each, or where they are parallel a segment or polygon of

@@ -1,11 +1,13 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/lmd/critical_index.h>
+#include <lmdbench/lmd/pair_conditions.h>
 
 #include <Eigen/Geometry>
 
 #include <algorithm>
 #include <array>
+#include <optional>
 
 namespace lmdbench {
 
@@ -166,6 +168,146 @@ bool holds_foot(const ShapeSide& side, const SignedFeatures& signs, std::int32_t
   return winding > 0;
 }
 
+/// Reads the signs of the conditions of a pair (pair_conditions.h): where feet are on their features, i(f, u) and i(g, -u), and
+/// whether nothing round either feature is nearer.
+class SignReader {
+ public:
+  SignReader(const SignedPair::Side& moving, const SignedPair::Side& fixed, double reach, const FeatureId& f,
+             const FeatureId& g, ContactSet& found)
+      : moving_(moving), fixed_(fixed), reach_(reach), f_(f), g_(g), found_(found) {}
+
+  // Conditions.
+
+  static bool is_long(const Line&) {
+    return true;
+  }  // A chain with an index is one between triangles with area.
+  static bool has_area(const Plane&) { return true; }
+  bool near(const ShapeSide&, const Vec3&, const Vec3&, const Vec3& d) const {
+    return d.squaredNorm() <= reach_ * reach_;
+  }
+  template <class Gradient>
+  static bool above(const ShapeSide&, double height, Gradient&&) {
+    return height > 0.0;
+  }
+  template <class Gradient>
+  bool below_reach(const ShapeSide&, double height, Gradient&&) const {
+    return height <= reach_;
+  }
+  static bool foot_on(const ShapeSide&, const Vec3& p, const Line& line, double) {
+    return beyond_corner(p, line.ends[0], line.ends[1]) > 0.0 &&
+           beyond_corner(p, line.ends[1], line.ends[0]) > 0.0;
+  }
+  static double clamped(double parameter) { return parameter; }
+  template <class Gradient>
+  static bool in_box(const ShapeSide&, double, Gradient&&) {
+    return true;
+  }
+  template <class Gradient>
+  static bool in_triangle(const ShapeSide&, double, const Vec3&, const Vec3&, Gradient&&) {
+    return true;
+  }
+  static bool parallel(double) { return false; }
+  /// Reads first what rejects most: the distance of the lines.
+  bool crosses(const Line& a, const Line& b, const Vec3& product, double) {
+    orientation_ = orientation_of(a.ends, b.ends);
+    const double squared = product.squaredNorm();
+    return orientation_ * orientation_ <= reach_ * reach_ * squared && squared > 0.0;
+  }
+  bool feet_on(const Crossing& x) {
+    s_ = along_chain(x.a.ends[0], x.a.ends[1], x.b.ends);
+    return s_ > 0.0 && along_chain(x.a.ends[1], x.a.ends[0], x.b.ends) > 0.0 &&
+           along_chain(x.b.ends[0], x.b.ends[1], x.a.ends) > 0.0 &&
+           along_chain(x.b.ends[1], x.b.ends[0], x.a.ends) > 0.0;
+  }
+  std::optional<Vec3> perpendicular(const Crossing& x) const { return sense_of_product() * x.product; }
+
+  bool in_cone(const ShapeSide& side, const FeatureId&, const Vec3& u, const BetweenPoints& how) {
+    return take(sign_of_corner(side, signs_of(side), feature_of(side).index, u, [&](std::int32_t o) {
+      return beyond_corner(how.to, how.from, side.vertex(o)) > 0.0;
+    }));
+  }
+  bool in_cone(const ShapeSide& side, const FeatureId& lead, const Vec3& u, const SquareToLine& how) {
+    if (lead.kind == FeatureKind::VERTEX)
+      return take(sign_of_corner(side, signs_of(side), lead.index, u, [&](std::int32_t o) {
+        return along_chain(how.point, side.vertex(o), how.line.ends) > 0.0;
+      }));
+    return take_chain(side, u, [&](const SignedFeatures::ChainSide& of_chain) {
+      return inside_chain(how.point, how.line.ends, normal_of(side, of_chain.region), of_chain.sense) > 0.0;
+    });
+  }
+  bool in_cone(const ShapeSide& side, const FeatureId&, const Vec3& u, const AlongNormal& how) {
+    return take(sign_of_corner(side, signs_of(side), feature_of(side).index, u, [&](std::int32_t o) {
+      return (side.vertex(o) - how.point).dot(how.normal) < 0.0;
+    }));
+  }
+  bool in_cone(const ShapeSide& side, const FeatureId&, const Vec3& u, const Crossing& x) {
+    const Vec3& other = side.is_moving ? x.b.along : x.a.along;
+    return take_chain(side, u, [&](const SignedFeatures::ChainSide& of_chain) {
+      return -sense_of_product() * of_chain.sense * other.dot(normal_of(side, of_chain.region)) > 0.0;
+    });
+  }
+
+  // Pairs that satisfy all.
+
+  void share_points(const Vec3& p, const Vec3& q, const Vec3&) { add(p, q); }
+  void share_foot(const ShapeSide& of_corner, const ShapeSide&, const Vec3& p, const Vec3&, const Line& line,
+                  double) {
+    const Vec3 q = line.at((p - line.ends[0]).dot(line.along) / line.along.squaredNorm());
+    add(of_corner.is_moving ? p : q, of_corner.is_moving ? q : p);
+  }
+  void share_height(const ShapeSide& of_corner, const Vec3& p, const ShapeSide& of_region, const Plane& plane,
+                    double height) {
+    if (!holds_foot(of_region, signs_of(of_region), feature_of(of_region).index, plane.normal, p)) return;
+    const Vec3 q = p - height * plane.normal;
+    add(of_corner.is_moving ? p : q, of_corner.is_moving ? q : p);
+  }
+  void share_perpendicular(const Crossing& x) {
+    const Vec3 p = x.a.at(s_ / x.squared_product);
+    add(p, p + orientation_ / x.squared_product * x.product);
+  }
+  static void face_region(const ShapeSide&, const Line&, const ShapeSide&, const Plane&, double) {}
+  static void face_each_other(const Plane&, const Plane&) {}
+
+ private:
+  const SignedFeatures& signs_of(const ShapeSide& side) const {
+    return (side.is_moving ? moving_ : fixed_).signs;
+  }
+  const FeatureId& feature_of(const ShapeSide& side) const { return side.is_moving ? f_ : g_; }
+  double sense_of_product() const { return orientation_ > 0.0 ? 1.0 : -1.0; }
+  bool take(const Sign& sign) {
+    index_ *= sign.index;
+    is_lowest_ = is_lowest_ && sign.is_lowest;
+    return index_ != 0;
+  }
+  template <class Inside>
+  bool take_chain(const ShapeSide& side, const Vec3& u, Inside&& inside) {
+    const SignedFeatures::Chain& chain =
+        signs_of(side).chains[static_cast<std::size_t>(feature_of(side).index)];
+    return take(sign_of_chain(side, chain, u, {inside(chain.sides[0]), inside(chain.sides[1])}));
+  }
+  void add(const Vec3& p, const Vec3& q) {
+    Contact& contact = found_.contacts.emplace_back();
+    contact.moving = f_;
+    contact.fixed = g_;
+    contact.point_moving = p;
+    contact.point_fixed = q;
+    const Vec3 d = q - p;
+    contact.distance = contact.least_gap = d.norm();
+    contact.direction = d / contact.distance;
+    contact.is_minimum = false;
+    contact.index = index_;
+    contact.is_basin = is_lowest_;
+  }
+
+  const SignedPair::Side &moving_, &fixed_;
+  double reach_;
+  const FeatureId f_, g_;  ///< Of the shapes.
+  ContactSet& found_;
+  int index_ = 1;
+  bool is_lowest_ = true;
+  double orientation_ = 0.0, s_ = 0.0;  ///< Of lines that cross.
+};
+
 }  // namespace
 
 RigidTransform generic_pose(const RigidTransform& X_WM) {
@@ -182,127 +324,18 @@ SignedPair::SignedPair(const ShapePair& pair, const SignedFeatures& moving, cons
       fixed_{pair.fixed, fixed},
       reach_(pair.tolerance.reach) {}
 
-void SignedPair::add(bool forward, const FeatureId& first, const FeatureId& second, const Vec3& p,
-                     const Vec3& q, int index, bool is_basin, ContactSet& found) const {
-  Contact& contact = found.contacts.emplace_back();
-  contact.moving = forward ? first : second;
-  contact.fixed = forward ? second : first;
-  contact.point_moving = forward ? p : q;
-  contact.point_fixed = forward ? q : p;
-  const Vec3 d = contact.point_fixed - contact.point_moving;
-  contact.distance = contact.least_gap = d.norm();
-  contact.direction = d / contact.distance;
-  contact.is_minimum = false;
-  contact.index = index;
-  contact.is_basin = is_basin;
-}
-
-void SignedPair::corner_corner(std::int32_t v_moving, std::int32_t v_fixed, ContactSet& found) const {
-  const Vec3 p = moving_.shape.vertex(v_moving), q = fixed_.shape.vertex(v_fixed), d = q - p;
-  if (!(d.squaredNorm() <= reach_ * reach_)) return;
-  const Sign i = sign_of_corner(moving_.shape, moving_.signs, v_moving, d, [&](std::int32_t o) {
-    return beyond_corner(q, p, moving_.shape.vertex(o)) > 0.0;
-  });
-  if (i.index == 0) return;
-  const Sign j = sign_of_corner(fixed_.shape, fixed_.signs, v_fixed, -d, [&](std::int32_t o) {
-    return beyond_corner(p, q, fixed_.shape.vertex(o)) > 0.0;
-  });
-  if (j.index != 0)
-    add(true, {FeatureKind::VERTEX, v_moving}, {FeatureKind::VERTEX, v_fixed}, p, q, i.index * j.index,
-        i.is_lowest && j.is_lowest, found);
-}
-
-void SignedPair::corner_chain(const Side& of_corner, std::int32_t vertex, const Side& of_chain,
-                              std::int32_t index, ContactSet& found) const {
-  const SignedFeatures::Chain& chain = of_chain.signs.chains[static_cast<std::size_t>(index)];
-  if (!chain.has_index) return;
-  const Vec3 p = of_corner.shape.vertex(vertex);
-  const std::array<Vec3, 2> line = ends_of(of_chain.shape, index);
-  if (!(beyond_corner(p, line[0], line[1]) > 0.0) || !(beyond_corner(p, line[1], line[0]) > 0.0)) return;
-  const Vec3 along = line[1] - line[0];
-  const Vec3 q = line[0] + (p - line[0]).dot(along) / along.squaredNorm() * along, d = q - p;
-  if (!(d.squaredNorm() <= reach_ * reach_)) return;
-  const auto inside = [&](std::size_t k) {
-    return inside_chain(p, line, normal_of(of_chain.shape, chain.sides[k].region), chain.sides[k].sense) >
-           0.0;
-  };
-  const Sign j = sign_of_chain(of_chain.shape, chain, -d, {inside(0), inside(1)});
-  if (j.index == 0) return;
-  const Sign i = sign_of_corner(of_corner.shape, of_corner.signs, vertex, d, [&](std::int32_t o) {
-    return along_chain(p, of_corner.shape.vertex(o), line) > 0.0;
-  });
-  if (i.index != 0)
-    add(of_corner.shape.is_moving, {FeatureKind::VERTEX, vertex}, {FeatureKind::EDGE, index}, p, q,
-        i.index * j.index, i.is_lowest && j.is_lowest, found);
-}
-
-void SignedPair::corner_region(const Side& of_corner, std::int32_t vertex, const Side& of_region,
-                               std::int32_t region, ContactSet& found) const {
-  const Plane plane = of_region.shape.plane(region);
-  const Vec3 p = of_corner.shape.vertex(vertex), normal = normal_of(of_region.shape, region);
-  const double height = normal.dot(p - plane.point);
-  if (!(height > 0.0 && height <= reach_) || !holds_foot(of_region.shape, of_region.signs, region, normal, p))
-    return;
-  const Sign i = sign_of_corner(of_corner.shape, of_corner.signs, vertex, -normal, [&](std::int32_t o) {
-    return (of_corner.shape.vertex(o) - p).dot(normal) < 0.0;
-  });
-  if (i.index != 0)
-    add(of_corner.shape.is_moving, {FeatureKind::VERTEX, vertex}, {FeatureKind::FACE, region}, p,
-        p - height * normal, i.index, i.is_lowest, found);
-}
-
-void SignedPair::chain_chain(std::int32_t c_moving, std::int32_t c_fixed, ContactSet& found) const {
-  const SignedFeatures::Chain &f = moving_.signs.chains[static_cast<std::size_t>(c_moving)],
-                              &g = fixed_.signs.chains[static_cast<std::size_t>(c_fixed)];
-  if (!f.has_index || !g.has_index) return;
-  const std::array<Vec3, 2> on_moving = ends_of(moving_.shape, c_moving),
-                            on_fixed = ends_of(fixed_.shape, c_fixed);
-  const Vec3 a = on_moving[1] - on_moving[0], b = on_fixed[1] - on_fixed[0], product = a.cross(b);
-  const double orientation = orientation_of(on_moving, on_fixed), squared = product.squaredNorm();
-  // First what rejects most: the distance of the lines.
-  if (!(orientation * orientation <= reach_ * reach_ * squared) || !(squared > 0.0)) return;
-  const double s = along_chain(on_moving[0], on_moving[1], on_fixed),
-               t = along_chain(on_fixed[0], on_fixed[1], on_moving);
-  if (!(s > 0.0) || !(along_chain(on_moving[1], on_moving[0], on_fixed) > 0.0) || !(t > 0.0) ||
-      !(along_chain(on_fixed[1], on_fixed[0], on_moving) > 0.0))
-    return;
-  const double side = orientation > 0.0 ? 1.0 : -1.0;
-  const Vec3 u = side * product;
-  const auto inside_moving = [&](std::size_t k) {
-    return -side * f.sides[k].sense * b.dot(normal_of(moving_.shape, f.sides[k].region)) > 0.0;
-  };
-  const auto inside_fixed = [&](std::size_t k) {
-    return -side * g.sides[k].sense * a.dot(normal_of(fixed_.shape, g.sides[k].region)) > 0.0;
-  };
-  const Sign i = sign_of_chain(moving_.shape, f, u, {inside_moving(0), inside_moving(1)});
-  if (i.index == 0) return;
-  const Sign j = sign_of_chain(fixed_.shape, g, -u, {inside_fixed(0), inside_fixed(1)});
-  if (j.index == 0) return;
-  const Vec3 p = on_moving[0] + s / squared * a;
-  add(true, {FeatureKind::EDGE, c_moving}, {FeatureKind::EDGE, c_fixed}, p,
-      p + orientation / squared * product, i.index * j.index, i.is_lowest && j.is_lowest, found);
-}
-
 void SignedPair::append(const FeatureId& on_moving, const FeatureId& on_fixed, ContactSet& found) const {
-  using enum FeatureKind;
-  const auto chain_of = [](const Side& side, const FeatureId& lead) {
-    return side.shape.shape.chain_of(lead.index);
+  const auto feature_of = [](const Side& side, const FeatureId& lead) {
+    const FeatureId feature = side.shape.feature_of_lead(lead);
+    return feature.kind != FeatureKind::EDGE || feature.index < 0 ||
+                   side.signs.chains[static_cast<std::size_t>(feature.index)].has_index
+               ? feature
+               : FeatureId{FeatureKind::EDGE, -1};
   };
-  const auto region_of = [](const Side& side, const FeatureId& lead) {
-    return side.shape.shape.region_of(lead.index);
-  };
-  if (on_moving.kind == VERTEX && on_fixed.kind == VERTEX)
-    return corner_corner(on_moving.index, on_fixed.index, found);
-  if (on_moving.kind == VERTEX && on_fixed.kind == EDGE)
-    return corner_chain(moving_, on_moving.index, fixed_, chain_of(fixed_, on_fixed), found);
-  if (on_moving.kind == EDGE && on_fixed.kind == VERTEX)
-    return corner_chain(fixed_, on_fixed.index, moving_, chain_of(moving_, on_moving), found);
-  if (on_moving.kind == EDGE && on_fixed.kind == EDGE)
-    return chain_chain(chain_of(moving_, on_moving), chain_of(fixed_, on_fixed), found);
-  if (on_moving.kind == VERTEX && region_of(fixed_, on_fixed) >= 0)
-    return corner_region(moving_, on_moving.index, fixed_, region_of(fixed_, on_fixed), found);
-  if (on_fixed.kind == VERTEX && region_of(moving_, on_moving) >= 0)
-    return corner_region(fixed_, on_fixed.index, moving_, region_of(moving_, on_moving), found);
+  const FeatureId f = feature_of(moving_, on_moving), g = feature_of(fixed_, on_fixed);
+  if (f.index < 0 || g.index < 0) return;
+  SignReader reader(moving_, fixed_, reach_, f, g, found);
+  PairConditions(reader).ask(moving_.shape, on_moving, fixed_.shape, on_fixed);
 }
 
 void decide_critical(const ShapePair& pair, const SignedPair& signs, const FeatureId& on_moving,

@@ -13,6 +13,10 @@ namespace lmdbench {
 /// place is counted once.
 class SignedPair {
  public:
+  struct Side {
+    ShapeSide shape;
+    const SignedFeatures& signs;
+  };
   SignedPair(const ShapePair& pair, const SignedFeatures& moving, const SignedFeatures& fixed);
 
   /// Appends the critical pair that two features of the shapes share, as a contact that is no minimum: points, direction and
@@ -25,19 +29,6 @@ class SignedPair {
   void append(const FeatureId& on_moving, const FeatureId& on_fixed, ContactSet& found) const;
 
  private:
-  struct Side {
-    ShapeSide shape;
-    const SignedFeatures& signs;
-  };
-  void corner_corner(std::int32_t v_moving, std::int32_t v_fixed, ContactSet& found) const;
-  void corner_chain(const Side& of_corner, std::int32_t vertex, const Side& of_chain, std::int32_t chain,
-                    ContactSet& found) const;
-  void corner_region(const Side& of_corner, std::int32_t vertex, const Side& of_region, std::int32_t region,
-                     ContactSet& found) const;
-  void chain_chain(std::int32_t c_moving, std::int32_t c_fixed, ContactSet& found) const;
-  void add(bool forward, const FeatureId& first, const FeatureId& second, const Vec3& p, const Vec3& q,
-           int index, bool is_basin, ContactSet& found) const;
-
   RigidTransform turned_;
   Side moving_, fixed_;
   double reach_;

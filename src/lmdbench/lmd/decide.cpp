@@ -6,6 +6,7 @@
 #include <lmdbench/geometry/types.h>
 #include <lmdbench/lmd/decide.h>
 #include <lmdbench/lmd/overlap.h>
+#include <lmdbench/lmd/pair_conditions.h>
 #include <lmdbench/lmd/polar_condition.h>
 
 #include <algorithm>
@@ -32,23 +33,12 @@ constexpr double CROSSING_ROUNDING = 1.0 / 16.0;
 constexpr double LARGEST_CROSSING_SLACK = 1e-6;
 /// A direction between points that rounding turns by a larger sine has to be in both cones at once: far below an angle between faces.
 constexpr double LARGEST_SINGLE_ERROR = 1e-3;
-
-struct Line {
-  Vec3 begin, along;  ///< From end to end.
-  double length;
-
-  Line(const ShapeSide& side, std::int32_t chain) {
-    const auto& ends = side.shape.ends_of_chain(chain);
-    begin = side.vertex(ends[0]);
-    along = side.vertex(ends[1]) - begin;
-    length = along.norm();
-  }
-  Vec3 at(double parameter) const { return begin + parameter * along; }
-};
+/// What bounds a region from outside is granted more than its own condition, which comes last.
+constexpr double BOUND_ROUNDINGS = 8.0;
 
 /// Parameter of the point of a chain that is nearest to x.
-double foot_on(const Line& line, const Vec3& x) {
-  return std::clamp((x - line.begin).dot(line.along) / (line.length * line.length), 0.0, 1.0);
+double foot_on_line(const Line& line, const Vec3& x) {
+  return std::clamp((x - line.ends[0]).dot(line.along) / (line.length * line.length), 0.0, 1.0);
 }
 
 /// Place of a plane along the direction n over the point x.
@@ -58,109 +48,158 @@ double height_to(const Plane& plane, const Vec3& n, const Vec3& x) {
   return plane.normal.dot(plane.point - x) / plane.normal.dot(n);
 }
 
+/// Grants each condition what rounding may have made of it, and appends the contacts of pairs that satisfy all.
 class Decision {
  public:
-  Decision(const ShapePair& pair, ContactSet& found)
-      : moving_(pair.moving), fixed_(pair.fixed), tolerance_(pair.tolerance), found_(found) {}
+  Decision(const ShapePair& pair, const FeatureId& f, const FeatureId& g, ContactSet& found)
+      : moving_(pair.moving), fixed_(pair.fixed), f_(f), g_(g), tolerance_(pair.tolerance), found_(found) {}
 
-  void corner_corner(std::int32_t v_moving, std::int32_t v_fixed) {
-    const Vec3 p = moving_.vertex(v_moving), q = fixed_.vertex(v_fixed), d = q - p;
-    const double distance = d.norm();
-    if (!(distance <= tolerance_.reach) || !(distance > 0.0)) return;
-    const Vec3 u = d / distance;
-    if (!corner_admits(moving_, v_moving, u, between_points(distance)) ||
-        !corner_admits(fixed_, v_fixed, -u, between_points(distance)))
-      return;
-    const FeatureId f{FeatureKind::VERTEX, v_moving}, g{FeatureKind::VERTEX, v_fixed};
-    if (const auto both = direction_between(f, g, u, tolerance_.direction_error(distance)))
-      add_points(f, g, p, q, both->u, distance, both->error, fall_of(*both, distance));
+  // Conditions (pair_conditions.h).
+
+  bool is_long(const Line& line) const { return line.length > 0.0; }
+  bool has_area(const Plane& plane) const { return !plane.normal.isZero(0.0); }
+  bool near(const ShapeSide& /*from*/, const Vec3& /*p*/, const Vec3& /*q*/, const Vec3& d) {
+    distance_ = d.norm();
+    return distance_ <= tolerance_.reach && distance_ > 0.0;
+  }
+  template <class Gradient>
+  bool above(const ShapeSide& /*from*/, double height, Gradient&& /*gradient*/) const {
+    return height > -tolerance_.rounding;
+  }
+  template <class Gradient>
+  bool below_reach(const ShapeSide& /*from*/, double height, Gradient&& /*gradient*/) const {
+    return height <= tolerance_.reach;
+  }
+  bool foot_on(const ShapeSide& /*from*/, const Vec3& /*p*/, const Line& line, double parameter) const {
+    return line.beyond(parameter) <= tolerance_.rounding;
+  }
+  static double clamped(double parameter) { return std::clamp(parameter, 0.0, 1.0); }
+  template <class Gradient>
+  bool in_box(const ShapeSide& /*from*/, double inside, Gradient&& /*gradient*/) const {
+    return inside >= -BOUND_ROUNDINGS * tolerance_.rounding;
+  }
+  template <class Gradient>
+  bool in_triangle(const ShapeSide& /*from*/, double inside, const Vec3& side, const Vec3& /*opposite*/,
+                   Gradient&& /*gradient*/) const {
+    return inside >= -BOUND_ROUNDINGS * tolerance_.rounding * side.norm();
+  }
+  bool parallel(double sine) const { return sine <= tolerance_.largest_tilt; }
+  bool crosses(const Line& a, const Line& b, const Vec3& /*product*/, double sine) {
+    if (sine <= tolerance_.largest_tilt) parallel_chains(a, b);
+    // Nearer to parallel than their directions are known.
+    return sine * std::min(a.length, b.length) > tolerance_.rounding;
+  }
+  bool feet_on(const Crossing& x) {
+    spare_ = tolerance_.rounding / x.sine;
+    return x.a.beyond(x.s) <= spare_ && x.b.beyond(x.t) <= spare_;
+  }
+  std::optional<Vec3> perpendicular(const Crossing& x) {
+    // Alone each is off by rounding / sine along its chain: the second foot is the first one's, and then the first the second's,
+    // which may have been clamped.
+    q_ = x.b.at(foot_on_line(x.b, x.a.at(clamped(x.s))));
+    p_ = x.a.at(foot_on_line(x.a, q_));
+    const Vec3 d = q_ - p_;
+    distance_ = d.norm();
+    const double sideways =
+        std::max(std::abs(d.dot(x.a.along)) / x.a.length, std::abs(d.dot(x.b.along)) / x.b.length);
+    if (distance_ > tolerance_.reach || sideways > SIDEWAYS_ROUNDINGS * tolerance_.rounding)
+      return std::nullopt;
+    // d is known to rounding / length, the product of the chains the worse the smaller their angle, but also where they touch.
+    const double shortest = std::min(x.a.length, x.b.length);
+    const bool is_far = CROSSING_ROUNDING * distance_ > x.sine * shortest;
+    Vec3 u = is_far ? Vec3(d / distance_) : Vec3(x.product / std::sqrt(x.squared_product));
+    if (std::abs(d.dot(u)) <= tolerance_.rounding) {
+      const Vec3 outwards = moving_.direction(
+          moving_.surface.pseudo_normal({FeatureKind::EDGE, moving_.shape.lead_of_chain(f_.index)}));
+      if (u.dot(outwards) < 0.0) u = -u;
+    } else if (d.dot(u) < 0.0) {
+      u = -u;
+    }
+    u_ = u;
+    unknown_ = tolerance_.rounding / (is_far ? distance_ : x.sine * shortest / CROSSING_ROUNDING);
+    return u;
   }
 
-  void corner_chain(const ShapeSide& of_corner, std::int32_t vertex, const ShapeSide& of_chain,
-                    std::int32_t chain) {
-    const Line line(of_chain, chain);
-    if (!(line.length > 0.0)) return;
-    const Vec3 p = of_corner.vertex(vertex);
-    const double parameter = (p - line.begin).dot(line.along) / (line.length * line.length);
-    if (std::max(-parameter, parameter - 1.0) * line.length > tolerance_.rounding) return;
-    const Vec3 q = line.at(std::clamp(parameter, 0.0, 1.0)), d = q - p;
-    const double distance = d.norm();
-    if (!(distance <= tolerance_.reach) || !(distance > 0.0)) return;
-    const Vec3 u = d / distance;
-    if (!corner_admits(of_corner, vertex, u, between_points(distance)) ||
-        !chain_admits(of_chain, chain, -u, between_points(distance)) ||
-        end_leads_down(of_chain, chain, line, parameter, tolerance_.rounding, -u, distance))
-      return;
-    const FeatureId corner{FeatureKind::VERTEX, vertex}, edge{FeatureKind::EDGE, chain};
+  bool in_cone(const ShapeSide& side, const FeatureId& /*lead*/, const Vec3& d,
+               const BetweenPoints& /*how*/) const {
+    return admits(side, feature_of(side), d / distance_, between_points(distance_));
+  }
+  bool in_cone(const ShapeSide& side, const FeatureId& /*lead*/, const Vec3& d,
+               const SquareToLine& /*how*/) const {
+    return admits(side, feature_of(side), d / distance_, between_points(distance_));
+  }
+  bool in_cone(const ShapeSide& side, const FeatureId& /*lead*/, const Vec3& u,
+               const AlongNormal& /*how*/) const {
+    return admits(side, feature_of(side), u, along_normal());
+  }
+  bool in_cone(const ShapeSide& side, const FeatureId& /*lead*/, const Vec3& u,
+               const Crossing& /*how*/) const {
+    return admits(side, feature_of(side), u,
+                  {along_normal().length, std::min(LARGEST_CROSSING_SLACK, unknown_)});
+  }
+
+  // Pairs that satisfy all.
+
+  void share_points(const Vec3& p, const Vec3& q, const Vec3& d) {
+    if (const auto both = direction_between(d / distance_, tolerance_.direction_error(distance_)))
+      add_points(p, q, both->u, distance_, both->error, fall_of(*both, distance_));
+  }
+
+  void share_foot(const ShapeSide& of_corner, const ShapeSide& of_chain, const Vec3& p, const Vec3& q,
+                  const Line& line, double parameter) {
+    const Vec3 u = (q - p) / distance_;
+    if (end_leads_down(of_chain, line, parameter, tolerance_.rounding, -u, distance_)) return;
     const bool forward = of_corner.is_moving;
-    if (const auto both = direction_between(forward ? corner : edge, forward ? edge : corner,
-                                            forward ? u : Vec3(-u), tolerance_.direction_error(distance)))
-      add_from(of_corner, corner, edge, p, q, forward ? both->u : Vec3(-both->u), distance, both->error,
-               fall_of(*both, distance));
+    if (const auto both = direction_between(forward ? u : Vec3(-u), tolerance_.direction_error(distance_)))
+      add_points(forward ? p : q, forward ? q : p, both->u, distance_, both->error,
+                 fall_of(*both, distance_));
   }
 
-  void corner_region(const ShapeSide& of_corner, std::int32_t vertex, const ShapeSide& of_region,
-                     std::int32_t region) {
-    const Plane plane = of_region.plane(region);
-    const Vec3 p = of_corner.vertex(vertex);
-    const double height = plane.height(p);
-    if (!(height > -tolerance_.rounding) || height > tolerance_.reach) return;
-    if (!corner_admits(of_corner, vertex, -plane.normal, along_normal())) return;
+  void share_height(const ShapeSide& of_corner, const Vec3& p, const ShapeSide& of_region, const Plane& plane,
+                    double height) {
     const Vec3 q = p - height * plane.normal;
-    if (!region_admits(of_region, region, of_region.point_to_surface(q), plane.normal, std::abs(height)))
-      return;
-    add_from(of_corner, {FeatureKind::VERTEX, vertex}, {FeatureKind::FACE, region}, p, q, -plane.normal,
-             height, 0.0, 0.0);
+    if (!region_admits(of_region, of_region.point_to_surface(q), plane.normal, std::abs(height))) return;
+    if (of_corner.is_moving)
+      add_points(p, q, -plane.normal, height, 0.0, 0.0);
+    else
+      add_points(q, p, plane.normal, height, 0.0, 0.0);
   }
 
-  void chain_chain(std::int32_t c_moving, std::int32_t c_fixed) {
-    const Line a(moving_, c_moving), b(fixed_, c_fixed);
-    if (!(a.length > 0.0 && b.length > 0.0)) return;
-    const Vec3 product = a.along.cross(b.along);
-    const double sine = product.norm() / (a.length * b.length);
-    if (sine <= tolerance_.largest_tilt) parallel_chains(c_moving, a, c_fixed, b);
-    crossing_chains(c_moving, a, c_fixed, b, product, sine);
+  void share_perpendicular(const Crossing& x) {
+    if (!end_leads_down(moving_, x.a, x.s, spare_, u_, distance_) &&
+        !end_leads_down(fixed_, x.b, x.t, spare_, -u_, distance_))
+      add_points(p_, q_, u_, (q_ - p_).dot(u_), unknown_, unknown_);
   }
 
-  void chain_region(const ShapeSide& of_chain, std::int32_t chain, const ShapeSide& of_region,
-                    std::int32_t region) {
-    const Line line(of_chain, chain);
-    if (!(line.length > 0.0)) return;
-    const Plane plane = of_region.plane(region);
-    const double slope = line.along.dot(plane.normal) / line.length;
-    if (!(std::abs(slope) <= tolerance_.largest_tilt)) return;
+  void face_region(const ShapeSide& of_chain, const Line& line, const ShapeSide& of_region,
+                   const Plane& plane, double slope) {
     // From the chain to the region, square to the chain.
     const Vec3 n = -(plane.normal - slope / line.length * line.along).normalized();
-    const double h0 = height_to(plane, n, line.begin), h1 = height_to(plane, n, line.at(1.0));
-    if (std::max(h0, h1) < -tolerance_.rounding || std::min(h0, h1) > tolerance_.reach) return;
-    if (!chain_admits(of_chain, chain, n, along_normal())) return;
-    const Vec3 foot0 = of_region.point_to_surface(line.begin + h0 * n),
+    const double h0 = height_to(plane, n, line.ends[0]), h1 = height_to(plane, n, line.at(1.0));
+    if (!admits(of_chain, feature_of(of_chain), n, along_normal())) return;
+    const Vec3 foot0 = of_region.point_to_surface(line.ends[0] + h0 * n),
                foot1 = of_region.point_to_surface(line.at(1.0) + h1 * n);
-    for (const SegmentPart& part : parts_over_region(foot0, foot1, of_region, region, tolerance_.rounding)) {
+    for (const SegmentPart& part :
+         parts_over_region(foot0, foot1, of_region, feature_of(of_region).index, tolerance_.rounding)) {
       const double begin = h0 + part.begin * (h1 - h0), end = h0 + part.end * (h1 - h0);
       if (std::abs(end - begin) > tolerance_.known || std::max(begin, end) < -tolerance_.rounding ||
           std::min(begin, end) > tolerance_.reach)
         continue;
-      Contact& contact = found_.contacts.emplace_back();
-      contact.dimension = 1;
+      Contact& contact = add(1);
       contact.least_gap = std::min(begin, end);
       contact.measure = (part.end - part.begin) * line.length;
       const std::array<Vec3, 2> on_chain{line.at(part.begin), line.at(part.end)};
       const std::array<Vec3, 2> on_region{on_chain[0] + begin * n, on_chain[1] + end * n};
       const bool forward = of_chain.is_moving;
-      contact.moving = forward ? FeatureId{FeatureKind::EDGE, chain} : FeatureId{FeatureKind::FACE, region};
-      contact.fixed = forward ? FeatureId{FeatureKind::FACE, region} : FeatureId{FeatureKind::EDGE, chain};
       contact.ends_moving = forward ? on_chain : on_region;
       contact.ends_fixed = forward ? on_region : on_chain;
       set_middle(contact, forward ? n : Vec3(-n));
     }
   }
 
-  void region_region(std::int32_t r_moving, std::int32_t r_fixed) {
-    const Plane plane_m = moving_.plane(r_moving), plane_f = fixed_.plane(r_fixed);
-    if ((plane_m.normal + plane_f.normal).norm() > tolerance_.largest_tilt) return;
+  void face_each_other(const Plane& plane_m, const Plane& plane_f) {
     const Vec3 n = direction_of(plane_m.normal, plane_f.normal);
-    const PlanarFrame frame = frame_of_overlap(moving_, r_moving, fixed_, r_fixed, plane_f.point, n);
+    const PlanarFrame frame = frame_of_overlap(moving_, f_.index, fixed_, g_.index, plane_f.point, n);
     const auto gap_at = [&](const Vec3& x) { return height_to(plane_f, n, x) - height_to(plane_m, n, x); };
     // Nearly parallel planes: their distance somewhere near bounds it all over.
     const double spread = tolerance_.largest_tilt * 4.0 * tolerance_.coordinates;
@@ -168,7 +207,7 @@ class Decision {
     if (somewhere < -tolerance_.rounding - spread || somewhere > tolerance_.reach + spread) return;
     const std::size_t first = found_.contacts.size();
     std::vector<OverlapPart> parts =
-        overlap_of_regions(moving_, r_moving, fixed_, r_fixed, frame, SLIVER * tolerance_.rounding);
+        overlap_of_regions(moving_, f_.index, fixed_, g_.index, frame, SLIVER * tolerance_.rounding);
     for (OverlapPart& part : parts) {
       Extent gaps;
       for (const ConvexPolygon& piece : part.pieces)
@@ -176,10 +215,7 @@ class Decision {
       if (gaps.greatest - gaps.least > tolerance_.known || gaps.greatest < -tolerance_.rounding ||
           gaps.least > tolerance_.reach || is_thin(part))
         continue;
-      Contact& contact = found_.contacts.emplace_back();
-      contact.moving = {FeatureKind::FACE, r_moving};
-      contact.fixed = {FeatureKind::FACE, r_fixed};
-      contact.dimension = 2;
+      Contact& contact = add(2);
       contact.least_gap = gaps.least;
       contact.measure = part.area;
       contact.direction = n;
@@ -202,18 +238,18 @@ class Decision {
   /// Cuts of two polygons that are narrower than this part of a rounding are none.
   static constexpr double SLIVER = 0.125;
 
+  const FeatureId& feature_of(const ShapeSide& side) const { return side.is_moving ? f_ : g_; }
   PolarSlack between_points(double distance) const {
     return {tolerance_.rounding, tolerance_.rounding / distance};
   }
   /// The direction of a contact whose direction is that between its points: the one that both features admit, next to touch.
-  std::optional<KnownDirection> direction_between(const FeatureId& f, const FeatureId& g, const Vec3& u,
-                                                  double error) const {
+  std::optional<KnownDirection> direction_between(const Vec3& u, double error) const {
     // Over the length of the meshes a smaller one explains less than the tolerance.
     if (error * tolerance_.coordinates <= tolerance_.known) return KnownDirection{u, error};
     const double tilt = tolerance_.largest_tilt;
     for (const double sine : {0.0, tilt})
       if (const auto both =
-              common_direction(moving_, f, fixed_, g, u, error, {tolerance_.rounding, sine}, tilt))
+              common_direction(moving_, f_, fixed_, g_, u, error, {tolerance_.rounding, sine}, tilt))
         return both;
     if (error > LARGEST_SINGLE_ERROR) return std::nullopt;
     return KnownDirection{u, error};
@@ -235,24 +271,26 @@ class Decision {
   /// minimum of the end of a slit.
   /// @param spare  how far from the end is at the end [m]
   /// @param u_W  from the chain to the other mesh
-  bool end_leads_down(const ShapeSide& side, std::int32_t chain, const Line& line, double parameter,
-                      double spare, const Vec3& u_W, double distance) const {
-    const auto& ends = side.shape.ends_of_chain(chain);
-    return (parameter * line.length <= spare && corner_leads_down(side, ends[0], u_W, way_down(distance))) ||
-           ((1.0 - parameter) * line.length <= spare &&
-            corner_leads_down(side, ends[1], u_W, way_down(distance)));
+  bool end_leads_down(const ShapeSide& side, const Line& line, double parameter, double spare,
+                      const Vec3& u_W, double distance) const {
+    const auto& ends = side.shape.ends_of_chain(feature_of(side).index);
+    const auto does = [&](std::int32_t end) {
+      return leads_down(side, {FeatureKind::VERTEX, end}, u_W, way_down(distance));
+    };
+    return (parameter * line.length <= spare && does(ends[0])) ||
+           ((1.0 - parameter) * line.length <= spare && does(ends[1]));
   }
 
   /// Whether a point of a region's plane lies on the region, and no chain or corner there leads down along the region's normal.
-  bool region_admits(const ShapeSide& side, std::int32_t region, const Vec3& p_S, const Vec3& n_W,
-                     double distance) const {
+  bool region_admits(const ShapeSide& side, const Vec3& p_S, const Vec3& n_W, double distance) const {
+    const std::int32_t region = feature_of(side).index;
     const double reach = tolerance_.rounding;
     if (const RegionShape* shape = side.shape.shapes.of_region(region))
       if (const auto clear = shape->clearly_holds(shape->frame.flat(p_S), CLEAR_ROUNDINGS * reach))
         return *clear;
     const PolarSlack slack = way_down(distance);
     bool holds = false;
-    const bool leads_down = !for_each_face_at(side, region, p_S, reach, [&](std::int32_t face) {
+    const bool some_lead_down = !for_each_face_at(side, region, p_S, reach, [&](std::int32_t face) {
       holds = true;
       const auto& edges = side.surface.adjacency.triangle_edges[static_cast<std::size_t>(face)];
       const bool chain_does = std::ranges::any_of(edges, [&](std::int32_t e) {
@@ -261,15 +299,15 @@ class Decision {
         const auto& ends = side.surface.adjacency.edges[static_cast<std::size_t>(e)];
         const Vec3 nearest =
             point_segment_distance(p_S, {side.vertex_S(ends[0]), side.vertex_S(ends[1])}).point;
-        return (nearest - p_S).norm() <= reach && chain_leads_down(side, chain, n_W, slack);
+        return (nearest - p_S).norm() <= reach && leads_down(side, {FeatureKind::EDGE, chain}, n_W, slack);
       });
       const auto& corners = side.surface.mesh.triangles[static_cast<std::size_t>(face)];
       return !chain_does && std::ranges::none_of(corners, [&](std::int32_t v) {
         return side.shape.is_corner(v) && (side.vertex_S(v) - p_S).norm() <= reach &&
-               corner_leads_down(side, v, n_W, slack);
+               leads_down(side, {FeatureKind::VERTEX, v}, n_W, slack);
       });
     });
-    return holds && !leads_down;
+    return holds && !some_lead_down;
   }
 
   /// Direction of contact of two regions: the middle of their normals where both meshes were rounded or neither was,
@@ -294,19 +332,19 @@ class Decision {
     return width_of(convex_hull(std::move(corners))) <= width;
   }
 
-  void parallel_chains(std::int32_t c_moving, const Line& a, std::int32_t c_fixed, const Line& b) {
+  void parallel_chains(const Line& a, const Line& b) {
     const double sense = a.along.dot(b.along) > 0.0 ? 1.0 : -1.0;
     const Vec3 w = (a.along / a.length + sense / b.length * b.along).normalized();
     // Places along w, from the moving chain's first end.
-    const double end_a = a.along.dot(w), begin_b = (b.begin - a.begin).dot(w),
+    const double end_a = a.along.dot(w), begin_b = (b.ends[0] - a.ends[0]).dot(w),
                  end_b = begin_b + b.along.dot(w);
     const double begin = std::max(0.0, std::min(begin_b, end_b)),
                  end = std::min(end_a, std::max(begin_b, end_b));
     if (!(end - begin > tolerance_.rounding)) return;
     Contact contact;
     contact.dimension = 1;
-    contact.moving = {FeatureKind::EDGE, c_moving};
-    contact.fixed = {FeatureKind::EDGE, c_fixed};
+    contact.moving = f_;
+    contact.fixed = g_;
     const auto on_moving = [&](double s) { return a.at(s / end_a); };
     const auto on_fixed = [&](double s) { return b.at((s - begin_b) / (end_b - begin_b)); };
     contact.ends_moving = {on_moving(begin), on_moving(end)};
@@ -319,9 +357,9 @@ class Decision {
     if (!(distance > 0.0) || distance > tolerance_.reach) return;
     const Vec3 u = d / distance;
     const PolarSlack slack{tolerance_.rounding, tolerance_.largest_tilt + tolerance_.rounding / distance};
-    if (!chain_admits(moving_, c_moving, u, slack) || !chain_admits(fixed_, c_fixed, -u, slack)) return;
-    const auto both = direction_between(contact.moving, contact.fixed, u,
-                                        std::min(1.0, (tolerance_.rounding + (d1 - d0).norm()) / distance));
+    if (!admits(moving_, f_, u, slack) || !admits(fixed_, g_, -u, slack)) return;
+    const auto both =
+        direction_between(u, std::min(1.0, (tolerance_.rounding + (d1 - d0).norm()) / distance));
     if (!both) return;
     contact.least_gap = std::min({d0.norm(), d1.norm(), distance});
     contact.measure = end - begin;
@@ -329,44 +367,6 @@ class Decision {
     contact.fall = fall_of(*both, distance);
     set_middle(contact, both->u);
     found_.contacts.push_back(contact);
-  }
-
-  void crossing_chains(std::int32_t c_moving, const Line& a, std::int32_t c_fixed, const Line& b,
-                       const Vec3& product, double sine) {
-    const double shortest = std::min(a.length, b.length);
-    // Nearer to parallel than their directions are known.
-    if (!(sine * shortest > tolerance_.rounding)) return;
-    const double squared = product.squaredNorm();
-    const Vec3 r = b.begin - a.begin;
-    const double s = r.cross(b.along).dot(product) / squared, t = r.cross(a.along).dot(product) / squared;
-    const double spare = tolerance_.rounding / sine;
-    if (std::max(-s, s - 1.0) * a.length > spare || std::max(-t, t - 1.0) * b.length > spare) return;
-    // Alone each is off by rounding / sine along its chain: the second foot is the first one's, and then the first the second's,
-    // which may have been clamped.
-    const Vec3 q = b.at(foot_on(b, a.at(std::clamp(s, 0.0, 1.0)))), p = a.at(foot_on(a, q)), d = q - p;
-    const double length = d.norm();
-    const double sideways =
-        std::max(std::abs(d.dot(a.along)) / a.length, std::abs(d.dot(b.along)) / b.length);
-    if (length > tolerance_.reach || sideways > SIDEWAYS_ROUNDINGS * tolerance_.rounding) return;
-    // d is known to rounding / length, the product of the chains the worse the smaller their angle, but also where they touch.
-    const bool is_far = CROSSING_ROUNDING * length > sine * shortest;
-    Vec3 u = is_far ? Vec3(d / length) : Vec3(product / std::sqrt(squared));
-    if (std::abs(d.dot(u)) <= tolerance_.rounding) {
-      const Vec3 outwards = moving_.direction(
-          moving_.surface.pseudo_normal({FeatureKind::EDGE, moving_.shape.lead_of_chain(c_moving)}));
-      if (u.dot(outwards) < 0.0) u = -u;
-    } else if (d.dot(u) < 0.0) {
-      u = -u;
-    }
-    const double distance = d.dot(u);
-    const double unknown = tolerance_.rounding / (is_far ? length : sine * shortest / CROSSING_ROUNDING);
-    const PolarSlack slack{HEIGHT_ROUNDINGS * tolerance_.rounding, std::min(LARGEST_CROSSING_SLACK, unknown)};
-    if (!chain_admits(moving_, c_moving, u, slack) || !chain_admits(fixed_, c_fixed, -u, slack) ||
-        end_leads_down(moving_, c_moving, a, s, spare, u, length) ||
-        end_leads_down(fixed_, c_fixed, b, t, spare, -u, length))
-      return;
-    add_points({FeatureKind::EDGE, c_moving}, {FeatureKind::EDGE, c_fixed}, p, q, u, distance, unknown,
-               unknown);
   }
 
   void set_middle(Contact& contact, const Vec3& u) {
@@ -378,13 +378,19 @@ class Decision {
     contact.direction = u;
   }
 
-  void add_points(const FeatureId& moving, const FeatureId& fixed, const Vec3& p, const Vec3& q,
-                  const Vec3& u, double gap, double direction_error, double fall) {
+  Contact& add(int dimension) {
+    Contact& contact = found_.contacts.emplace_back();
+    contact.moving = f_;
+    contact.fixed = g_;
+    contact.dimension = dimension;
+    return contact;
+  }
+
+  void add_points(const Vec3& p, const Vec3& q, const Vec3& u, double gap, double direction_error,
+                  double fall) {
     LMDBENCH_EXPECTS(is_unit(u), "points at one place: their direction is asked for where there is none");
     LMDBENCH_EXPECTS(gap <= tolerance_.reach, "a condition that lets pairs beyond the cutoff through");
-    Contact& contact = found_.contacts.emplace_back();
-    contact.moving = moving;
-    contact.fixed = fixed;
+    Contact& contact = add(0);
     contact.point_moving = p;
     contact.point_fixed = q;
     contact.direction = u;
@@ -394,59 +400,26 @@ class Decision {
     contact.fall = fall;
   }
 
-  void add_from(const ShapeSide& of_first, const FeatureId& first, const FeatureId& second, const Vec3& p,
-                const Vec3& q, const Vec3& u, double gap, double direction_error, double fall) {
-    if (of_first.is_moving)
-      add_points(first, second, p, q, u, gap, direction_error, fall);
-    else
-      add_points(second, first, q, p, -u, gap, direction_error, fall);
-  }
-
   const ShapeSide& moving_;
   const ShapeSide& fixed_;
+  const FeatureId f_, g_;  ///< Of the shapes.
   const ContactTolerance& tolerance_;
   ContactSet& found_;
+  // Of conditions that were met.
+  double distance_ = 0.0;
+  double spare_ = 0.0, unknown_ = 0.0;  ///< Of chains that cross.
+  Vec3 p_, q_, u_;                      ///< Likewise.
 };
-
-/// The feature of the shape that a mesh feature is the lead of; index -1 where it is part of none.
-FeatureId shape_feature(const ShapeSide& side, const FeatureId& lead) {
-  switch (lead.kind) {
-    case FeatureKind::VERTEX:
-      // A vertex without triangles is no corner either.
-      return side.shape.is_corner(lead.index) && !side.surface.incident_triangles(lead).empty()
-                 ? lead
-                 : FeatureId{FeatureKind::VERTEX, -1};
-    case FeatureKind::EDGE:
-      return {FeatureKind::EDGE, side.shape.chain_of(lead.index)};
-    case FeatureKind::FACE:
-      break;
-  }
-  return {FeatureKind::FACE, side.shape.region_of(lead.index)};
-}
 
 }  // namespace
 
 void decide(const ShapePair& pair, const FeatureId& on_moving, const FeatureId& on_fixed, ContactSet& found) {
   LMDBENCH_EXPECTS(pair.moving.is_moving && !pair.fixed.is_moving, "sides the wrong way round");
   LMDBENCH_EXPECTS(on_moving.index >= 0 && on_fixed.index >= 0, "a pair of an empty lane");
-  const FeatureId f = shape_feature(pair.moving, on_moving), g = shape_feature(pair.fixed, on_fixed);
+  const FeatureId f = pair.moving.feature_of_lead(on_moving), g = pair.fixed.feature_of_lead(on_fixed);
   if (f.index < 0 || g.index < 0) return;
-  Decision decision(pair, found);
-  using enum FeatureKind;
-  switch (f.kind) {
-    case VERTEX:
-      if (g.kind == VERTEX) return decision.corner_corner(f.index, g.index);
-      if (g.kind == EDGE) return decision.corner_chain(pair.moving, f.index, pair.fixed, g.index);
-      return decision.corner_region(pair.moving, f.index, pair.fixed, g.index);
-    case EDGE:
-      if (g.kind == VERTEX) return decision.corner_chain(pair.fixed, g.index, pair.moving, f.index);
-      if (g.kind == EDGE) return decision.chain_chain(f.index, g.index);
-      return decision.chain_region(pair.moving, f.index, pair.fixed, g.index);
-    case FACE:
-      if (g.kind == VERTEX) return decision.corner_region(pair.fixed, g.index, pair.moving, f.index);
-      if (g.kind == EDGE) return decision.chain_region(pair.fixed, g.index, pair.moving, f.index);
-      return decision.region_region(f.index, g.index);
-  }
+  Decision decision(pair, f, g, found);
+  PairConditions(decision).ask(pair.moving, on_moving, pair.fixed, on_fixed);
 }
 
 }  // namespace lmdbench

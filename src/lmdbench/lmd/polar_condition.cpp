@@ -29,28 +29,26 @@ void append_bounds(const ShapeSide& side, const FeatureId& feature, std::vector<
     if (wing.squaredNorm() > 0.0) bounds.push_back(side.direction(wing).normalized());
     return bounds.size() <= MOST_WINGS;
   };
-  if (feature.kind == FeatureKind::VERTEX) {
-    side.shape.for_each_corner_wing(side.surface, feature.index, add);
-    return;
+  if (feature.kind == FeatureKind::EDGE) {
+    const auto& ends = side.shape.ends_of_chain(feature.index);
+    add(side.vertex_S(ends[1]) - side.vertex_S(ends[0]));
   }
-  const auto& ends = side.shape.ends_of_chain(feature.index);
-  add(side.vertex_S(ends[1]) - side.vertex_S(ends[0]));
-  side.shape.for_each_chain_wing(side.surface, feature.index, add);
+  side.shape.for_each_wing(side.surface, feature, add);
 }
 
-bool admits(const ShapeSide& side, const FeatureId& feature, const Vec3& u_W, const PolarSlack& slack,
-            double tilt) {
-  if (feature.kind == FeatureKind::VERTEX) return corner_admits(side, feature.index, u_W, slack);
-  const auto& ends = side.shape.ends_of_chain(feature.index);
-  const Vec3 along = side.direction(side.vertex_S(ends[1]) - side.vertex_S(ends[0]));
-  return std::abs(u_W.dot(along)) <= slack.length + tilt * along.norm() &&
-         chain_admits(side, feature.index, u_W, slack);
+/// `admits` for a direction that of a chain is square to it up to `tilt`.
+bool admits_about(const ShapeSide& side, const FeatureId& feature, const Vec3& u_W, const PolarSlack& slack,
+                  double tilt) {
+  if (feature.kind == FeatureKind::EDGE) {
+    const auto& ends = side.shape.ends_of_chain(feature.index);
+    const Vec3 along = side.direction(side.vertex_S(ends[1]) - side.vertex_S(ends[0]));
+    if (!(std::abs(u_W.dot(along)) <= slack.length + tilt * along.norm())) return false;
+  }
+  return admits(side, feature, u_W, slack);
 }
 
 bool admits_strictly(const ShapeSide& side, const FeatureId& feature, const Vec3& u_W, double sine) {
-  const PolarSlack slack{-std::numeric_limits<double>::min(), -sine};
-  return feature.kind == FeatureKind::VERTEX ? !corner_leads_down(side, feature.index, u_W, slack)
-                                             : !chain_leads_down(side, feature.index, u_W, slack);
+  return !leads_down(side, feature, u_W, {-std::numeric_limits<double>::min(), -sine});
 }
 
 }  // namespace
@@ -70,8 +68,8 @@ std::optional<KnownDirection> common_direction(const ShapeSide& moving, const Fe
   std::vector<Vec3> admitted;
   const auto consider = [&](const Vec3& x) {
     const double length = x.norm();
-    if (length > PARALLEL && admits(moving, f, x / length, slack, tilt) &&
-        admits(fixed, g, -x / length, slack, tilt))
+    if (length > PARALLEL && admits_about(moving, f, x / length, slack, tilt) &&
+        admits_about(fixed, g, -x / length, slack, tilt))
       admitted.push_back(x / length);
   };
   consider(u_W);
@@ -94,27 +92,18 @@ std::optional<KnownDirection> common_direction(const ShapeSide& moving, const Fe
   return known;
 }
 
-bool corner_admits(const ShapeSide& side, std::int32_t vertex, const Vec3& u_W, const PolarSlack& slack) {
-  return !corner_leads_down(side, vertex, u_W, slack) &&
-         is_outer(side.surface, {FeatureKind::VERTEX, vertex}, side.direction_to_surface(u_W));
+bool admits(const ShapeSide& side, const FeatureId& feature, const Vec3& u_W, const PolarSlack& slack) {
+  const FeatureId of_mesh = feature.kind == FeatureKind::EDGE
+                                ? FeatureId{FeatureKind::EDGE, side.shape.lead_of_chain(feature.index)}
+                                : feature;
+  return !leads_down(side, feature, u_W, slack) &&
+         is_outer(side.surface, of_mesh, side.direction_to_surface(u_W));
 }
 
-bool chain_admits(const ShapeSide& side, std::int32_t chain, const Vec3& u_W, const PolarSlack& slack) {
-  return !chain_leads_down(side, chain, u_W, slack) &&
-         is_outer(side.surface, {FeatureKind::EDGE, side.shape.lead_of_chain(chain)},
-                  side.direction_to_surface(u_W));
-}
-
-bool corner_leads_down(const ShapeSide& side, std::int32_t vertex, const Vec3& u_W, const PolarSlack& slack) {
+bool leads_down(const ShapeSide& side, const FeatureId& feature, const Vec3& u_W, const PolarSlack& slack) {
   const Vec3 u_S = side.direction_to_surface(u_W);
-  return !side.shape.for_each_corner_wing(side.surface, vertex,
-                                          [&](const Vec3& wing) { return admits_wing(u_S, wing, slack); });
-}
-
-bool chain_leads_down(const ShapeSide& side, std::int32_t chain, const Vec3& u_W, const PolarSlack& slack) {
-  const Vec3 u_S = side.direction_to_surface(u_W);
-  return !side.shape.for_each_chain_wing(side.surface, chain,
-                                         [&](const Vec3& wing) { return admits_wing(u_S, wing, slack); });
+  return !side.shape.for_each_wing(side.surface, feature,
+                                   [&](const Vec3& wing) { return admits_wing(u_S, wing, slack); });
 }
 
 }  // namespace lmdbench

@@ -17,13 +17,11 @@ struct PolarSlack {
 /// Whether a direction in the mesh's frame leaves a feature on its outer side, where it has one.
 bool is_outer(const Surface& surface, const FeatureId& feature, const Vec3& u_S);
 
-/// Whether a direction lies in the outward polar cone of a corner: no wing has a component along it, and it is on the
-/// outer side where the corner has one.
-/// @param u_W  unit length, from the corner to the other mesh
-bool corner_admits(const ShapeSide& side, std::int32_t vertex, const Vec3& u_W, const PolarSlack& slack);
-
-/// The same for a chain; u_W is square to it up to rounding.
-bool chain_admits(const ShapeSide& side, std::int32_t chain, const Vec3& u_W, const PolarSlack& slack);
+/// Whether a direction lies in the outward polar cone of a corner or chain: no wing has a component along it, and it is on
+/// the outer side where the feature has one.
+/// @param feature  its index counts corners or chains
+/// @param u_W      unit length, from the feature to the other mesh; of a chain square to it up to rounding
+bool admits(const ShapeSide& side, const FeatureId& feature, const Vec3& u_W, const PolarSlack& slack);
 
 /// A unit vector, and the sine of the angle by which rounding may have turned it.
 struct KnownDirection {
@@ -43,9 +41,7 @@ std::optional<KnownDirection> common_direction(const ShapeSide& moving, const Fe
                                                const ShapeSide& fixed, const FeatureId& g, const Vec3& u_W,
                                                double error, const PolarSlack& slack, double tilt);
 
-/// Whether a wing of a corner leads towards the other mesh: has more of the direction than the slack.
-bool corner_leads_down(const ShapeSide& side, std::int32_t vertex, const Vec3& u_W, const PolarSlack& slack);
-/// The same for a chain.
-bool chain_leads_down(const ShapeSide& side, std::int32_t chain, const Vec3& u_W, const PolarSlack& slack);
+/// Whether a wing of a corner or chain leads towards the other mesh: has more of the direction than the slack.
+bool leads_down(const ShapeSide& side, const FeatureId& feature, const Vec3& u_W, const PolarSlack& slack);
 
 }  // namespace lmdbench

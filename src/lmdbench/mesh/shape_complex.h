@@ -98,6 +98,14 @@ class ShapeComplex {
     return true;
   }
 
+  /// The same for either.
+  /// @param feature  a vertex, or an edge whose index counts chains
+  template <class Visit>
+  bool for_each_wing(const Surface& surface, const FeatureId& feature, Visit&& visit) const {
+    return feature.kind == FeatureKind::VERTEX ? for_each_corner_wing(surface, feature.index, visit)
+                                               : for_each_chain_wing(surface, feature.index, visit);
+  }
+
   /// Calls visit(face) once for every face of a region whose box in the region's plane (RegionShape::frame) comes within
   /// `reach` of a box, until it returns false. @pre the region has a shape
   /// @return whether visit never returned false

@@ -285,7 +285,10 @@ TEST(PairFilter, NothingIsAnLmdWhileTheRejectionStands) {
     WideCounters counters;
     find_wide_pairs(scene.moving->prepared<WideHierarchy>(), scene.fixed[0]->prepared<WideHierarchy>(), query,
                     WideKernel::VECTOR, scratch, counters);
-    const PairFilter first{moving, before, fixed, cutoff, 1e-14, 1e-9, 1e-5, 1e-8, moving_shape, fixed_shape};
+    const ShapePair before_it{{moving, moving_shape, before, true},
+                              {fixed, fixed_shape, identity, false},
+                              ContactTolerance::of(moving, moving_shape, fixed, fixed_shape, before, cutoff)};
+    const PairFilter first{before_it, cutoff, 1e-9, 1e-5, 1e-8};
     for (const WidePair& pair : scratch.lmd_pairs) {
       const auto [centre, radius] = body_of(moving, pair.a.feature_id());
       const PairAnswer answer = first(pair.a.feature_id(), pair.b.feature_id(), radius + 2.0 * cutoff);

@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/lmd/pair_conditions.h>
 #include <lmdbench/methods/certified/filter.h>
 
 #include <gtest/gtest.h>
@@ -7,14 +8,111 @@
 #include <support/rounded.h>
 #include <support/shape_scene.h>
 
+#include <cmath>
+#include <map>
+#include <optional>
 #include <random>
+#include <string>
 
 namespace lmdbench {
 namespace {
 
-TEST(PairFilterAgainstTheDefinition, APairThatItRejectsHasNoContact) {
+/// Stops at the first condition that fails by more than a margin, and says its name.
+class Recorder {
+ public:
+  /// @param touch  Directions of what is nearer are not asked about. Without a margin pairs of points nearer than half of it, and
+  ///               lines that are nearly parallel, fail.
+  Recorder(double reach, double length, double sine, double touch)
+      : reach_(reach), length_(length), sine_(sine), touch_(touch) {}
+
+  std::string failed;  ///< Empty where none does.
+
+  static bool is_long(const Line& line) { return line.length > 1e-8; }
+  static bool has_area(const Plane&) { return true; }
+  bool near(const ShapeSide&, const Vec3&, const Vec3&, const Vec3& d) {
+    return holds("near", reach_ - d.norm(), length_) &&
+           (length_ > 0.0 || holds("touch", d.norm() - 0.5 * touch_, 0.0));
+  }
+  template <class Gradient>
+  bool above(const ShapeSide&, double height, Gradient&& gradient) {
+    return holds("above", height, length_) && is_unit(gradient());
+  }
+  template <class Gradient>
+  bool below_reach(const ShapeSide&, double height, Gradient&&) {
+    return holds("below_reach", reach_ - height, length_);
+  }
+  bool foot_on(const ShapeSide&, const Vec3&, const Line& line, double parameter) {
+    return holds("foot_on", -line.beyond(parameter), length_);
+  }
+  static double clamped(double parameter) { return parameter; }
+  template <class Gradient>
+  bool in_box(const ShapeSide&, double inside, Gradient&& gradient) {
+    return holds("in_box", inside, length_) && is_unit(gradient());
+  }
+  template <class Gradient>
+  bool in_triangle(const ShapeSide&, double inside, const Vec3& side, const Vec3&, Gradient&& gradient) {
+    return holds("in_triangle", inside / side.norm(), length_) && is_unit(gradient() / side.norm());
+  }
+  bool crosses(const Line&, const Line&, const Vec3&, double sine) {
+    return (length_ > 0.0 || holds("crosses", sine - 1e-4, 0.0)) && sine > 1e-4;
+  }
+  bool feet_on(const Crossing& x) {
+    return holds("feet_on", -x.sine * std::max(x.a.beyond(x.s), x.b.beyond(x.t)), length_);
+  }
+  std::optional<Vec3> perpendicular(const Crossing& x) {
+    const Vec3 d = x.b.at(x.t) - x.a.at(x.s);
+    if (!holds("perpendicular", reach_ - d.norm(), length_) || d.norm() < touch_) return std::nullopt;
+    return d;
+  }
+  bool parallel(double sine) { return holds("parallel", LARGEST_PARALLEL_TILT - sine, sine_); }
+  template <class How>
+  bool in_cone(const ShapeSide& side, const FeatureId& lead, const Vec3& d, const How&) {
+    const FeatureId feature = side.feature_of_lead(lead);
+    const Vec3 u = side.direction_to_surface(d) / d.norm();
+    return side.shape.for_each_wing(side.surface, feature, [&](const Vec3& wing) {
+      return wing.norm() < 1e-8 ||
+             holds(lead.kind == FeatureKind::VERTEX ? "in_cone of a corner" : "in_cone of a chain",
+                   -u.dot(wing) / wing.norm(), sine_);
+    });
+  }
+  template <class... Shared>
+  static void share_points(const Shared&...) {}
+  template <class... Shared>
+  static void share_foot(const Shared&...) {}
+  template <class... Shared>
+  static void share_height(const Shared&...) {}
+  template <class... Shared>
+  static void share_perpendicular(const Shared&...) {}
+  template <class... Shared>
+  static void face_region(const Shared&...) {}
+  template <class... Shared>
+  static void face_each_other(const Shared&...) {}
+
+ private:
+  static bool is_unit(const Vec3& gradient) {
+    EXPECT_NEAR(gradient.norm(), 1.0, 1e-9);
+    return true;
+  }
+  bool holds(const char* name, double value, double margin) {
+    if (value < -margin) failed = name;
+    return failed.empty();
+  }
+  double reach_, length_, sine_, touch_;
+};
+
+std::string failed_condition(const ShapePair& pair, const FeatureId& f, const FeatureId& g, double length,
+                             double sine, double touch) {
+  Recorder recorder(pair.tolerance.reach, length, sine, touch);
+  PairConditions(recorder).ask(pair.moving, f, pair.fixed, g);
+  return recorder.failed;
+}
+
+/// What the definition accepts meets each condition to less than any margin of the filter, and what the filter rejects fails some
+/// condition: of all kinds of pairs, and each condition for some of them.
+TEST(PairFilterAgainstTheDefinition, TheyDifferByMarginsAlone) {
   std::mt19937_64 random(1);
-  std::size_t rejected = 0, contacts = 0;
+  std::map<std::string, std::size_t> rejected;
+  std::size_t contacts = 0;
   for (int s = 0; s < 60; ++s) {
     const testing::ConvexBody moving = testing::random_convex_body(random),
                               fixed = testing::random_convex_body(random);
@@ -24,37 +122,41 @@ TEST(PairFilterAgainstTheDefinition, APairThatItRejectsHasNoContact) {
                               testing::placed(fixed.mesh(), whole), 0.5);
     for (int k = 0; k < 8; ++k) {
       const ShapePair pair = scene.at(whole * testing::flush_pose(moving, fixed, random));
-      const double touch = 4e-8 * pair.tolerance.coordinates;
-      const PairFilter filter{scene.moving(),
-                              pair.moving.X_WS,
-                              scene.fixed(),
-                              pair.tolerance.reach,
-                              pair.tolerance.rounding,
-                              touch,
-                              1e-5,
-                              1e-8 * pair.tolerance.coordinates,
-                              scene.shape_moving(),
-                              scene.shape_fixed()};
+      const double wider = std::pow(10.0, 2.0 * testing::uniform(random));
+      const double touch = 4e-8 * wider * pair.tolerance.coordinates, margin = 1e-5 * wider;
+      const PairFilter filter{pair, pair.tolerance.reach, touch, margin, 1e-8 * pair.tolerance.coordinates};
       for (const FeatureId& f : testing::leads_of(scene.moving(), scene.shape_moving()))
         for (const FeatureId& g : testing::leads_of(scene.fixed(), scene.shape_fixed())) {
+          SCOPED_TRACE(std::string(to_string(f.kind)) + " " + std::to_string(f.index) + " - " +
+                       std::string(to_string(g.kind)) + " " + std::to_string(g.index) + ", scene " +
+                       std::to_string(s) + " pose " + std::to_string(k));
           ContactSet set;
           decide(pair, f, g, set);
           // Corners nearer than touch to corners and chains are found by the triangles that touch.
-          std::erase_if(set.contacts, [&](const Contact& c) {
+          const auto is_next_to_touch = [&](const Contact& c) {
             return c.distance < touch && c.moving.kind != FeatureKind::FACE &&
                    c.fixed.kind != FeatureKind::FACE &&
                    (c.moving.kind == FeatureKind::VERTEX || c.fixed.kind == FeatureKind::VERTEX);
-          });
+          };
+          if (std::ranges::any_of(set.contacts, is_next_to_touch)) continue;
           contacts += set.contacts.size();
-          if (filter(f, g, 2.0).verdict != PairVerdict::NO_LMD) continue;
-          ++rejected;
-          EXPECT_TRUE(set.contacts.empty()) << "scene " << s << " pose " << k << ": " << to_string(f.kind)
-                                            << " " << f.index << " - " << to_string(g.kind) << " " << g.index;
+          const bool is_rejected = filter(f, g, 2.0).verdict == PairVerdict::NO_LMD;
+          if (!set.contacts.empty()) {
+            EXPECT_FALSE(is_rejected);
+            EXPECT_EQ(failed_condition(pair, f, g, 0.5 * touch, 0.5 * margin, touch), "");
+          }
+          if (!is_rejected) continue;
+          const std::string failed = failed_condition(pair, f, g, 0.0, 0.0, touch);
+          EXPECT_NE(failed, "");
+          ++rejected[failed];
         }
     }
   }
-  EXPECT_GT(rejected, 100000u);
   EXPECT_GT(contacts, 1000u);
+  for (const char* name :
+       {"near", "above", "below_reach", "foot_on", "in_box", "in_triangle", "crosses", "feet_on",
+        "perpendicular", "parallel", "in_cone of a corner", "in_cone of a chain"})
+    EXPECT_GT(rejected[name], 100u) << name;
 }
 
 }  // namespace

@@ -178,8 +178,8 @@ void Certified::enumerate_from_scratch(Frame& frame) {
   find_wide_pairs(frame.moving, frame.fixed, frame.query, kernel_, scratch, frame.work);
   const auto fetch = [&](std::size_t k, const auto& fetch_part) {
     if (k >= scratch.lmd_pairs.size()) return;
-    fetch_part(frame.filter.moving, scratch.lmd_pairs[k].a.feature_id());
-    fetch_part(frame.filter.fixed, scratch.lmd_pairs[k].b.feature_id());
+    fetch_part(frame.pair.moving.surface, scratch.lmd_pairs[k].a.feature_id());
+    fetch_part(frame.pair.fixed.surface, scratch.lmd_pairs[k].b.feature_id());
   };
   for (std::size_t k = 0; k < scratch.lmd_pairs.size(); ++k) {
     fetch(k + 2 * FETCH_DISTANCE, fetch_indices);
@@ -197,10 +197,10 @@ void Certified::enumerate_coherently(Frame& frame, FixedBody& body) {
   body.seen_moving = frame.moving.changes.now;
   body.seen_fixed = frame.fixed.changes.now;
   if (front.empty()) {
-    front.start(frame.moving, frame.fixed, frame.query, motion_, frame.filter.X_WM, frame.longest,
+    front.start(frame.moving, frame.fixed, frame.query, motion_, frame.pair.moving.X_WS, frame.longest,
                 frame.work);
   } else {
-    front.advance(frame.moving, frame.fixed, frame.query, motion_, frame.filter.X_WM, frame.longest,
+    front.advance(frame.moving, frame.fixed, frame.query, motion_, frame.pair.moving.X_WS, frame.longest,
                   frame.work);
     body.policy.note(frame.work.node_tests, front.test_count());
   }
@@ -253,16 +253,7 @@ void Certified::find(const Pose& X_WM, WorkCounters& counters, Join&& join) {
                          ContactTolerance::of(moving.surface, moving.shape, fixed.surface, fixed.shape,
                                               transform, scene_.cutoff)};
     const double reach = kept_reach(pair.tolerance, hierarchy_moving_, body.hierarchy);
-    const PairFilter filter{moving.surface,
-                            transform,
-                            fixed.surface,
-                            reach,
-                            pair.tolerance.rounding,
-                            touch,
-                            FILTER_MARGIN,
-                            RELATIVE_TINY * coordinates,
-                            moving.shape,
-                            fixed.shape};
+    const PairFilter filter{pair, reach, touch, FILTER_MARGIN, RELATIVE_TINY * coordinates};
     const WideQuery query(hierarchy_moving_, body.hierarchy, transform, reach, touch);
     contacts_.clear();
     std::optional<SignedPair> signs;
