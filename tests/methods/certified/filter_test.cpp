@@ -9,6 +9,7 @@
 #include <support/shape_scene.h>
 
 #include <cmath>
+#include <limits>
 #include <map>
 #include <optional>
 #include <random>
@@ -26,6 +27,7 @@ class Recorder {
       : reach_(reach), length_(length), sine_(sine), touch_(touch) {}
 
   std::string failed;  ///< Empty where none does.
+  double value = 0.0;  ///< Of that condition, as a length where the filter takes one.
 
   static bool is_long(const Line& line) { return line.length > 1e-8; }
   static bool has_area(const Plane&) { return true; }
@@ -57,7 +59,10 @@ class Recorder {
     return (length_ > 0.0 || holds("crosses", sine - 1e-4, 0.0)) && sine > 1e-4;
   }
   bool feet_on(const Crossing& x) {
-    return holds("feet_on", -x.sine * std::max(x.a.beyond(x.s), x.b.beyond(x.t)), length_);
+    const double beyond_a = x.a.beyond(x.s), beyond_b = x.b.beyond(x.t);
+    // Which of two that are as far counts is open.
+    const double unit = std::abs(beyond_a - beyond_b) > 1e-5 ? 1.0 : std::numeric_limits<double>::quiet_NaN();
+    return holds("feet_on", -x.sine * std::max(beyond_a, beyond_b), length_, unit);
   }
   std::optional<Vec3> perpendicular(const Crossing& x) {
     const Vec3 d = x.b.at(x.t) - x.a.at(x.s);
@@ -72,7 +77,7 @@ class Recorder {
     return side.shape.for_each_wing(side.surface, feature, [&](const Vec3& wing) {
       return wing.norm() < 1e-8 ||
              holds(lead.kind == FeatureKind::VERTEX ? "in_cone of a corner" : "in_cone of a chain",
-                   -u.dot(wing) / wing.norm(), sine_);
+                   -u.dot(wing) / wing.norm(), sine_, d.norm());
     });
   }
   template <class... Shared>
@@ -93,25 +98,28 @@ class Recorder {
     EXPECT_NEAR(gradient.norm(), 1.0, 1e-9);
     return true;
   }
-  bool holds(const char* name, double value, double margin) {
-    if (value < -margin) failed = name;
-    return failed.empty();
+  bool holds(const char* name, double of, double margin, double unit = 1.0) {
+    if (of >= -margin) return true;
+    failed = name;
+    value = unit * of;
+    return false;
   }
   double reach_, length_, sine_, touch_;
 };
 
-std::string failed_condition(const ShapePair& pair, const FeatureId& f, const FeatureId& g, double length,
-                             double sine, double touch) {
+Recorder recorded(const ShapePair& pair, const FeatureId& f, const FeatureId& g, double length, double sine,
+                  double touch) {
   Recorder recorder(pair.tolerance.reach, length, sine, touch);
   PairConditions(recorder).ask(pair.moving, f, pair.fixed, g);
-  return recorder.failed;
+  return recorder;
 }
 
 /// What the definition accepts meets each condition to less than any margin of the filter, and what the filter rejects fails some
-/// condition: of all kinds of pairs, and each condition for some of them.
+/// condition: of all kinds of pairs, and each condition for some of them. By how much it fails, less the margin, is the slack of the
+/// certificate, and how that changes its gradient.
 TEST(PairFilterAgainstTheDefinition, TheyDifferByMarginsAlone) {
   std::mt19937_64 random(1);
-  std::map<std::string, std::size_t> rejected;
+  std::map<std::string, std::size_t> rejected, moved;
   std::size_t contacts = 0;
   for (int s = 0; s < 60; ++s) {
     const testing::ConvexBody moving = testing::random_convex_body(random),
@@ -121,7 +129,8 @@ TEST(PairFilterAgainstTheDefinition, TheyDifferByMarginsAlone) {
     testing::ShapeScene scene(s % 4 == 3 ? make_l_block(1.0) : moving.mesh(s % 3 == 0),
                               testing::placed(fixed.mesh(), whole), 0.5);
     for (int k = 0; k < 8; ++k) {
-      const ShapePair pair = scene.at(whole * testing::flush_pose(moving, fixed, random));
+      const Pose pose = whole * testing::flush_pose(moving, fixed, random);
+      const ShapePair pair = scene.at(pose);
       const double wider = std::pow(10.0, 2.0 * testing::uniform(random));
       const double touch = 4e-8 * wider * pair.tolerance.coordinates, margin = 1e-5 * wider;
       const PairFilter filter{pair, pair.tolerance.reach, touch, margin, 1e-8 * pair.tolerance.coordinates};
@@ -140,15 +149,29 @@ TEST(PairFilterAgainstTheDefinition, TheyDifferByMarginsAlone) {
           };
           if (std::ranges::any_of(set.contacts, is_next_to_touch)) continue;
           contacts += set.contacts.size();
-          const bool is_rejected = filter(f, g, 2.0).verdict == PairVerdict::NO_LMD;
+          const PairAnswer answer = filter(f, g, 2.0);
           if (!set.contacts.empty()) {
-            EXPECT_FALSE(is_rejected);
-            EXPECT_EQ(failed_condition(pair, f, g, 0.5 * touch, 0.5 * margin, touch), "");
+            EXPECT_EQ(answer.verdict, PairVerdict::ASK);
+            EXPECT_EQ(recorded(pair, f, g, 0.5 * touch, 0.5 * margin, touch).failed, "");
           }
-          if (!is_rejected) continue;
-          const std::string failed = failed_condition(pair, f, g, 0.0, 0.0, touch);
-          EXPECT_NE(failed, "");
-          ++rejected[failed];
+          if (answer.verdict != PairVerdict::NO_LMD) continue;
+          const Recorder before = recorded(pair, f, g, 0.0, 0.0, touch);
+          EXPECT_NE(before.failed, "");
+          ++rejected[before.failed];
+          // The filter's may be another condition that fails, by more.
+          const bool is_same = std::abs(answer.certificate.slack + before.value + 2.0 * touch) <= 1e-9;
+          if (!is_same || before.value > -1e-4 || random() % 8 != 0) continue;
+          Pose after = pose;
+          const Vec3 way = 1e-6 * testing::random_direction(random);
+          after.translation += way;
+          const Recorder there = recorded(scene.at(after), f, g, 0.0, 0.0, touch);
+          // Else another condition fails first there.
+          if (there.failed == before.failed && std::abs(there.value - before.value) < 1e-5) {
+            EXPECT_NEAR(there.value - before.value, answer.certificate.gradient.dot(way), 1e-10)
+                << before.failed << ' ' << before.value;
+            ++moved[before.failed];
+          }
+          scene.at(pose);  // `pair` is of it again.
         }
     }
   }
@@ -157,6 +180,9 @@ TEST(PairFilterAgainstTheDefinition, TheyDifferByMarginsAlone) {
        {"near", "above", "below_reach", "foot_on", "in_box", "in_triangle", "crosses", "feet_on",
         "perpendicular", "parallel", "in_cone of a corner", "in_cone of a chain"})
     EXPECT_GT(rejected[name], 100u) << name;
+  for (const char* name : {"near", "above", "below_reach", "foot_on", "in_box", "in_triangle", "feet_on",
+                           "perpendicular", "in_cone of a corner", "in_cone of a chain"})
+    EXPECT_GT(moved[name], 10u) << name;
 }
 
 }  // namespace
