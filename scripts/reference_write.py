@@ -1,13 +1,14 @@
 #!/usr/bin/env python3
 # SPDX-FileCopyrightText: The lmdbench authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Puts what scripts/reference.sh left in a folder into results/reference. A file of the same name is copied; what stands
-under a page's title becomes that page where the page has no line of its own; else each table of PART.txt takes the place of
-the one with the same header in the page PART.md or PART-*.md. What stands round the tables is written by hand: the pages that
-were touched are named, to be read. In the register a row whose pages were renewed as a whole names the new commit, any other
+"""Puts what scripts/reference.sh left in a folder into results/reference. A file of the same name is copied, but a page keeps its own head, which
+answers its question; of a PART.txt each table takes the place of the one with the same columns in the page PART.md or PART-*.md, and what stands round
+the tables is written by hand: the pages that were touched are named, to be read. A page shows at most seven columns of a table: those that it has
+already. The whole table goes to tables/PAGE.csv beside it. In the register a row whose pages were renewed as a whole names the new commit, any other
 keeps its commits and names it beside them."""
 
 import argparse
+import csv
 import functools
 import os
 import re
@@ -17,46 +18,93 @@ from pathlib import Path
 
 import reference_ages
 
+MOST_COLUMNS = 7
+
 
 def blocks(text):
     """The text as runs of lines, each a table or none."""
     return re.findall(r"(?:^\|.*\n)+|(?:^(?!\|).*\n)+", text if text.endswith("\n") else text + "\n", re.MULTILINE)
 
 
-def header(block):
-    """What a table is known by; None of a text."""
-    return " ".join(block.split("\n", 1)[0].split()) if block.startswith("|") else None
+def is_table(block):
+    return block.startswith("|")
+
+
+def rows_of(block):
+    """The cells of a table, without the line under its names."""
+    lines = block.strip().split("\n")
+    return [[cell.strip() for cell in re.split(r"(?<!\\)\|", line.strip()[1:].removesuffix("|"))] for line in [lines[0], *lines[2:]]]
+
+
+def tables_of(text):
+    """[(heading that it stands under, block)]"""
+    heading, found = "", []
+    for block in blocks(text):
+        if is_table(block):
+            found.append((heading, block))
+        else:
+            heading = next((line.lstrip("# ") for line in reversed(block.split("\n")) if re.match("##+ ", line)), heading)
+    return found
+
+
+def places(names, of):
+    """Where a table's columns stand among those of another one, in their order; None where it is no part of it."""
+    found = []
+    for name in names:
+        place = next((i for i in range(found[-1] + 1 if found else 0, len(of)) if of[i] == name), None)
+        if place is None:
+            return None
+        found.append(place)
+    return found
+
+
+def projected(block, columns):
+    """Some columns of a table."""
+    names, *rows = [[row[i] if i < len(row) else "" for i in columns] for row in rows_of(block)]
+    return "".join(f"{line}\n" for line in ["| " + " | ".join(names) + " |", "|" + "---|" * len(names), *("| " + " | ".join(row) + " |" for row in rows)])
 
 
 def with_tables_of(page, output):
-    """The page with the tables of an output, and how many of its own were not renewed. Of several with one header the first is the first."""
-    fresh = {}
-    for block in blocks(output):
-        fresh.setdefault(header(block), []).append(block)
+    """The page with the tables of an output, how many of its own were not renewed, and the whole of those of which it shows a part,
+    [(heading, block)]. A table under the same heading comes first, of several the first."""
+    fresh, whole, kept, heading = tables_of(output), [], 0, ""
     written = blocks(page)
-    kept = 0
     for i, block in enumerate(written):
-        name = header(block)
-        if name is None:
+        if not is_table(block):
+            heading = tables_of(block + "|\n")[-1][0] or heading
             continue
-        if fresh.get(name):
-            written[i] = fresh[name].pop(0)
-        else:
+        names = rows_of(block)[0]
+        able = [(under != heading, len(rows_of(other)[0]), k) for k, (under, other) in enumerate(fresh) if places(names, rows_of(other)[0])]
+        if not able:
             kept += 1
-    return "".join(written), kept
+            continue
+        _, width, k = min(able)
+        _, other = fresh.pop(k)
+        if width > len(names):
+            whole.append((heading, other))
+            other = projected(other, places(names, rows_of(other)[0]))
+        written[i] = other
+    return "".join(written), kept, whole
 
 
-def section(output, title):
-    """What an output says under a title, with it; None where the title is not there."""
-    marks = title.split(" ", 1)[0]
-    parts = re.split(f"^(?=#{{1,{len(marks)}}} )", output, flags=re.MULTILINE)
-    return next((part for part in parts if marks.startswith("#") and part.split("\n", 1)[0] == title), None)
+def write_whole(page, whole):
+    """tables/PAGE.csv, or PAGE-2.csv, ... where tables have other columns: all of them, beside the headings that they stand under."""
+    groups = {}
+    for heading, block in whole:
+        names, *rows = rows_of(block)
+        groups.setdefault(tuple(names), []).extend([heading, *(cell.strip("*") for cell in row)] for row in rows)
+    folder = os.path.join(os.path.dirname(page), "tables")
+    os.makedirs(folder, exist_ok=True)
+    for number, (names, rows) in enumerate(groups.items(), 1):
+        name = Path(page).stem + (f"-{number}" if number > 1 else "") + ".csv"
+        with open(os.path.join(folder, name), "w", encoding="utf-8", newline="") as stream:
+            csv.writer(stream, lineterminator="\n").writerows([["table", *names], *rows])
 
 
-def holds_text_of(page, text):
-    """Whether a text has every line of a page that is of no table."""
-    lines = set(text.split("\n"))
-    return all(line in lines for block in blocks(page) if header(block) is None for line in block.split("\n"))
+def head_and_body(page):
+    """Up to the first heading below the title, and the rest."""
+    parts = re.split(r"(?m)^(?=## )", page, maxsplit=1)
+    return parts[0], parts[1] if len(parts) > 1 else ""
 
 
 @functools.cache
@@ -71,21 +119,38 @@ def part_of(name):
     return max((part for part in parts() if name.startswith(part)), key=len, default="")
 
 
+def shown_as(body, page):
+    """A text whose tables show no more columns than those of the page do."""
+    shown = [rows_of(block)[0] for _, block in tables_of(page)]
+    written = blocks(body)
+    for i, block in enumerate(written):
+        if is_table(block):
+            columns = next((found for names in shown if (found := places(names, rows_of(block)[0]))), None)
+            written[i] = projected(block, columns) if columns else block
+    return "".join(written)
+
+
 def renew(path, run):
     """Renews one file of results/reference. Returns how many of its tables stay old, or None where nothing of it was made again."""
     name = os.path.basename(path)
-    if os.path.exists(os.path.join(run, name)):
-        shutil.copyfile(os.path.join(run, name), path)
+    same, made = os.path.join(run, name), os.path.join(run, part_of(name) + ".txt")
+    if not name.endswith(".md"):
+        if not os.path.exists(same):
+            return None
+        shutil.copyfile(same, path)
         return 0
-    made = os.path.join(run, part_of(name) + ".txt")
-    if not name.endswith(".md") or not os.path.exists(made):
+    source = same if os.path.exists(same) else made
+    if not os.path.exists(source):
         return None
-    output, page = (Path(file).read_text(encoding="utf-8") for file in (made, path))
-    whole = section(output, page.split("\n", 1)[0])
-    text, kept = (whole, 0) if whole and holds_text_of(page, whole) else with_tables_of(page, output)
+    output, page = (Path(file).read_text(encoding="utf-8") for file in (source, path))
+    body = head_and_body(output)[1] if source == same else ""
+    page_then = head_and_body(page)[0] + shown_as(body, page) if body else page
+    text, kept, whole = with_tables_of(page_then, output)
     if text == page and kept:
         return None
     Path(path).write_text(text, encoding="utf-8")
+    if whole:
+        write_whole(path, whole)
     return kept
 
 

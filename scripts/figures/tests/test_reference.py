@@ -3,6 +3,8 @@
 """Every table and figure of results/reference is told to have been made by a command that there is at a commit that there is, and to be older than
 its code where it is."""
 
+import csv
+import io
 import os
 import re
 import unittest
@@ -11,13 +13,13 @@ import unittest.mock
 from cases import ROOT, Scratch, text_of
 import reference_ages
 from reference_ages import ADDED, FOLDER, age, git, rows, unmarked
-from reference_write import holds_text_of, name_commit, part_of, parts, renew, section, with_tables_of
+from reference_write import MOST_COLUMNS, name_commit, part_of, parts, places, renew, rows_of, tables_of, with_tables_of
 
 
 class Register(unittest.TestCase):
     def test_every_file_is_told_once(self):
         told = [file for row in rows() for file in row.files]
-        self.assertEqual(sorted(told), sorted(name for name in os.listdir(FOLDER) if name != "README.md"),
+        self.assertEqual(sorted(told), sorted(name for name in os.listdir(FOLDER) if name not in ("README.md", "tables")),
                          "remedy: a row in results/reference/README.md with command and commit")
 
     def test_every_command_is_there(self):
@@ -77,26 +79,54 @@ More words.
 """
 
 
+class Pages(unittest.TestCase):
+    """What a reader of a page meets."""
+    JUDGED = ("triangle_accuracy.md", "triangle_accuracy_million.md")  # a test reads them as the program prints them
+
+    def pages(self):
+        return {file: text_of(FOLDER, file) for row in rows() for file in row.files if file.endswith(".md")}
+
+    def test_a_page_asks_and_answers_first(self):
+        for file, text in self.pages().items():
+            if file not in self.JUDGED:
+                title, _, rest = text.partition("\n")
+                self.assertRegex(title, r"^# .*\?$", (file, "remedy: a question as the title"))
+                self.assertRegex(rest, r"^\n[!*`\w\[]", (file, "remedy: its answer right below"))
+                self.assertLess(max(map(len, rest.splitlines())), 2000, file)
+
+    def test_tables_are_narrow_and_the_whole_of_them_stands_beside(self):
+        linked = set()
+        for file, text in self.pages().items():
+            files = re.findall(r"\]\((tables/[^)]+\.csv)\)", text)
+            linked.update(files)
+            wholes = [list(csv.reader(io.StringIO(text_of(FOLDER, name)))) for name in files]
+            for heading, block in tables_of(text):
+                names, *cells = rows_of(block)
+                self.assertTrue(len(names) <= MOST_COLUMNS or file in self.JUDGED, (file, heading, names))
+                told = [{tuple(row[i] for i in places(names, whole[0])) for row in whole[1:] if row[0] == heading} for whole in wholes if places(names, whole[0])]
+                here = {tuple(cell.strip("*") for cell in row) for row in cells}
+                self.assertTrue(not any(told) or any(here <= rows_told for rows_told in told), (file, heading, names))
+        self.assertEqual(sorted(linked), sorted(f"tables/{name}" for name in os.listdir(os.path.join(FOLDER, "tables"))))
+
+
 class Writing(unittest.TestCase):
     def test_a_table_takes_the_place_of_the_one_with_its_header(self):
-        text, kept = with_tables_of(PAGE, "| mesh  | us |\n|---|---|\n| bunny | 5 |\n| torus | 9 |\nof other things\n")
+        text, kept, whole = with_tables_of(PAGE, "| mesh  | us |\n|---|---|\n| bunny | 5 |\n| torus | 9 |\nof other things\n")
         self.assertEqual(text, PAGE.replace("| bunny | 7 |", "| bunny | 5 |\n| torus | 9 |").replace("| mesh | us |", "| mesh  | us |"))
-        self.assertEqual(kept, 1)
+        self.assertEqual((kept, whole), (1, []))
 
     def test_tables_of_one_header_are_taken_in_their_order(self):
         page = "| a |\n|---|\n| 1 |\nthen\n| a |\n|---|\n| 2 |\n"
-        self.assertEqual(with_tables_of(page, page.replace("1", "5").replace("2", "6")), (page.replace("1", "5").replace("2", "6"), 0))
-        self.assertEqual(with_tables_of(page, "| a |\n|---|\n| 5 |\n"), (page.replace("1", "5"), 1))
+        self.assertEqual(with_tables_of(page, page.replace("1", "5").replace("2", "6")), (page.replace("1", "5").replace("2", "6"), 0, []))
+        self.assertEqual(with_tables_of(page, "| a |\n|---|\n| 5 |\n"), (page.replace("1", "5"), 1, []))
 
-    def test_an_output_may_hold_several_pages(self):
-        output = "noise\n# One\nx\n## part\n# Two\n"
-        self.assertEqual([section(output, title) for title in ("# One", "# Two", "## part", "# Three", "x")],
-                         ["# One\nx\n## part\n", "# Two\n", "## part\n", None, None])
+    def test_the_table_under_the_same_heading_is_taken(self):
+        page = "## torus\n| a |\n|---|\n| 1 |\n"
+        self.assertEqual(with_tables_of(page, "## bunny\n| a |\n|---|\n| 5 |\n## torus\n| a |\n|---|\n| 6 |\n"), (page.replace("1", "6"), 0, []))
 
-    def test_what_is_written_by_hand_stays(self):
-        made = PAGE.replace("| bunny | 7 |", "| bunny | 5 |")
-        self.assertTrue(holds_text_of(PAGE, made))
-        self.assertFalse(holds_text_of(PAGE + "- Read by hand.\n", made))
+    def test_a_page_shows_the_columns_that_it_has(self):
+        page, whole = "## cost\n| mesh | p99 |\n|---|---|\n| old | 1 |\n", "| mesh | us | p99 | p99 |\n|---|---|---|---|\n| bunny | 5 | 6 | 7 |\n"
+        self.assertEqual(with_tables_of(page, whole), ("## cost\n| mesh | p99 |\n|---|---|\n| bunny | 6 |\n", 0, [("cost", whole)]))
 
     def test_a_page_is_of_the_longest_part_that_it_is_called_after(self):
         self.assertEqual([part_of(name) for name in ("stability-map.md", "stability.md", "recall-bunny-bunny.md", "README.md")],
@@ -111,6 +141,13 @@ class WrittenFiles(Scratch):
         self.assertEqual([renew(file, self.path("run")) for file in (page, figure, self.path("flat.md"))], [1, 0, None])
         self.assertEqual(self.read("deform.md"), PAGE.replace("| bunny | 7 |", "| bunny | 5 |"))
         self.assertEqual(self.read("jumps.png"), "new")
+
+    def test_a_page_that_was_written_as_a_whole_keeps_its_head_and_its_columns(self):
+        page = self.write("kernel.md", "# What?\n\nThis.\n\n## a\nOld.\n\n| p99 |\n|---|\n| 1 |\n")
+        self.write("run/kernel.md", "# Sweep\n\n## a\nNew.\n\n| us | p99 |\n|---|---|\n| 5 | 6 |\n")
+        self.assertEqual(renew(page, self.path("run")), 0)
+        self.assertEqual(self.read("kernel.md"), "# What?\n\nThis.\n\n## a\nNew.\n\n| p99 |\n|---|\n| 6 |\n")
+        self.assertEqual(self.read("tables", "kernel.csv"), "table,us,p99\na,5,6\n")
 
     def test_a_row_names_the_commit_of_what_was_renewed_and_keeps_that_of_what_was_not(self):
         register = self.write("README.md", "| `a.md`, `a.png` | c | 1111111 | lmd | older |\n| `b.md` | c | 2222222 | lmd | |\n")
