@@ -5,6 +5,7 @@
 #include <lmdbench/result/result_scene.h>
 #include <lmdbench/result/run_to_file.h>
 #include <lmdbench/run/contact.h>
+#include <lmdbench/run/load_body.h>
 #include <lmdbench/run/prepare.h>
 #include <lmdbench/run/run.h>
 #include <lmdbench/view/export_frames.h>
@@ -77,6 +78,55 @@ TEST(Instances, ARunAmongThemFindsWhatTheSceneWithoutThemHas) {
   for (std::size_t i = 0; i < touched.size(); ++i) EXPECT_GE(touched[i], searched[i]);
   EXPECT_FALSE(plain.has("/methods/certified/counters/instances_touched"));
   EXPECT_EQ(run.plan.scene->meshes.at(1).instances, 4);
+}
+
+/// Three entries of one mesh: where the plain torus is, one far away, one turned beside it.
+Experiment three_entries(std::vector<Override> overrides = {}) {
+  overrides.insert(overrides.begin(), {"/frames=320", "/driver/repetitions=1", "/record/lmds=true",
+                                       R"(/methods=[{"name":"improved"},{"name":"certified"}])",
+                                       "/probes/truth/stride_frames=0", "/probes/fcl/stride_frames=0"});
+  const std::string torus = R"({"mesh":"torus","diagonal_m":0.15)";
+  overrides.push_back("/fixed=[" + torus + "}," + torus + R"(,"pose":{"translation_m":[0.16,0,0]}},)" +
+                      torus + R"(,"pose":{"translation_m":[0,0,0.05],"rotation_xyzw":[0.6,0,0,0.8]}}])");
+  return load_experiment(SHAPES_FILE, overrides);
+}
+
+TEST(Instances, EntriesOfOneMeshShareItAndFindWhatInstancesFind) {
+  std::vector<MeshNote> notes;
+  const Scene scene = load_scene(three_entries(), notes);
+  ASSERT_EQ(scene.fixed.size(), 3u);
+  EXPECT_EQ(scene.fixed[0].body, scene.fixed[2].body);
+  EXPECT_EQ(notes.size(), 4u);
+  notes.clear();
+  const Scene apart = load_scene(three_entries({"/plan/shared_mesh=off"}), notes);
+  EXPECT_NE(apart.fixed[0].body, apart.fixed[2].body);
+
+  const ScratchDirectory scratch;
+  run_experiment_to_file(three_entries(), scratch / "entries.h5", {"lmdbench", "run"});
+  run_experiment_to_file(three_entries({"/plan/shared_mesh=off"}), scratch / "apart.h5", {"lmdbench", "run"});
+  const std::string list =
+      scratch.write("list.txt", "0 0 0 0 0 0 1\n0.16 0 0 0 0 0 1\n0 0 0.05 0.6 0 0 0.8\n");
+  run_experiment_to_file(shapes_with(R"({"rule":"list","file":")" + list + "\"}"), scratch / "instances.h5",
+                         {"lmdbench", "run"});
+  // What reads vertices in the world frame has them there.
+  run_experiment_to_file(three_entries({"/record/polylines/stride_frames=40"}), scratch / "world.h5",
+                         {"lmdbench", "run"});
+  const OpenResult entries(scratch / "entries.h5"), instances(scratch / "instances.h5"),
+      separate(scratch / "apart.h5"), world(scratch / "world.h5");
+  EXPECT_FALSE(world.has("/methods/certified/counters/instances_touched"));
+  for (const std::string method : {"/methods/certified", "/methods/improved"}) {
+    const auto points = entries.doubles(method + "/lmds/point_fixed");
+    EXPECT_GT(points.size(), 150u);
+    for (const OpenResult* same : {&entries, &instances, &separate}) {
+      EXPECT_EQ(points, same->doubles(method + "/lmds/point_fixed"));
+      EXPECT_TRUE(same->has("/methods/certified/counters/instances_touched"));
+    }
+  }
+  // In another frame roundings differ, which an approximation may follow.
+  const auto in_world = world.doubles("/methods/certified/lmds/distance"),
+             in_mesh = entries.doubles("/methods/certified/lmds/distance");
+  ASSERT_EQ(in_world.size(), in_mesh.size());
+  for (std::size_t i = 0; i < in_mesh.size(); ++i) EXPECT_NEAR(in_mesh[i], in_world[i], 1e-12);
 }
 
 TEST(Instances, ContactIsWithAnyOfThem) {

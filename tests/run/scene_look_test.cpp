@@ -64,6 +64,19 @@ TEST(SceneLook, APathThatStaysOutsideTheCutoffIsMeasured) {
                                                HasSubstr("in frame 100"))));
 }
 
+TEST(SceneLook, AMeshThatIsListedTwiceAtOnePlaceIsNoticed) {
+  const std::string cube = R"({"mesh": "cube", "diagonal_m": 0.1)";
+  EXPECT_THAT(warnings(look(GOOD, {"/fixed=[" + cube + "}, " + cube + "}, " + cube + "}]"})),
+              ElementsAre(AllOf(HasSubstr("fixed_1 is the mesh of fixed_0, cube, at the same place"),
+                                HasSubstr("first of 2"), HasSubstr("pushes twice"))));
+  const std::string beside = cube + R"(, "pose": {"translation_m": [0.2, 0, 0]}})";
+  EXPECT_THAT(warnings(look(GOOD, {"/fixed=[" + cube + "}, " + beside + "]"})), IsEmpty());
+  // A path that is made knows where they stand, and so does who looks for one mesh inside another.
+  const std::string above = cube + R"(, "pose": {"translation_m": [0, 0, 0.06]}})";
+  EXPECT_THAT(warnings(look(GOOD, {"/fixed=[" + beside + ", " + above + "]"})),
+              ::testing::Contains(HasSubstr("encloses a vertex of fixed_1")));
+}
+
 TEST(SceneLook, AMeshInOtherUnitsIsNoticed) {
   EXPECT_THAT(
       warnings(look(GOOD, {"/moving/diagonal_m=100"})),

@@ -3,7 +3,9 @@
 #include <lmdbench/base/error.h>
 #include <lmdbench/cli/commands.h>
 #include <lmdbench/cli/experiment_argument.h>
+#include <lmdbench/mesh/surface.h>
 #include <lmdbench/run/contact.h>
+#include <lmdbench/run/load_body.h>
 #include <lmdbench/run/prepare.h>
 #include <lmdbench/view/anatomy.h>
 
@@ -63,8 +65,11 @@ void add_anatomy_command(CLI::App& app) {
                        "anatomy looks at one fixed mesh, not at instances", "leave \"instances\" out");
     const PreparedRun prepared = prepare(experiment);
     const std::size_t frame = frame_at(prepared, options->time);
-    fmt::print("{}\n", anatomy_json(prepared.scene(), prepared.input.poses[frame], prepared.times[frame],
-                                    options->levels));
+    Scene scene = prepared.scene();  // of the first fixed mesh, in the world frame
+    scene.fixed.front() = std::make_shared<const Body>(scene.fixed.front()->name(),
+                                                       build_surface(placed_mesh(scene.fixed.front())));
+    fmt::print("{}\n",
+               anatomy_json(scene, prepared.input.poses[frame], prepared.times[frame], options->levels));
   });
 }
 

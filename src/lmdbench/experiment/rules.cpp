@@ -17,6 +17,10 @@ constexpr const char* SEVERAL_MOVE = "several meshes move: the same pose of one 
 
 RuleVerdict shared_mesh(const RuleFacts& facts) {
   for (std::size_t i = 0; i < facts.experiment.fixed.size(); ++i)
+    if (earlier_body(facts.experiment, i))
+      return {true, fmt::format("fixed_{} and fixed_{} are {}", *earlier_body(facts.experiment, i), i,
+                                facts.experiment.fixed[i].mesh)};
+  for (std::size_t i = 0; i < facts.experiment.fixed.size(); ++i)
     if (same_body(facts.experiment, i))
       return {true, fmt::format("the moving mesh and fixed_{} are {}, placed alike", i,
                                 facts.experiment.moving.mesh)};
@@ -192,6 +196,32 @@ bool same_mesh(const MeshChoice& a, const MeshChoice& b) {
 bool same_body(const Experiment& experiment, std::size_t index) {
   const MeshChoice& fixed = experiment.fixed[index];
   return same_mesh(experiment.moving, fixed) && (fixed.instances || same_pose(fixed.pose, Pose{}));
+}
+
+std::optional<std::size_t> earlier_body(const Experiment& experiment, std::size_t index) {
+  if (!stands_in_own_frame(experiment, index)) return std::nullopt;
+  for (std::size_t i = index; i-- > 0;)
+    if (same_mesh(experiment.fixed[i], experiment.fixed[index]) && stands_in_own_frame(experiment, i))
+      return i;
+  return std::nullopt;
+}
+
+bool stands_in_own_frame(const Experiment& experiment, std::size_t index) {
+  if (experiment.fixed[index].instances) return true;
+  if (experiment.deforms() || experiment.realtime || experiment.probe_stride("polylines") > 0) return false;
+  for (const ForceChoice& force : experiment.profiles)
+    if (force.aggregation->needs > AggregationNeeds::CRITICAL_PAIRS) return false;
+  for (std::size_t i = 0; i < experiment.fixed.size(); ++i)
+    if (i != index && same_mesh(experiment.fixed[i], experiment.fixed[index])) return true;
+  return false;
+}
+
+bool has_placed_meshes(const Experiment& experiment) {
+  for (std::size_t i = 0; i < experiment.fixed.size(); ++i)
+    if (experiment.fixed[i].instances ||
+        (!same_pose(experiment.fixed[i].pose, Pose{}) && stands_in_own_frame(experiment, i)))
+      return true;
+  return false;
 }
 
 }  // namespace lmdbench

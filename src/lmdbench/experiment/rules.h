@@ -8,6 +8,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -95,5 +96,16 @@ bool same_mesh(const MeshChoice& a, const MeshChoice& b);
 
 /// Whether moving and fixed mesh `index` are one and the same at the same place, so that one preparation serves both.
 bool same_body(const Experiment& experiment, std::size_t index);
+
+/// Whether fixed mesh `index` is kept in its own frame and stands at its pose: it has "instances", or another entry has the same mesh. Not
+/// where somebody reads the vertices in the world frame (deformation, polylines, aggregations of surfaces and merges) or the first
+/// frame in which a mesh is near must not prepare anything (the driver realtime).
+bool stands_in_own_frame(const Experiment& experiment, std::size_t index);
+
+/// The last entry of `fixed` before `index` whose preparation serves it, both in their own frame.
+std::optional<std::size_t> earlier_body(const Experiment& experiment, std::size_t index);
+
+/// Whether some fixed mesh stands so: its scene is a world (`Scene::is_world`).
+bool has_placed_meshes(const Experiment& experiment);
 
 }  // namespace lmdbench

@@ -226,14 +226,6 @@ std::vector<std::size_t> drawn_bodies(const Scene& scene, const std::vector<Resu
   return drawn;
 }
 
-TriangleMesh placed_mesh(const FixedBody& fixed) {
-  TriangleMesh mesh = fixed->surface().mesh;
-  if (!fixed.is_placed()) return mesh;
-  const RigidTransform X_WF(fixed.X_WF);
-  for (Vec3& vertex : mesh.vertices) vertex = X_WF.point(vertex);
-  return mesh;
-}
-
 std::unique_ptr<Method> exact_method(const Scene& scene) {
   return make_method(exact_description().name, scene);
 }

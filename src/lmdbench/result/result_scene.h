@@ -48,9 +48,6 @@ inline constexpr std::size_t MOST_DRAWN = 24;
 /// come nearest to the tracks.
 std::vector<std::size_t> drawn_bodies(const Scene& scene, const std::vector<ResultTrack>& tracks);
 
-/// The mesh in the world frame.
-TriangleMesh placed_mesh(const FixedBody& fixed);
-
 /// The same of several movers, whose poses the caller sets.
 std::unique_ptr<Method> exact_method(const MoverScene& scene, std::shared_ptr<const std::vector<Pose>> poses);
 

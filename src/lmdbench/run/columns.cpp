@@ -26,7 +26,7 @@ void add_counters(std::vector<Column<Row>>& columns, const std::string& group,
 
 MethodDescription described(const Experiment& experiment, const std::string& name) {
   if (!experiment.movers.empty()) return among_movers(method_description(name));
-  return experiment.is_world() ? in_world(method_description(name)) : method_description(name);
+  return has_placed_meshes(experiment) ? in_world(method_description(name)) : method_description(name);
 }
 
 std::vector<Column<FrameRecord>> frame_columns(const MethodDescription& method, bool torque, bool indices) {

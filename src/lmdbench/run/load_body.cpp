@@ -10,7 +10,8 @@
 namespace lmdbench {
 
 std::shared_ptr<const Body> load_body(const MeshChoice& choice, const std::string& role,
-                                      const Experiment& experiment, std::vector<MeshNote>& notes) {
+                                      const Experiment& experiment, const std::optional<Pose>& X_WF,
+                                      std::vector<MeshNote>& notes) {
   const ResolvedMesh resolved =
       is_mesh_name(choice.mesh)
           ? resolve_mesh(choice.mesh, experiment.mesh_folder)
@@ -29,13 +30,10 @@ std::shared_ptr<const Body> load_body(const MeshChoice& choice, const std::strin
   std::shared_ptr<const FrameVertices> vertices;
   if (choice.deformation)
     vertices = std::make_shared<const FrameVertices>(
-        *choice.deformation,
-        DeformingMesh{resolved.mesh, choice.placement, mesh,
-                      role == "moving" ? std::nullopt : std::optional(choice.pose)},
+        *choice.deformation, DeformingMesh{resolved.mesh, choice.placement, mesh, X_WF},
         experiment.frame_rate_hz);
-  const RigidTransform X_WF(choice.pose);
-  if (role.starts_with("fixed") && !choice.instances)
-    for (Vec3& vertex : mesh.vertices) vertex = X_WF.point(vertex);
+  if (X_WF)
+    for (Vec3& vertex : mesh.vertices) vertex = RigidTransform(*X_WF).point(vertex);
   refuse_extreme_size(mesh, choice.mesh);
   auto body = std::make_shared<const Body>(choice.mesh, build_surface(std::move(mesh)));
   notes.push_back({role,
@@ -50,6 +48,14 @@ std::shared_ptr<const Body> load_body(const MeshChoice& choice, const std::strin
                    0,
                    std::move(vertices)});
   return body;
+}
+
+TriangleMesh placed_mesh(const FixedBody& fixed) {
+  TriangleMesh mesh = fixed->surface().mesh;
+  if (!fixed.is_placed()) return mesh;
+  const RigidTransform X_WF(fixed.X_WF);
+  for (Vec3& vertex : mesh.vertices) vertex = X_WF.point(vertex);
+  return mesh;
 }
 
 }  // namespace lmdbench

@@ -102,7 +102,7 @@ GrazingPath make_path(const Experiment& experiment, const Scene& scene, const Pr
                                  0.01 * smallest));
   TriangleMesh fixed;  // all of them as one
   for (const auto& body : scene.fixed) {
-    const TriangleMesh& mesh = body->surface().mesh;
+    const TriangleMesh mesh = placed_mesh(body);
     const auto first = static_cast<std::int32_t>(fixed.vertices.size());
     fixed.vertices.insert(fixed.vertices.end(), mesh.vertices.begin(), mesh.vertices.end());
     for (const auto& corners : mesh.triangles)
@@ -166,43 +166,46 @@ bool touches(const Scene& scene, const Pose& X_WM) {
   return nearest_distance(scene, X_WM, scene.cutoff) == 0.0;
 }
 
-/// The instances of an entry. Meshes that are the same are read and prepared once, whether they move or stand.
-void add_instances(const Experiment& experiment, std::size_t entry, const std::string& role, Scene& scene,
-                   std::vector<MeshNote>& notes) {
+/// The mesh of an entry; one that the moving mesh is or an earlier entry has is read and prepared once.
+std::shared_ptr<const Body> fixed_body(const Experiment& experiment, std::size_t entry, const Scene& scene,
+                                       std::vector<MeshNote>& notes) {
   const MeshChoice& choice = experiment.fixed[entry];
-  std::shared_ptr<const Body> body;
-  if (allowed(experiment.rules, Rule::SHARED_MESH) && same_mesh(experiment.moving, choice)) {
-    body = scene.moving;
-    notes.push_back(notes.front());
-    notes.back().role = role;
-  } else {
-    body = load_body(choice, role, experiment, notes);
+  const std::string role = fmt::format("fixed_{}", entry);
+  const bool in_own_frame = stands_in_own_frame(experiment, entry);
+  if (allowed(experiment.rules, Rule::SHARED_MESH)) {
+    const auto share = [&](const std::shared_ptr<const Body>& body, MeshNote note) {
+      note.role = role;
+      note.instances.clear();
+      notes.push_back(std::move(note));
+      return body;
+    };
+    if (const std::optional<std::size_t> earlier = earlier_body(experiment, entry)) {
+      const MeshNote& note = notes[1 + *earlier];
+      return share(scene.fixed[static_cast<std::size_t>(note.first_fixed_body)].body, note);
+    }
+    if (same_body(experiment, entry) || (in_own_frame && same_mesh(experiment.moving, choice)))
+      return share(scene.moving, notes.front());
   }
-  notes.back().instances.clear();
-  for (const Pose& pose : instance_poses(*choice.instances, body->prepared<MeshBounds>())) {
-    notes.back().instances.push_back(choice.pose * pose);
-    scene.fixed.emplace_back(body, notes.back().instances.back());
-  }
+  return load_body(choice, role, experiment, in_own_frame ? std::nullopt : std::optional(choice.pose), notes);
 }
 
 }  // namespace
 
 Scene load_scene(const Experiment& experiment, std::vector<MeshNote>& notes) {
   Scene scene;
-  scene.moving = load_body(experiment.moving, "moving", experiment, notes);
+  scene.moving = load_body(experiment.moving, "moving", experiment, std::nullopt, notes);
   for (std::size_t i = 0; i < experiment.fixed.size(); ++i) {
-    const std::string role = fmt::format("fixed_{}", i);
-    const auto first = static_cast<std::int64_t>(scene.fixed.size());
-    if (experiment.fixed[i].instances) {
-      add_instances(experiment, i, role, scene, notes);
-    } else if (allowed(experiment.rules, Rule::SHARED_MESH) && same_body(experiment, i)) {
-      scene.fixed.push_back(scene.moving);
-      notes.push_back(notes.front());
-      notes.back().role = role;
-    } else {
-      scene.fixed.push_back(load_body(experiment.fixed[i], role, experiment, notes));
+    const MeshChoice& choice = experiment.fixed[i];
+    const std::shared_ptr<const Body> body = fixed_body(experiment, i, scene, notes);
+    notes.back().first_fixed_body = static_cast<std::int64_t>(scene.fixed.size());
+    if (!choice.instances) {
+      scene.fixed.emplace_back(body, stands_in_own_frame(experiment, i) ? choice.pose : Pose{});
+      continue;
     }
-    notes.back().first_fixed_body = first;
+    for (const Pose& pose : instance_poses(*choice.instances, body->prepared<MeshBounds>())) {
+      notes.back().instances.push_back(choice.pose * pose);
+      scene.fixed.emplace_back(body, notes.back().instances.back());
+    }
   }
   return scene;
 }
@@ -349,17 +352,21 @@ PreparedRun prepare(const Experiment& experiment, const Progress& progress, Defo
     if (note.vertices && !note.vertices->sha256().empty())
       prepared.files.push_back({"vertices:" + note.role, vertex_files(note.vertices->deformation()).front(),
                                 note.vertices->sha256(), note.vertices->file_bytes()});
+    if (const std::size_t coincident = count_coincident(note.instances); coincident > 0)
+      prepared.warnings.emplace_back(fmt::format(
+          "{} mesh {}: {} of {} instances are just where an earlier one is: each of their LMDs is "
+          "there once an instance",
+          note.role, note.name, coincident, note.instances.size()));
+    // What there is to say of a mesh is said once.
+    if (const auto index = static_cast<std::size_t>(&note - &prepared.meshes.front());
+        note.role.starts_with("fixed_") && earlier_body(experiment, index - 1))
+      continue;
     if (note.flattening.moved_vertices > 0)
       prepared.warnings.emplace_back(
           fmt::format("{} mesh {}: {}", note.role, note.name, to_text(note.flattening)));
     if (note.orientation.choice == OrientationChoice::OUTWARD)
       prepared.warnings.emplace_back(
           fmt::format("{} mesh {}: {}", note.role, note.name, to_text(note.orientation)));
-    if (const std::size_t coincident = count_coincident(note.instances); coincident > 0)
-      prepared.warnings.emplace_back(fmt::format(
-          "{} mesh {}: {} of {} instances are just where an earlier one is: each of their LMDs is "
-          "there once an instance",
-          note.role, note.name, coincident, note.instances.size()));
     for (const std::string& finding : findings(note.report))
       prepared.warnings.emplace_back(fmt::format("{} mesh {}: {}", note.role, note.name, finding));
   }

@@ -40,7 +40,7 @@ std::shared_ptr<const Body> body_of(const Experiment& experiment, std::size_t en
         return share(earlier.body, notes[first_note + earlier.entry]);
   }
   try {
-    return load_body(choice.mesh, role, experiment, notes);
+    return load_body(choice.mesh, role, experiment, std::nullopt, notes);
   } catch (const Error& error) {
     throw Error(error.code(), experiment.file.string(), choice.place + "/mesh",
                 fmt::format("cannot be used: {}", error.what()), "name another mesh");

@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/experiment/rules.h>
 #include <lmdbench/mesh/winding_number.h>
 #include <lmdbench/methods/registry.h>
 #include <lmdbench/run/contact.h>
@@ -21,20 +22,23 @@
 namespace lmdbench {
 namespace {
 
-/// A mesh and its box, outside of which nothing is inside the mesh.
+/// A mesh, its box, outside of which nothing is inside the mesh, and where it stands.
 class BoxedMesh {
  public:
-  BoxedMesh(const SceneLook::Mesh& look, const TriangleMesh& mesh) : closed_(look.closed), mesh_(&mesh) {
-    for (const Vec3& vertex : mesh.vertices) box_.extend(vertex);
+  BoxedMesh(const SceneLook::Mesh& look, const FixedBody& body)
+      : closed_(look.closed), mesh_(&body->surface().mesh), X_WF_(body.X_WF) {
+    for (const Vec3& vertex : mesh_->vertices) box_.extend(vertex);
   }
   [[nodiscard]] bool encloses(const Vec3& point) const {
-    return closed_ && box_.contains(point) && std::abs(winding_number(point, *mesh_)) > 0.5;
+    const Vec3 point_F = X_WF_.rotation.conjugate() * (point - X_WF_.translation);
+    return closed_ && box_.contains(point_F) && std::abs(winding_number(point_F, *mesh_)) > 0.5;
   }
-  [[nodiscard]] const Vec3& first_vertex() const { return mesh_->vertices.front(); }
+  [[nodiscard]] Vec3 first_vertex() const { return RigidTransform(X_WF_).point(mesh_->vertices.front()); }
 
  private:
   bool closed_;
   const TriangleMesh* mesh_;
+  Pose X_WF_;
   Eigen::AlignedBox3d box_;
 };
 
@@ -75,18 +79,47 @@ void look_at_cutoff(SceneLook& look) {
          "lower /force/cutoff_m, which is in metres, or check scale and diagonal_m"});
 }
 
+/// The entry of `fixed` before this one that is the same mesh at the same place.
+std::optional<std::size_t> coincident_entry(const Experiment& experiment, const std::vector<MeshNote>& notes,
+                                            std::size_t entry) {
+  const MeshChoice& choice = experiment.fixed[entry];
+  for (std::size_t i = 0; i < entry; ++i) {
+    const MeshChoice& other = experiment.fixed[i];
+    if (notes[1 + i].sha256 == notes[1 + entry].sha256 && !choice.instances && !other.instances &&
+        other.placement == choice.placement && same_pose(other.pose, choice.pose))
+      return i;
+  }
+  return std::nullopt;
+}
+
+/// What stands at one place twice has each of its contacts twice.
+void look_at_entries(SceneLook& look, const Experiment& experiment, const PreparedRun& prepared) {
+  std::int64_t coincident = 0;
+  std::string first;
+  for (std::size_t i = 0; i < experiment.fixed.size(); ++i) {
+    const std::optional<std::size_t> other = coincident_entry(experiment, prepared.meshes, i);
+    if (other && coincident++ == 0)
+      first = fmt::format("fixed_{} is the mesh of fixed_{}, {}", i, *other, experiment.fixed[i].mesh);
+  }
+  if (coincident > 0)
+    look.warnings.push_back(
+        {fmt::format("{}, at the same place{}: each of its contacts is there twice and pushes twice", first,
+                     coincident > 1 ? fmt::format(" (the first of {} such entries)", coincident) : ""),
+         "remove the entry, or move it by its \"pose\""});
+}
+
 /// Distances do not tell inside from outside.
-void look_inside(SceneLook& look, const PreparedRun& prepared) {
-  if (prepared.input.movers) return;        // each of which would have to be looked at
-  if (prepared.scene().is_world()) return;  // where meshes may well be in each other
+void look_inside(SceneLook& look, const Experiment& experiment, const PreparedRun& prepared) {
+  if (prepared.input.movers) return;  // each of which would have to be looked at
+  if (experiment.is_world()) return;  // where meshes may well be in each other
   DeformingScene bodies(prepared.scene(), prepared.input.deformation);
   const std::size_t fixed_count = bodies.scene().fixed.size();
   std::vector<BoxedMesh> boxed;  // the moving mesh, then the fixed ones
   const auto box_them = [&] {
     boxed.clear();
-    boxed.emplace_back(look.meshes.front(), bodies.scene().moving->surface().mesh);
+    boxed.emplace_back(look.meshes.front(), bodies.scene().moving);
     for (std::size_t i = 0; i < fixed_count; ++i)
-      boxed.emplace_back(look.meshes[i + 1], bodies.scene().fixed[i]->surface().mesh);
+      boxed.emplace_back(look.meshes[i + 1], bodies.scene().fixed[i]);
   };
   box_them();
   std::vector<FramesOf> enclosed_by_moving(fixed_count), moving_inside(fixed_count);
@@ -195,9 +228,10 @@ SceneLook look_at(const Experiment& experiment, const PreparedRun& prepared,
   look.defaults = prepared.defaults;
   look_at_sizes(look);
   look_at_cutoff(look);
+  look_at_entries(look, experiment, prepared);
   // In a closed loop the path is what the hand means: it may well lie inside.
   if (!experiment.loop.closed) {
-    look_inside(look, prepared);
+    look_inside(look, experiment, prepared);
     look_at_path(look, prepared);
   }
   return look;

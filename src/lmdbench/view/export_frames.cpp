@@ -7,6 +7,7 @@
 #include <lmdbench/methods/query.h>
 #include <lmdbench/result/result_scene.h>
 #include <lmdbench/result_file/vtu_file.h>
+#include <lmdbench/run/load_body.h>
 #include <lmdbench/view/export_frames.h>
 
 #include <fmt/format.h>

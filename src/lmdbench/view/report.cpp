@@ -8,6 +8,7 @@
 #include <lmdbench/methods/query.h>
 #include <lmdbench/result/result_scene.h>
 #include <lmdbench/result_file/result_reader.h>
+#include <lmdbench/run/load_body.h>
 #include <lmdbench/view/report.h>
 
 #include <fmt/format.h>
