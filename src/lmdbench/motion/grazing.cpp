@@ -5,10 +5,12 @@
 #include <lmdbench/base/statistics.h>
 #include <lmdbench/motion/grazing.h>
 #include <lmdbench/motion/interpolate.h>
+#include <lmdbench/world/broad_phase.h>
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 #include <optional>
 #include <string>
 #include <utility>
@@ -51,6 +53,24 @@ class SeedProgress {
   std::size_t shown_ = 0;
 };
 
+/// The smallest distance of the frames [m]. Only frames are looked at that, by how far a point can have come since the last one, may be nearer
+/// than the least so far.
+double smallest_gap(const Path& frames, const PathScene& scene, const ProgressFunction& progress) {
+  const MeshBounds bounds{.centre = scene.moving_centre_M, .radius = scene.moving_radius};
+  double least = std::numeric_limits<double>::infinity(), last = 0.0;
+  const Pose* looked_at = nullptr;
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    const Pose& pose = frames[i].pose;
+    if (looked_at == nullptr || last - farthest_motion(bounds, *looked_at, pose) < least) {
+      last = scene.distance(pose);
+      least = std::min(least, last);
+      looked_at = &pose;
+    }
+    if (progress) progress(i + 1, frames.size());
+  }
+  return least;
+}
+
 /// @param smallest receives the smallest gap over the haptic frames [m]
 /// @return nothing where the seed's path misses, or comes too near at any rate
 std::optional<GrazingPath> path_of_seed(const PathScene& scene, double cutoff, double haptic_rate,
@@ -62,9 +82,8 @@ std::optional<GrazingPath> path_of_seed(const PathScene& scene, double cutoff, d
     result.spec.seed = seed;
     result.spec.frame_rate = result.spec.stored_rate = rate;
     result.path = generate_path(result.spec, scene, progress.of_stage(stage++));
-    const GapMeasure gaps = measure_gaps(resample(PathInterpolator(result.path), haptic_rate), scene.distance,
-                                         progress.of_stage(stage++));
-    result.smallest_gap = smallest = gaps.smallest();
+    result.smallest_gap = smallest =
+        smallest_gap(resample(PathInterpolator(result.path), haptic_rate), scene, progress.of_stage(stage++));
     if (smallest < GRAZING_FLOOR_IN_CUTOFFS * cutoff) continue;  // between the poses: at every frame, then
     if (smallest <= NEAR_ENOUGH * cutoff) return result;
     break;  // it misses at any rate

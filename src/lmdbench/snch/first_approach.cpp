@@ -3,6 +3,7 @@
 #include <lmdbench/base/contract.h>
 #include <lmdbench/geometry/triangle_distance.h>
 #include <lmdbench/snch/first_approach.h>
+#include <lmdbench/snch/slab_distance.h>
 
 #include <algorithm>
 #include <array>
@@ -39,7 +40,11 @@ class ApproachSearch {
         transform_(X_WM),
         direction_(direction_W),
         gap_(gap),
-        enough_(gap * (1.0 + tolerance)) {}
+        enough_(gap * (1.0 + tolerance)) {
+    if (moving_hierarchy_.nodes.empty() || fixed_hierarchy_.nodes.empty()) return;
+    const HierarchyNode &a = moving_hierarchy_.nodes.front(), &b = fixed_hierarchy_.nodes.front();
+    extent_ = (transform_.point(a.centre) - b.centre).norm() + 2.0 * (a.radius + b.radius);
+  }
 
   FirstApproach run(const FirstApproach& begin) {
     if (moving_hierarchy_.nodes.empty() || fixed_hierarchy_.nodes.empty()) return best_;
@@ -85,10 +90,23 @@ class ApproachSearch {
     return {std::sqrt(inside) - along + slack, index_a, index_b};
   }
 
+  /// Whether the slabs along an axis are farther apart than the gap at the best reach, and so beyond it, where they move apart.
+  bool is_beyond(const Vec3& axis, const Triangle& a, const Triangle& b) const {
+    const Vec3 way = best_.reach * direction_;
+    const double extent = extent_ + std::abs(best_.reach);
+    const SlabGaps gaps = slab_gaps(axis, {a[0] + way, a[1] + way, a[2] + way}, b, extent);
+    return (axis.dot(direction_) >= 0.0 ? gaps.a_above_b : gaps.b_above_a) > enough_;
+  }
+
   /// @param s  where the pair is farther apart than the gap, or at it, as it is everywhere beyond
   void try_pair(std::int32_t triangle_moving, std::int32_t triangle_fixed, double s) {
     const Triangle a = transform_.triangle(moving_.mesh.triangle(triangle_moving));
     const Triangle b = fixed_.mesh.triangle(triangle_fixed);
+    if (best_.reach > NEVER &&
+        (is_beyond(fixed_.face_normals[static_cast<std::size_t>(triangle_fixed)], a, b) ||
+         is_beyond(transform_.direction(moving_.face_normals[static_cast<std::size_t>(triangle_moving)]), a,
+                   b)))
+      return;
     for (int step = 0; step < MAXIMUM_STEPS && s > best_.reach; ++step) {
       const Vec3 way = s * direction_;
       const TrianglePairDistance pair = triangle_distance(Triangle{a[0] + way, a[1] + way, a[2] + way}, b);
@@ -111,6 +129,7 @@ class ApproachSearch {
   Vec3 direction_;
   double gap_;
   double enough_;
+  double extent_ = 0.0;  ///< Bound of the distances of corners at X_WM [m].
   FirstApproach best_;
 };
 

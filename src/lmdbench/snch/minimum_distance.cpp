@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/base/contract.h>
 #include <lmdbench/snch/minimum_distance.h>
+#include <lmdbench/snch/slab_distance.h>
 
 #include <algorithm>
 #include <array>
@@ -44,8 +45,16 @@ void descend(const Surface& moving, const Hierarchy& moving_hierarchy, const Sur
     const HierarchyNode& a = moving_hierarchy.nodes[static_cast<std::size_t>(pair.index_a)];
     const HierarchyNode& b = fixed_hierarchy.nodes[static_cast<std::size_t>(pair.index_b)];
     if (a.is_leaf() && b.is_leaf()) {
-      const TrianglePairDistance distance = triangle_distance(
-          transform.triangle(moving.mesh.triangle(a.triangle)), fixed.mesh.triangle(b.triangle));
+      const Triangle on_moving = transform.triangle(moving.mesh.triangle(a.triangle)),
+                     on_fixed = fixed.mesh.triangle(b.triangle);
+      const auto apart = [&, extent = pair.lower_bound + 2.0 * (a.radius + b.radius)](const Vec3& normal) {
+        const SlabGaps gaps = slab_gaps(normal, on_moving, on_fixed, extent);
+        return std::max(gaps.a_above_b, gaps.b_above_a) > best;
+      };
+      if (apart(fixed.face_normals[static_cast<std::size_t>(b.triangle)]) ||
+          apart(transform.direction(moving.face_normals[static_cast<std::size_t>(a.triangle)])))
+        continue;
+      const TrianglePairDistance distance = triangle_distance(on_moving, on_fixed);
       if (!visit(NearestPair{std::sqrt(distance.squared_distance), a.triangle, b.triangle, distance})) return;
       continue;
     }
