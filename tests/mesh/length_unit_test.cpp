@@ -23,5 +23,12 @@ TEST(LengthUnit, AnythingElseIsAnError) {
     EXPECT_THROW(metres_of_units(text, "--unit"), UsageError) << text;
 }
 
+TEST(LengthUnit, GltfIsInMetresAndOtherFormatsDoNotSay) {
+  EXPECT_EQ(metres_of_format("a.gltf"), 1.0);
+  EXPECT_EQ(metres_of_format("folder/A.GLB"), 1.0);
+  for (const char* file : {"a.obj", "a.stl", "a.ply", "a.off", "gltf"})
+    EXPECT_EQ(metres_of_format(file), std::nullopt);
+}
+
 }  // namespace
 }  // namespace lmdbench

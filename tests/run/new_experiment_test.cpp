@@ -7,6 +7,7 @@
 #include <lmdbench/run/new_experiment.h>
 #include <lmdbench/run/resting_pose.h>
 #include <lmdbench/run/run.h>
+#include <lmdbench/run/scene_look.h>
 #include <lmdbench/stability/stability_search.h>
 
 #include <fmt/format.h>
@@ -24,6 +25,7 @@ namespace lmdbench {
 namespace {
 
 using ::testing::Contains;
+using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using testing::ScratchDirectory;
 using Json = nlohmann::json;
@@ -72,6 +74,55 @@ TEST_F(InitTest, UnlikeSizesAreRefusedUnlessSomebodySaysTheirUnits) {
   const Json json = made(pin, plate, {.unit = "mm,m"});
   EXPECT_EQ(json["moving"]["scale"], 0.001);
   EXPECT_FALSE(json["fixed"][0].contains("scale"));
+}
+
+TEST_F(InitTest, PartsOfAnAssemblyKeepTheirPlaceAndOthersAreCentred) {
+  TriangleMesh peg = make_box({10, 10, 40});
+  for (Vec3& vertex : peg.vertices) vertex += Vec3(100, 50, 30);
+  TriangleMesh plate = make_box({60, 60, 20});
+  for (Vec3& vertex : plate.vertices) vertex += Vec3(100, 50, -5);
+  const std::string moving = write("peg.off", peg), fixed = write("plate.off", plate);
+  const Json kept = made(moving, fixed);
+  EXPECT_FALSE(kept["moving"].contains("centre"));
+  EXPECT_FALSE(kept["fixed"][0].contains("centre"));
+  EXPECT_EQ(kept["moving"]["mesh"], "../peg.off") << "a folder that is shared finds it again";
+  EXPECT_EQ(made(moving, fixed, {.keep_place = false})["moving"]["centre"], true);
+  const std::string apart = write("apart.off", make_box({10, 10, 40}));
+  EXPECT_EQ(made(apart, fixed)["fixed"][0]["centre"], true);
+  EXPECT_FALSE(made(apart, fixed, {.keep_place = true})["moving"].contains("centre"));
+}
+
+TEST_F(InitTest, SizesThatTellOfAnotherUnitAreTold) {
+  const auto told = [&](const std::string& moving, const std::string& fixed) {
+    const Experiment bare = parse_experiment(
+        fmt::format(R"({{"moving": {{"mesh": "{}"}}, "fixed": [{{"mesh": "{}"}}]}})", moving, fixed),
+        scratch_ / "two.json");
+    std::vector<MeshNote> notes;
+    load_scene(bare, notes);
+    std::vector<std::string> texts;
+    for (const SceneWarning& warning : size_warnings(bare, notes)) texts.push_back(to_text(warning));
+    return texts;
+  };
+  const std::string millimetres = write("mm.off", make_box({50, 40, 30})),
+                    metres = write("m.off", make_box({0.05, 0.04, 0.03})),
+                    inches = write("in.off", make_box({2, 1.6, 1.2}));
+  EXPECT_THAT(told(millimetres, millimetres),
+              ElementsAre(::testing::AllOf(HasSubstr("70.71 m large: its file says no unit"),
+                                           HasSubstr("\"scale\": 0.001"))));
+  EXPECT_THAT(told(inches, millimetres), Contains(HasSubstr("what an inch has millimetres")));
+  EXPECT_TRUE(told(metres, metres).empty());
+}
+
+TEST_F(InitTest, HolesAndSelfIntersectionsAreTold) {
+  TriangleMesh open = make_box({50, 40, 30});
+  open.triangles.pop_back();
+  const NewExperiment made_file = make(
+      write("open.off", open),
+      write("crossing.off", merged(make_box({50, 40, 30}), translated(make_box({50, 40, 30}), {20, 10, 5}))));
+  EXPECT_THAT(made_file.warnings,
+              Contains(::testing::AllOf(HasSubstr("3 boundary edges in 1 holes"), HasSubstr("open.off"))));
+  EXPECT_THAT(made_file.warnings,
+              Contains(::testing::AllOf(HasSubstr("touch or cross"), HasSubstr("mesh info"))));
 }
 
 TEST_F(InitTest, MeshesThatAreInsideOutAreTurned) {

@@ -7,6 +7,7 @@
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <spdlog/spdlog.h>
 
 #include <memory>
 #include <string>
@@ -21,6 +22,7 @@ void add_init_command(CLI::App& app) {
     std::string mesh_folder;
     std::string unit;
     std::string orient;
+    std::string place;
     bool contact = false;
   };
   auto* command = app.add_subcommand(
@@ -31,14 +33,22 @@ void add_init_command(CLI::App& app) {
   command->add_option("FIXED", options->fixed, "mesh that stands")->required();
   command->add_option("--out,-o", options->out, "folder of the new files")->capture_default_str();
   add_mesh_folder_option(*command, options->mesh_folder);
-  command->add_option("--unit", options->unit,
-                      "what a unit of the files' coordinates is: m, cm, mm, um, in, ft or a number of "
-                      "metres; of the moving and the "
-                      "fixed mesh with a comma: mm,m. Without it millimetres where one of them spans more "
-                      "than 10, else metres");
+  command->add_option(
+      "--unit", options->unit,
+      "what a unit of the files' coordinates is: m, cm, mm, um, in, ft or a number of "
+      "metres; of the moving and the "
+      "fixed mesh with a comma: mm,m. Without it metres for glTF; for other files millimetres "
+      "where one of them spans more than 10, else metres");
   command->add_option("--orient", options->orient,
                       "keep, or outward: triangles are turned away from the solid; without it outward for "
                       "meshes that need it");
+  command
+      ->add_option("--place", options->place,
+                   "keep: parts stay where their files have them, so that the identity as a pose is their "
+                   "place in an assembly; "
+                   "centre: each about its own middle. Without it keep for files of one unit that place them "
+                   "in or next to each other")
+      ->check(CLI::IsMember({"keep", "centre"}));
   command->add_flag(
       "--contact", options->contact,
       "begin at rest in contact, in a closed loop: for `lmdbench stability`; no path that grazes");
@@ -46,6 +56,7 @@ void add_init_command(CLI::App& app) {
     InitChoices chosen;
     if (!options->unit.empty()) chosen.unit = options->unit;
     if (!options->orient.empty()) chosen.orientation = parse_orientation(options->orient, "", "--orient");
+    if (!options->place.empty()) chosen.keep_place = options->place == "keep";
     chosen.contact = options->contact;
     ProgressBar bar(talk_welcome());
     const NewExperiment made = new_experiment(
@@ -58,6 +69,7 @@ void add_init_command(CLI::App& app) {
         chosen);
     bar.wipe();
     write_new_experiment(made);
+    for (const std::string& warning : made.warnings) spdlog::warn("{}", warning);
     if (!talk_welcome()) return;
     fmt::print("{}\n", made.experiment_file.string());
     if (!made.specification_text.empty()) fmt::print("{}\n", made.specification_file.string());

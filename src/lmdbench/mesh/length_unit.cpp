@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <cctype>
 #include <charconv>
 #include <cmath>
 
@@ -34,6 +35,12 @@ std::pair<double, double> metres_of_units(const std::string& text, const std::st
   const std::size_t comma = text.find(',');
   const double first = metres_of_unit(text.substr(0, comma), place);
   return {first, comma == std::string::npos ? first : metres_of_unit(text.substr(comma + 1), place)};
+}
+
+std::optional<double> metres_of_format(const std::filesystem::path& file) {
+  std::string extension = file.extension().string();
+  for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return extension == ".gltf" || extension == ".glb" ? std::optional(1.0) : std::nullopt;
 }
 
 }  // namespace lmdbench

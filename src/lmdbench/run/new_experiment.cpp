@@ -4,6 +4,7 @@
 #include <lmdbench/base/error.h>
 #include <lmdbench/catalogue/manifest.h>
 #include <lmdbench/experiment/experiment.h>
+#include <lmdbench/mesh/self_intersections.h>
 #include <lmdbench/mesh/surface.h>
 #include <lmdbench/mesh/validity.h>
 #include <lmdbench/motion/tum_file.h>
@@ -12,6 +13,7 @@
 #include <lmdbench/run/resting_pose.h>
 #include <lmdbench/run/scene_look.h>
 
+#include <Eigen/Geometry>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
@@ -29,10 +31,17 @@ using OrderedJson = nlohmann::ordered_json;
 constexpr const char* CONTACT_HAND = "postural-arm";
 constexpr double CONTACT_SECONDS = 1.0;
 
+/// A folder that is moved or shared with what stands about it finds it again. Both are made absolute first: what is not there yet has
+/// no canonical path.
+std::string path_from(const std::filesystem::path& folder, const std::filesystem::path& file) {
+  return std::filesystem::proximate(std::filesystem::absolute(file), std::filesystem::absolute(folder))
+      .generic_string();
+}
+
 /// How a file in `folder` names a mesh.
 std::string seen_from(const std::filesystem::path& folder, const std::string& mesh) {
   if (is_mesh_name(mesh)) return mesh;
-  const std::string relative = std::filesystem::proximate(mesh, folder).generic_string();
+  const std::string relative = path_from(folder, mesh);
   return relative.find('/') == std::string::npos ? "./" + relative : relative;
 }
 
@@ -66,17 +75,20 @@ void choose_units(GivenMesh& moving, GivenMesh& fixed, const std::optional<std::
     std::tie(moving.metres, fixed.metres) = metres_of_units(*unit, "--unit");
     moving.why = fixed.why = "--unit " + *unit;
   } else {
-    const auto is_long = [](const GivenMesh& part) {
-      return !is_mesh_name(part.name) && part.diagonal > LARGEST_PLAUSIBLE_DIAGONAL;
+    const auto known = [](const GivenMesh& part) {
+      return is_mesh_name(part.name) ? std::optional(1.0) : metres_of_format(part.name);
     };
-    const bool millimetres = is_long(moving) || is_long(fixed);
+    double longest = 0.0;  // of coordinates whose unit nobody says
+    for (const GivenMesh* part : {&moving, &fixed})
+      if (!known(*part)) longest = std::max(longest, part->diagonal);
+    const bool millimetres = longest > LARGEST_PLAUSIBLE_DIAGONAL;
     for (GivenMesh* part : {&moving, &fixed}) {
-      const bool file = !is_mesh_name(part->name);
-      part->metres = file && millimetres ? 0.001 : 1.0;
-      part->why = !file ? "the manifest's meshes are in metres"
+      part->metres = known(*part).value_or(millimetres ? 0.001 : 1.0);
+      part->why = is_mesh_name(part->name) ? "the manifest's meshes are in metres"
+                  : known(*part)           ? "glTF is in metres"
                   : millimetres
-                      ? fmt::format("a file's coordinates span {:.4g}: both are taken for millimetres",
-                                    std::max(moving.diagonal, fixed.diagonal))
+                      ? fmt::format("a file's coordinates span {:.4g}: {} for millimetres", longest,
+                                    known(moving) || known(fixed) ? "they are taken" : "both are taken")
                       : "no file's coordinates span more than a few metres";
     }
   }
@@ -109,15 +121,59 @@ OrientationChoice choose_orientation(const GivenMesh& part, const std::optional<
   return OrientationChoice::OUTWARD;
 }
 
+/// Whether the meshes stay where their files have them.
+bool choose_places(const GivenMesh& moving, const GivenMesh& fixed, const InitChoices& chosen,
+                   std::vector<DefaultNote>& choices) {
+  const auto box_of = [](const GivenMesh& part) {
+    Eigen::AlignedBox3d box;
+    for (const Vec3& vertex : part.mesh.mesh.vertices) box.extend(part.metres * vertex);
+    return box;
+  };
+  const double smaller = std::min(moving.metres * moving.diagonal, fixed.metres * fixed.diagonal);
+  const bool is_assembly = !is_mesh_name(moving.name) && !is_mesh_name(fixed.name) &&
+                           moving.metres == fixed.metres &&
+                           box_of(moving).exteriorDistance(box_of(fixed)) < smaller;
+  const bool keep = chosen.keep_place.value_or(is_assembly);
+  const char* why = chosen.keep_place ? "--place"
+                    : is_assembly
+                        ? "the files place the parts in or next to each other, as in one assembly: the "
+                          "identity as a pose is that place; --place centre has each about its own middle"
+                        : "the files place the parts apart, or in no common frame; --place keep leaves "
+                          "them there";
+  for (const GivenMesh* part : {&moving, &fixed})
+    choices.push_back(
+        {part->place + "/centre", keep ? "false" : "true", part == &moving ? why : "as the moving one"});
+  return keep;
+}
+
+/// Flaws that no method can mend, with what to do.
+void tell_flaws(const GivenMesh& part, std::vector<std::string>& warnings) {
+  std::vector<std::string> flaws;
+  const ValidityReport report = check_mesh(build_surface(part.mesh.mesh));
+  if (!report.closed)
+    flaws.push_back(fmt::format("{} boundary edges in {} holes: what is behind them is outside, too",
+                                report.boundary_edges, report.boundary_loops));
+  if (!report.manifold)
+    flaws.push_back(fmt::format("{} edges and vertices where more than two triangles or surfaces meet",
+                                report.non_manifold_edges + report.non_manifold_vertices));
+  const SelfIntersections crossings = self_intersections(part.mesh.mesh);
+  if (crossings.pairs > 0)
+    flaws.push_back(to_text(crossings) + ": parts of its surface are inside of it and push all the same");
+  for (const std::string& flaw : flaws)
+    warnings.push_back(
+        fmt::format("{}: {} (remedy: mend it where it was made; `lmdbench mesh info {}` says more)",
+                    part.name, flaw, part.name));
+}
+
 /// Its entry in the experiment.
-OrderedJson mesh_entry(const GivenMesh& part, const InitChoices& chosen, const std::filesystem::path& folder,
-                       std::vector<DefaultNote>& choices) {
+OrderedJson mesh_entry(const GivenMesh& part, bool keep_place, const InitChoices& chosen,
+                       const std::filesystem::path& folder, std::vector<DefaultNote>& choices) {
   OrderedJson entry{{"mesh", seen_from(folder, part.name)}};
   if (part.metres != 1.0) entry["scale"] = part.metres;
   choices.push_back(
       {part.place + "/scale", fmt::format("{:g}", part.metres),
        fmt::format("{}; {:.4g} of them are {:.4g} m", part.why, part.diagonal, part.metres * part.diagonal)});
-  entry["centre"] = true;
+  if (!keep_place) entry["centre"] = true;
   if (choose_orientation(part, chosen.orientation, choices) == OrientationChoice::OUTWARD)
     entry["orient"] = "outward";
   return entry;
@@ -178,29 +234,36 @@ NewExperiment new_experiment(const std::string& moving, const std::string& fixed
   if ((is_mesh_name(moving) || is_mesh_name(fixed)) &&
       !std::filesystem::equivalent(default_mesh_folder((folder / ".." / "meshes").lexically_normal()),
                                    mesh_folder, none))
-    json["mesh_folder"] = std::filesystem::proximate(mesh_folder, folder).generic_string();
+    json["mesh_folder"] = path_from(folder, mesh_folder);
   GivenMesh moving_part = part_of(moving, "/moving", mesh_folder);
   GivenMesh fixed_part = part_of(fixed, "/fixed/0", mesh_folder);
   choose_units(moving_part, fixed_part, chosen.unit);
-  json["moving"] = mesh_entry(moving_part, chosen, folder, result.choices);
-  json["fixed"] = OrderedJson::array({mesh_entry(fixed_part, chosen, folder, result.choices)});
+  const bool keep_place = choose_places(moving_part, fixed_part, chosen, result.choices);
+  json["moving"] = mesh_entry(moving_part, keep_place, chosen, folder, result.choices);
+  json["fixed"] = OrderedJson::array({mesh_entry(fixed_part, keep_place, chosen, folder, result.choices)});
+  for (const GivenMesh* part : {&moving_part, &fixed_part})
+    if (part == &moving_part || fixed != moving) tell_flaws(*part, result.warnings);
 
   // What the program chooses for a file of two meshes, from the one place that chooses.
   const Experiment open = parse_experiment(json.dump(), result.experiment_file);
   std::optional<PreparedRun> prepared;  // with a path that grazes, which a scene at rest does not need
   Scene scene;
+  std::vector<SceneWarning> sizes;
   if (chosen.contact) {
     std::vector<MeshNote> notes;
     scene = load_scene(open, notes);
+    sizes = size_warnings(open, notes);
     std::copy_if(open.defaults.begin(), open.defaults.end(), std::back_inserter(result.choices),
                  [](const DefaultNote& note) { return note.key != "/methods"; });
     scene.cutoff = default_cutoff(scene, result.choices);
   } else {
     prepared = prepare(open, progress);
     scene = prepared->scene();
+    sizes = size_warnings(open, prepared->meshes);
     result.choices.insert(result.choices.end(), prepared->defaults.begin(), prepared->defaults.end());
   }
 
+  for (const SceneWarning& warning : sizes) result.warnings.push_back(to_text(warning));
   json["path"] = {{"file", result.path_file.filename().string()}};
   json["force"] = {{"cutoff_m", scene.cutoff},
                    {"maximum_force_n", open.profiles.front().maximum_force_n},

@@ -16,11 +16,15 @@ namespace lmdbench {
 
 /// What `lmdbench init` may be told.
 struct InitChoices {
-  /// What a unit of the files' coordinates is: as `metres_of_units` reads it. Without it one unit is chosen for both files:
-  /// millimetres where either spans more than LARGEST_PLAUSIBLE_DIAGONAL, else metres. Meshes of the manifest are in metres.
+  /// What a unit of the files' coordinates is: as `metres_of_units` reads it. Without it that of the format (`metres_of_format`), and one
+  /// is chosen for files whose format has none: millimetres where either spans more than LARGEST_PLAUSIBLE_DIAGONAL, else metres.
+  /// Meshes of the manifest are in metres.
   std::optional<std::string> unit = std::nullopt;
   /// Without it outward for a mesh that is inside out or disagrees with itself, else keep.
   std::optional<OrientationChoice> orientation = std::nullopt;
+  /// Whether both meshes stay where their files have them or each is centred. Without it they stay where two files of one unit place
+  /// them in or next to each other, as parts of one assembly.
+  std::optional<bool> keep_place = std::nullopt;
   bool contact =
       false;  ///< A closed loop that begins at rest in contact (resting_pose.h), for `lmdbench stability`.
 };
@@ -37,7 +41,8 @@ struct NewExperiment {
   /// At rest in contact: the override under which a hand's device is pressed on by just the force that balances the contact,
   /// for `lmdbench run`. Without it the contact pushes it out, by up to force over the hand's stiffness. Empty otherwise.
   std::string press;
-  std::vector<DefaultNote> choices;  ///< Every value that was chosen, and why.
+  std::vector<DefaultNote> choices;   ///< Every value that was chosen, and why.
+  std::vector<std::string> warnings;  ///< Flaws of the meshes, and sizes that tell of another unit.
 };
 
 /// Chooses everything for two meshes: units, cutoff, forces, a path that grazes, methods and probes.

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/experiment/rules.h>
+#include <lmdbench/mesh/length_unit.h>
 #include <lmdbench/mesh/winding_number.h>
 #include <lmdbench/methods/registry.h>
 #include <lmdbench/run/contact.h>
@@ -51,21 +52,56 @@ struct FramesOf {
   }
 };
 
-void look_at_sizes(SceneLook& look) {
-  const auto by_diagonal = [](const SceneLook::Mesh& a, const SceneLook::Mesh& b) {
-    return a.diagonal < b.diagonal;
+std::vector<SceneLook::Mesh> meshes_of(const Experiment& experiment, const std::vector<MeshNote>& notes) {
+  std::vector<SceneLook::Mesh> meshes;
+  const auto add = [&](const MeshChoice& choice) {
+    const MeshNote& note = notes[meshes.size()];
+    meshes.push_back({note.role, note.name, note.report.triangles, note.report.diagonal, note.report.closed,
+                      static_cast<std::int64_t>(note.instances.size())});
+    if (!choice.placement.diagonal)
+      meshes.back().unit = choice.placement.scale.value_or(1.0);
+    else
+      meshes.back().unit.reset();
+    meshes.back().unit_is_said =
+        choice.placement.diagonal || choice.placement.scale || metres_of_format(choice.mesh);
   };
-  const auto [least, most] = std::minmax_element(look.meshes.begin(), look.meshes.end(), by_diagonal);
-  if (most->diagonal > UNLIKELY_SIZE_RATIO * least->diagonal)
-    look.warnings.push_back(
-        {fmt::format("{} {} is {:.4g} m large, {} {} {:.4g} m: {:.0f} times as much", most->role, most->name,
-                     most->diagonal, least->role, least->name, least->diagonal,
-                     most->diagonal / least->diagonal),
-         fmt::format("where one is in millimetres, give it \"scale\": 0.001; else a diagonal_m")});
-  if (least->diagonal > UNLIKELY_SIZE)
-    look.warnings.push_back({fmt::format("the smallest mesh, {} {}, is {:.4g} m large", least->role,
-                                         least->name, least->diagonal),
-                             "where coordinates are millimetres, give every mesh \"scale\": 0.001"});
+  add(experiment.moving);
+  for (const MeshChoice& choice : experiment.fixed) add(choice);
+  for (const MoverChoice& mover : experiment.movers)
+    if (meshes.size() < notes.size()) add(mover.mesh);
+  return meshes;
+}
+
+std::vector<SceneWarning> warnings_of_sizes(const std::vector<SceneLook::Mesh>& meshes) {
+  std::vector<SceneWarning> warnings;
+  const auto [least, most] = std::minmax_element(
+      meshes.begin(), meshes.end(),
+      [](const SceneLook::Mesh& a, const SceneLook::Mesh& b) { return a.diagonal < b.diagonal; });
+  const double ratio = most->diagonal / least->diagonal;
+  const std::string unlike =
+      fmt::format("{} {} is {:.4g} m large, {} {} {:.4g} m: {:.0f} times as much", most->role, most->name,
+                  most->diagonal, least->role, least->name, least->diagonal, ratio);
+  const double inch_in_mm = metres_of_unit("in", "") / metres_of_unit("mm", "");
+  if (ratio > UNLIKELY_SIZE_RATIO)
+    warnings.push_back({unlike, "where one is in millimetres, give it \"scale\": 0.001; else a diagonal_m"});
+  else if (least->unit && least->unit == most->unit &&
+           std::max(ratio / inch_in_mm, inch_in_mm / ratio) < INCH_RATIO_FACTOR)
+    warnings.push_back(
+        {unlike + ", about what an inch has millimetres, and both are read in one unit",
+         "where one is in inches, give it \"scale\": 0.0254 and the other one its own (0.001 of "
+         "millimetres)"});
+  const auto large =
+      std::max_element(meshes.begin(), meshes.end(), [](const SceneLook::Mesh& a, const SceneLook::Mesh& b) {
+        return (a.unit_is_said ? 0.0 : a.diagonal) < (b.unit_is_said ? 0.0 : b.diagonal);
+      });
+  if (!large->unit_is_said && large->diagonal > UNLIKELY_SIZE)
+    warnings.push_back(
+        {fmt::format("{} {} is {:.4g} m large: its file says no unit, and its coordinates are "
+                     "taken for metres",
+                     large->role, large->name, large->diagonal),
+         "where they are millimetres, give every mesh \"scale\": 0.001, else a \"scale\" of its own or "
+         "a diagonal_m"});
+  return warnings;
 }
 
 void look_at_cutoff(SceneLook& look) {
@@ -213,12 +249,14 @@ std::string to_text(const SceneWarning& warning) {
   return fmt::format("{} (remedy: {})", warning.what, warning.remedy);
 }
 
+std::vector<SceneWarning> size_warnings(const Experiment& experiment, const std::vector<MeshNote>& notes) {
+  return warnings_of_sizes(meshes_of(experiment, notes));
+}
+
 SceneLook look_at(const Experiment& experiment, const PreparedRun& prepared,
                   const std::vector<bool>& in_contact) {
   SceneLook look;
-  for (const MeshNote& note : prepared.meshes)
-    look.meshes.push_back({note.role, note.name, note.report.triangles, note.report.diagonal,
-                           note.report.closed, static_cast<std::int64_t>(note.instances.size())});
+  look.meshes = meshes_of(experiment, prepared.meshes);
   look.cutoff = prepared.scene().cutoff;
   look.saturation = prepared.profiles.front().force.saturation_distance;
   look.maximum_force = prepared.profiles.front().force.maximum_force;
@@ -226,7 +264,7 @@ SceneLook look_at(const Experiment& experiment, const PreparedRun& prepared,
   look.frames = static_cast<std::int64_t>(in_contact.size());
   look.frames_in_contact = std::count(in_contact.begin(), in_contact.end(), true);
   look.defaults = prepared.defaults;
-  look_at_sizes(look);
+  look.warnings = warnings_of_sizes(look.meshes);
   look_at_cutoff(look);
   look_at_entries(look, experiment, prepared);
   // In a closed loop the path is what the hand means: it may well lie inside.

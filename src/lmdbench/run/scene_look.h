@@ -32,8 +32,10 @@ std::string to_text(const SceneWarning& warning);
 
 /// Diagonals that differ by more than this are likely in different units.
 inline constexpr double UNLIKELY_SIZE_RATIO = 100.0;
-/// A scene whose smallest mesh is larger than this is likely not in metres [m].
-inline constexpr double UNLIKELY_SIZE = 10.0;
+/// Of one unit, diagonals whose ratio is within this factor of 25.4 may be in inches and millimetres.
+inline constexpr double INCH_RATIO_FACTOR = 1.5;
+/// A mesh that is larger than this is likely not in metres, where nothing says that it is [m].
+inline constexpr double UNLIKELY_SIZE = 3.0;
 /// Frames in which it is looked whether one mesh is inside the other: evenly spread over the path.
 inline constexpr std::int64_t INSIDE_SAMPLES = 32;
 /// A larger share of clipped frames in contact is worth a word: there a force says nothing of its LMDs.
@@ -53,6 +55,9 @@ struct SceneLook {
     double diagonal = 0.0;  ///< metres
     bool closed = false;
     std::int64_t instances = 0;  ///< 0: it stands in the world frame.
+    /// Metres that a unit of its file is taken for; nothing where the experiment gives its size.
+    std::optional<double> unit = 1.0;
+    bool unit_is_said = false;  ///< By the experiment or by the file's format.
   };
   std::vector<Mesh> meshes;
   double cutoff = 0.0;         ///< metres
@@ -68,6 +73,9 @@ struct SceneLook {
   std::vector<SceneWarning> warnings;
   std::vector<ExpectedTime> times;  ///< Empty where nobody asked.
 };
+
+/// Sizes that tell of a unit that is not what it is taken for, of meshes that are loaded.
+std::vector<SceneWarning> size_warnings(const Experiment& experiment, const std::vector<MeshNote>& notes);
 
 /// @param in_contact  one a frame of the path (contact.h)
 SceneLook look_at(const Experiment& experiment, const PreparedRun& prepared,
