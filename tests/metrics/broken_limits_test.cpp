@@ -12,6 +12,7 @@
 namespace lmdbench {
 namespace {
 
+using ::testing::AllOf;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
@@ -46,6 +47,23 @@ TEST(Acceptance, EachLimitIsKeptAtItsBound) {
   EXPECT_EQ(broken(R"({"force_error_n": 0.2})").size(), 2u);
   EXPECT_EQ(broken(R"({"late_frames": 2})").size(), 2u);
   EXPECT_THAT(broken(R"({"fcl_disagreements": 4})"), ElementsAre(HasSubstr("disagreements with FCL is 5")));
+}
+
+TEST(Acceptance, AWrongNearestDistanceBreaksWhateverIsLimited) {
+  RunSummary wrong = summary();
+  wrong.nearest_errors.push_back({"improved", 3, {}});
+  wrong.nearest_errors[0].first.frame = 12;
+  wrong.nearest_errors[0].first.distance = 0.0043;
+  wrong.nearest_errors[0].first.fcl_distance = 0.0;
+  const auto of = [&](const std::string& limits) {
+    return broken_limits(with_limits(limits).acceptance, wrong);
+  };
+  EXPECT_THAT(of(R"({"late_frames": 3})"),
+              ElementsAre(AllOf(HasSubstr("frame 12"), HasSubstr("0.0043 m"), HasSubstr("FCL's 0 m"))));
+  EXPECT_THAT(of(R"({"late_frames": 3, "methods": ["original"]})"), IsEmpty());
+  EXPECT_THAT(of("{}"), IsEmpty()) << "nothing is asked";
+  EXPECT_THAT(summary_text(wrong), HasSubstr("ERROR: improved promises the complete set"));
+  EXPECT_THAT(summary_json(wrong), HasSubstr("nearest_errors"));
 }
 
 TEST(Acceptance, LimitsMayBeForSomeMethodsOnly) {

@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 #include <support/scenes.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -164,15 +165,11 @@ TEST(FclProbe, DisagreesBeyondTheTolerance) {
 /// Finds nothing, or a pair that is too far away.
 class WrongMethod : public Method {
  public:
-  explicit WrongMethod(double distance) : distance_(distance) {}
-  const MethodDescription& description() const override {
-    static const MethodDescription wrong = [] {
-      MethodDescription made;
-      made.name = "wrong";
-      return made;
-    }();
-    return wrong;
+  explicit WrongMethod(double distance, Promise promise = Promise::APPROXIMATION) : distance_(distance) {
+    description_.name = "wrong";
+    description_.promise = promise;
   }
+  const MethodDescription& description() const override { return description_; }
   void search(const Pose&, LmdSet& lmds, WorkCounters&) override {
     lmds.clear();
     if (std::isnan(distance_)) return;
@@ -184,6 +181,7 @@ class WrongMethod : public Method {
 
  private:
   double distance_;
+  MethodDescription description_;
 };
 
 TEST(FclProbe, AFrameAtThePoseOfTheOneBeforeHasItsAnswers) {
@@ -240,6 +238,73 @@ TEST(FclProbe, ListsExceptionsWithTheirPoses) {
   EXPECT_EQ(check.exceptions[1].pose.translation, input.poses[0].translation);
   EXPECT_EQ(check.exceptions[1].distance, 0.044);
   EXPECT_NEAR(check.exceptions[1].fcl_distance, 0.04, 1e-9);
+}
+
+/// Whether a method that promises the complete set and has this nearest distance is an error in the first frame.
+bool is_error(const Scene& scene, const LockstepInput& input, double distance,
+              Promise promise = Promise::COMPLETE_SET) {
+  const LockstepMethod method{"m", [=] { return std::make_unique<WrongMethod>(distance, promise); }, PROFILE};
+  const auto check = probe_fcl(scene, input, {method}, {0}, 1e-6, {});
+  return std::ranges::any_of(check->exceptions, &FclException::is_error);
+}
+
+TEST(FclProbe, AWrongNearestDistanceIsAnErrorOfWhoPromisesTheCompleteSet) {
+  const double none = std::nan("");
+  const Scene scene = facing_spheres();
+  const LockstepInput apart = approach({0.04});
+  EXPECT_FALSE(is_error(scene, apart, 0.04 + 1e-10)) << "within what contacts of one LMD may differ by";
+  EXPECT_TRUE(is_error(scene, apart, 0.04 + 1e-6)) << "farther than the nearest pair";
+  EXPECT_TRUE(is_error(scene, apart, 0.04 - 1e-6)) << "nearer than the nearest pair";
+  EXPECT_TRUE(is_error(scene, apart, none));
+  for (const Promise promise : {Promise::APPROXIMATION, Promise::NEAREST_PAIR})
+    EXPECT_FALSE(is_error(scene, apart, none, promise));
+  EXPECT_FALSE(is_error(scene, approach({0.06}), none)) << "beyond the cutoff";
+
+  // Where FCL sees contact and compares no distance.
+  for (const double gap : {-0.1, 0.0, 1e-16, 1e-12}) {
+    EXPECT_TRUE(is_error(scene, approach({gap}), 0.0043)) << gap;
+    EXPECT_TRUE(is_error(scene, approach({gap}), none)) << gap;
+    EXPECT_FALSE(is_error(scene, approach({gap}), 0.0)) << gap;
+  }
+  // Floor and wall as one LMD at their mean distance.
+  EXPECT_TRUE(is_error(scene, approach({1e-9}), 5.0005e-6));
+}
+
+TEST(FclProbe, ANearestPairThatIsNoLmdOwesNone) {
+  const double none = std::nan("");
+  LockstepInput input = approach({0.0});
+  input.poses[0].translation = Vec3(0.47, 0.0, 0.0);
+  const Scene inside = testing::make_scene(make_sphere(0.5, 3), make_sphere(1.0, 3), PROBE_CUTOFF);
+  EXPECT_FALSE(is_error(inside, input, none)) << "one lies inside the other";
+  EXPECT_TRUE(is_error(inside, input, 0.01)) << "but nothing is nearer than the nearest pair";
+  input.poses[0].translation = Vec3(0.5 - 1e-14, 0.0, 0.0);
+  EXPECT_FALSE(is_error(inside, input, none)) << "inside, at rest";
+  input.poses[0].translation = Vec3(0.5, 0.0, 0.0);
+  EXPECT_TRUE(is_error(inside, input, none)) << "triangles that share a point are a contact";
+}
+
+/// Boxes in turned frames, a face on a face, a gap of rounding and more: FCL, the exact search and the methods agree.
+TEST(FclProbe, WhoIsRightAtRestIsNoError) {
+  const TriangleMesh box = make_box(Vec3(1.0, 0.6, 0.2));
+  const Scene scene = testing::make_scene(box, box, PROBE_CUTOFF);
+  std::size_t poses = 0;
+  for (const double gap : {0.0, 1e-16, 1e-12, 1e-9, 1e-6, 1e-3}) {
+    for (int turn = 0; turn < 8; ++turn) {
+      LockstepInput input = approach({0.0});
+      Pose& pose = input.poses[0];
+      pose.rotation = Eigen::AngleAxisd(0.1 * turn, Vec3::UnitZ());
+      pose.translation = Vec3(0.1 * turn, 0.03, 0.2 + gap);
+      for (const char* name : {"certified", "exhaustive"}) {
+        const LockstepMethod method{name, [&] { return make_method(name, scene); }, PROFILE};
+        const auto check = probe_fcl(scene, input, {method}, {0}, 1e-6, {});
+        for (const FclException& e : check->exceptions)
+          EXPECT_FALSE(e.is_error) << name << " gap " << gap << " turn " << turn << ": " << e.distance
+                                   << ", FCL " << e.fcl_distance << ", exact " << e.lmdbench_distance;
+        ++poses;
+      }
+    }
+  }
+  EXPECT_EQ(poses, 96u);
 }
 
 }  // namespace

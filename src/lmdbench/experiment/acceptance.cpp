@@ -21,6 +21,7 @@ std::optional<Value> limit(const nlohmann::json& entry, const char* key) {
 Acceptance read_acceptance(const nlohmann::json& entry, const Experiment& experiment,
                            const std::string& file) {
   Acceptance acceptance;
+  acceptance.asked = !entry.empty();
   for (const nlohmann::json& label : entry.value("methods", nlohmann::json::array()))
     acceptance.methods.push_back(label.get<std::string>());
   acceptance.recall = limit<double>(entry, "recall");

@@ -15,6 +15,7 @@ struct Experiment;
 
 /// "limits" of an experiment file: what a run must keep to.
 struct Acceptance {
+  bool asked = false;                             ///< The file has limits.
   std::vector<std::string> methods;               ///< Labels; empty: all.
   std::optional<double> recall;                   ///< At least.
   std::optional<double> force_error_n;            ///< At most, over the probed frames.

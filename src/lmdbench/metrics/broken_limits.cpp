@@ -21,6 +21,8 @@ std::vector<std::string> broken_limits(const Acceptance& acceptance, const RunSu
         broken.push_back(fmt::format("{}: {} is {:.6g}, the experiment wants {} {:.6g}", method.label, what,
                                      static_cast<double>(value), relation, static_cast<double>(bound)));
     };
+    const auto wrong = std::ranges::find(summary.nearest_errors, method.label, &NearestError::label);
+    if (acceptance.asked && wrong != summary.nearest_errors.end()) broken.push_back(wrong->text());
     // Comparisons with NaN are false: what was not measured is not kept.
     if (acceptance.recall)
       check("recall", method.recall, *acceptance.recall, method.recall >= *acceptance.recall, "at least");

@@ -10,7 +10,8 @@
 
 namespace lmdbench {
 
-/// A sentence a broken limit, with the figure. A figure that could not be measured breaks its limit.
+/// A sentence a broken limit, with the figure. A figure that could not be measured breaks its limit; and whatever they limit, a nearest
+/// distance of a method that promises the complete set breaks them where FCL and the exact search bear another one out.
 std::vector<std::string> broken_limits(const Acceptance& acceptance, const RunSummary& summary);
 
 }  // namespace lmdbench

@@ -218,6 +218,14 @@ void summarise_profiles(RunSummary& summary, const Experiment& experiment, const
 
 }  // namespace
 
+std::string NearestError::text() const {
+  return fmt::format(
+      "{} promises the complete set, but its nearest distance in frame {} is {:.6g} m, FCL's {:.6g} m, that "
+      "of the exact search {:.6g} "
+      "m; wrong in {} of the cross-checked frames (--verbose: poses)",
+      label, first.frame, first.distance, first.fcl_distance, first.lmdbench_distance, frames);
+}
+
 RunSummary summarise(const Experiment& experiment, const RunResult& result) {
   RunSummary summary;
   summary.name = experiment.name;
@@ -257,7 +265,14 @@ RunSummary summarise(const Experiment& experiment, const RunResult& result) {
     if (fcl == nullptr) continue;
     summary.fcl_tolerance_relative = fcl->tolerance_relative;
     summary.fcl_frames += static_cast<std::int64_t>(fcl->frames.size());
-    for (const FclException& exception : fcl->exceptions) ++summary.fcl_exceptions[exception.who];
+    for (const FclException& exception : fcl->exceptions) {
+      ++summary.fcl_exceptions[exception.who];
+      if (!exception.is_error) continue;
+      std::vector<NearestError>& errors = summary.nearest_errors;
+      auto known = std::ranges::find(errors, exception.who, &NearestError::label);
+      if (known == errors.end()) known = errors.insert(known, {exception.who, 0, exception});
+      ++known->frames;
+    }
     for (const FclFrame& frame : fcl->frames) {
       summary.fcl_separated += frame.separated ? 1 : 0;
       summary.fcl_agreeing += frame.agrees ? 1 : 0;
@@ -290,6 +305,7 @@ std::string summary_text(const RunSummary& summary) {
   }
   text += defaults_text(summary.defaults);
   for (const std::string& warning : summary.warnings) text += "note: " + warning + "\n";
+  for (const NearestError& error : summary.nearest_errors) text += "ERROR: " + error.text() + "\n";
   for (const std::string& limit : summary.broken_limits) text += "limit broken: " + limit + "\n";
   return text;
 }
@@ -322,6 +338,14 @@ std::string summary_json(const RunSummary& summary) {
                    {"agreeing", summary.fcl_agreeing},
                    {"exceptions", summary.fcl_exceptions},
                    {"tolerance_relative", summary.fcl_tolerance_relative}};
+  json["nearest_errors"] = nlohmann::ordered_json::array();
+  for (const NearestError& error : summary.nearest_errors)
+    json["nearest_errors"].push_back({{"method", error.label},
+                                      {"frames", error.frames},
+                                      {"frame", error.first.frame},
+                                      {"distance_m", error.first.distance},
+                                      {"fcl_distance_m", error.first.fcl_distance},
+                                      {"exact_distance_m", error.first.lmdbench_distance}});
   json["warnings"] = summary.warnings;
   json["broken_limits"] = summary.broken_limits;
   json["defaults"] = defaults_json(summary.defaults);

@@ -23,6 +23,16 @@ struct ProfileDifference {
   double force_difference_maximum_n = UNSET;
 };
 
+/// A method that promises the complete set, and frames in which the FCL cross-check shows that it is none.
+struct NearestError {
+  std::string label;
+  std::int64_t frames = 0;
+  FclException first;
+
+  /// For people: the first frame and all opinions there.
+  std::string text() const;
+};
+
 /// The numbers of a run. Times leave the warm-up out and are never shown without the errors beside them.
 struct RunSummary {
   std::string name;
@@ -45,7 +55,7 @@ struct RunSummary {
   std::int64_t fcl_separated = 0;
   std::int64_t fcl_agreeing = 0;                       ///< Separated or not.
   std::map<std::string, std::int64_t> fcl_exceptions;  ///< By who was out of tolerance.
-
+  std::vector<NearestError> nearest_errors;            ///< One a method that is wrong.
   double fcl_tolerance_relative = UNSET;
   std::vector<std::string> warnings;
   std::vector<std::string> broken_limits;  ///< Of the experiment's "limits".

@@ -5,12 +5,13 @@
 #include <lmdbench/experiment/rules.h>
 #include <lmdbench/run/fcl_probe.h>
 #include <lmdbench/run/mover_probe.h>
-#include <lmdbench/snch/minimum_distance.h>
-#include <lmdbench/world/broad_phase.h>
+#include <lmdbench/run/nearest_judge.h>
+#include <lmdbench/run/nearest_opinions.h>
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -22,97 +23,22 @@
 namespace lmdbench {
 namespace {
 
-/// FCL's nearest pair, in a world that of the instances one after the other, nearest boxes first, each at the relative pose that
-/// methods see.
-class FclMinimum {
- public:
-  explicit FclMinimum(const Scene& scene) {
-    if (scene.is_world()) {
-      phase_.emplace(scene);
-      for (const auto& mesh : phase_->meshes())
-        checks_.emplace_back(scene.moving->surface(), std::vector<const Surface*>{&mesh->surface()});
-      return;
-    }
-    std::vector<const Surface*> fixed;
-    for (const auto& body : scene.fixed) fixed.push_back(&body->surface());
-    checks_.emplace_back(scene.moving->surface(), fixed);
-  }
-
-  FclResult at(const Pose& X_WM) const {
-    if (!phase_) return checks_.front().distance(X_WM);
-    FclResult best;
-    phase_->by_distance(X_WM, [&](std::uint32_t instance, double bound) {
-      if (best.fixed_body >= 0 && bound > best.distance) return false;
-      const Pose& X_WF = phase_->pose_of(instance);
-      const FclResult found = checks_[phase_->mesh_of(instance)].distance(relative_pose(X_WF, X_WM));
-      const bool same = best.fixed_body >= 0 && found.distance == best.distance;
-      if (best.fixed_body >= 0 && !(found.distance < best.distance) &&
-          !(same && static_cast<std::int32_t>(instance) < best.fixed_body))
-        return true;
-      best = found;
-      best.fixed_body = static_cast<std::int32_t>(instance);
-      best.point_fixed = RigidTransform(X_WF).point(found.point_fixed);
-      best.point_moving = RigidTransform(X_WF).point(found.point_moving);
-      return true;
-    });
-    return best;
-  }
-
- private:
-  std::optional<BroadPhase> phase_;
-  std::vector<FclCrosscheck> checks_;  ///< One a mesh of a world, else one of all.
-};
-
-/// Exact minimum distance to any of the fixed meshes, frame after frame.
-class ExactMinimum {
- public:
-  /// @param warm  whether a search begins with the last one's triangles
-  ExactMinimum(const Scene& scene, bool warm) : scene_(scene), warm_(warm) {
-    if (scene.is_world())
-      phase_.emplace(scene);
-    else
-      start();
-  }
-
-  double at(const Pose& X_WM) {
-    if (phase_) return nearest_instance(scene_, *phase_, X_WM).distance;
-    if (!warm_) start();
-    double least = std::numeric_limits<double>::infinity();
-    for (NearestTracker& tracker : trackers_) {
-      const NearestPair pair = tracker.nearest(X_WM);
-      if (pair.triangle_moving >= 0) least = std::min(least, pair.distance);
-    }
-    return least;
-  }
-
- private:
-  void start() {
-    trackers_.clear();
-    for (const auto& fixed : scene_.fixed)
-      trackers_.emplace_back(scene_.moving->surface(), scene_.moving->prepared<Hierarchy>(), fixed->surface(),
-                             fixed->prepared<Hierarchy>());
-  }
-
-  const Scene& scene_;
-  bool warm_;
-  std::optional<BroadPhase> phase_;  ///< Of a world.
-  std::vector<NearestTracker> trackers_;
-};
-
 /// What is known of a frame.
 struct FclAnswers {
   std::int64_t frame;
   const Pose& X_WM;
   const FclResult& theirs;
-  double exact;  ///< [m]
+  double exact;                           ///< [m]
+  std::array<NamedTriangles, 2> nearest;  ///< By FCL and by the exact search.
   double cutoff, tolerance_relative;
 };
 
 /// Compares FCL's distance with the exact one and with that of each method.
 /// @param search finds the set of a method
 template <typename Search>
-void add_fcl_frame(FclCheck& check, const FclAnswers& of, const std::vector<LockstepMethod>& methods,
-                   Search&& search) {
+void add_fcl_frame(FclCheck& check, const FclAnswers& of,
+                   const std::vector<std::unique_ptr<Method>>& instances,
+                   const std::vector<LockstepMethod>& methods, Search&& search) {
   const FclResult& theirs = of.theirs;
   FclFrame row;
   row.frame = of.frame;
@@ -127,19 +53,23 @@ void add_fcl_frame(FclCheck& check, const FclAnswers& of, const std::vector<Lock
     row.relative_difference = std::abs(theirs.distance - row.lmdbench_distance) / row.lmdbench_distance;
   row.agrees = theirs.separated == we_separate &&
                (!theirs.separated || row.relative_difference <= of.tolerance_relative);
-  const auto note = [&](const std::string& who, double distance) {
+  const auto note = [&](const std::string& who, double distance, bool is_error = false) {
     check.exceptions.push_back({of.frame, who, of.X_WM, distance, row.distance, row.lmdbench_distance,
-                                row.triangle_moving, row.triangle_fixed, row.fixed_body});
+                                row.triangle_moving, row.triangle_fixed, row.fixed_body, 0, is_error});
   };
   if (!row.agrees) note("lmdbench", row.lmdbench_distance);
   for (std::size_t i = 0; i < methods.size(); ++i) {
     double difference = UNSET;
-    if (theirs.separated && theirs.distance * (1.0 + of.tolerance_relative) < of.cutoff) {
-      const double ours = minimum_distance(search(i));
+    const bool compared = theirs.separated && theirs.distance * (1.0 + of.tolerance_relative) < of.cutoff;
+    const bool judged = instances[i]->description().promise == Promise::COMPLETE_SET &&
+                        std::min(theirs.distance, of.exact) < of.cutoff;
+    const double ours = compared || judged ? minimum_distance(search(i)) : UNSET;
+    if (compared)
       difference = std::isnan(ours) ? std::numeric_limits<double>::infinity()
                                     : (ours - theirs.distance) / theirs.distance;
-      if (!(std::abs(difference) <= of.tolerance_relative)) note(methods[i].label, ours);
-    }
+    const bool is_error = judged && contradicts_nearest(ours, of.nearest, of.cutoff, of.tolerance_relative);
+    if (is_error || (compared && !(std::abs(difference) <= of.tolerance_relative)))
+      note(methods[i].label, ours, is_error);
     row.method_difference.push_back(difference);
   }
   check.frames.push_back(std::move(row));
@@ -152,40 +82,6 @@ void sort_exceptions(FclCheck& check) {
               return std::tie(a.frame, a.who) < std::tie(b.frame, b.who);
             });
 }
-
-/// FCL's nearest two objects of several movers, nearest spheres first.
-class MoverFclMinimum {
- public:
-  explicit MoverFclMinimum(const MoverPlay& play) : play_(play), scene_(play.scene(0.0)), near_(scene_) {}
-
-  FclResult at(std::size_t frame) {
-    FclResult best;
-    const std::vector<Pose>& poses = play_.poses[frame];
-    for (const auto& [at_least, objects] : near_.within(std::numeric_limits<double>::infinity(), poses)) {
-      if (best.fixed_body >= 0 && at_least > best.distance) break;
-      const Pose X_FM = relative_pose(scene_.pose(objects.other, poses), poses[objects.mover]);
-      const FclResult found = check_of(objects).distance(X_FM);
-      if (best.fixed_body >= 0 && !(found.distance < best.distance)) continue;
-      best = found;
-      best.fixed_body = objects.number(scene_.object_count());
-    }
-    return best;
-  }
-
- private:
-  const FclCrosscheck& check_of(const ObjectPair& pair) {
-    const std::pair key(scene_.movers[pair.mover].get(), scene_.body(pair.other).get());
-    const auto found = checks_.find(key);
-    if (found != checks_.end()) return found->second;
-    return checks_.try_emplace(key, key.first->surface(), std::vector<const Surface*>{&key.second->surface()})
-        .first->second;
-  }
-
-  const MoverPlay& play_;
-  const MoverScene scene_;
-  NearPairs near_;
-  std::map<std::pair<const Body*, const Body*>, FclCrosscheck> checks_;
-};
 
 }  // namespace
 
@@ -226,8 +122,23 @@ std::unique_ptr<FclCheck> probe_fcl(const Scene& scene, const LockstepInput& inp
     bodies.to_frame(frame);
     if (!fcl || bodies.deforms()) fcl.emplace(bodies.scene());
     const FclResult theirs = fcl->at(X_WM);
-    add_fcl_frame(check, {frame, X_WM, theirs, exact.at(X_WM), scene.cutoff, tolerance_relative}, methods,
-                  [&](std::size_t i) -> const LmdSet& {
+    const NearestInstance ours = exact.at(X_WM);
+    const auto named = [&](std::int32_t fixed_body, std::int32_t triangle_moving,
+                           std::int32_t triangle_fixed) {
+      const FixedBody& fixed = bodies.scene().fixed[static_cast<std::size_t>(std::max(fixed_body, 0))];
+      const Pose X_FM = fixed.is_placed() ? relative_pose(fixed.X_WF, X_WM) : X_WM;
+      return NamedTriangles{*bodies.scene().moving, *fixed, X_FM, triangle_moving, triangle_fixed};
+    };
+    add_fcl_frame(check,
+                  {frame,
+                   X_WM,
+                   theirs,
+                   ours.distance,
+                   {named(theirs.fixed_body, theirs.triangle_moving, theirs.triangle_fixed),
+                    named(ours.instance, ours.triangle_moving, ours.triangle_fixed)},
+                   scene.cutoff,
+                   tolerance_relative},
+                  instances, methods, [&](std::size_t i) -> const LmdSet& {
                     lmds.clear();
                     instances[i]->search(X_WM, lmds, ignored);
                     return lmds;
@@ -261,10 +172,10 @@ std::unique_ptr<FclCheck> probe_mover_fcl(const MoverPlay& play, double cutoff,
                                           const std::vector<LockstepMethod>& methods,
                                           const std::vector<std::int64_t>& frames, double tolerance_relative,
                                           const Progress& progress) {
+  const MoverScene scene = play.scene(cutoff);
   const auto poses = std::make_shared<std::vector<Pose>>();
   std::vector<std::unique_ptr<Method>> instances;
-  for (const LockstepMethod& method : methods)
-    instances.push_back(method.make_among(play.scene(cutoff), poses));
+  for (const LockstepMethod& method : methods) instances.push_back(method.make_among(scene, poses));
   MoverFclMinimum fcl(play);
   MoverDistances exact(play);
   auto made = std::make_unique<FclCheck>();
@@ -277,8 +188,24 @@ std::unique_ptr<FclCheck> probe_mover_fcl(const MoverPlay& play, double cutoff,
     *poses = play.poses[at];
     const FclResult theirs = fcl.at(at);
     const Pose& X_WM = (*poses)[ObjectPair::of(theirs.fixed_body, play.object_count()).mover];
-    add_fcl_frame(check, {frame, X_WM, theirs, exact.at(at).distance, cutoff, tolerance_relative}, methods,
-                  [&](std::size_t i) -> const LmdSet& {
+    const MoverDistances::Nearest ours = exact.at(at);
+    const auto named = [&](const ObjectPair& objects, std::int32_t triangle_moving,
+                           std::int32_t triangle_fixed) {
+      return NamedTriangles{*scene.movers[objects.mover], *scene.body(objects.other),
+                            relative_pose(scene.pose(objects.other, *poses), (*poses)[objects.mover]),
+                            triangle_moving, triangle_fixed};
+    };
+    add_fcl_frame(check,
+                  {frame,
+                   X_WM,
+                   theirs,
+                   ours.distance,
+                   {named(ObjectPair::of(theirs.fixed_body, play.object_count()), theirs.triangle_moving,
+                          theirs.triangle_fixed),
+                    named(ours.objects, ours.triangle_moving, ours.triangle_fixed)},
+                   cutoff,
+                   tolerance_relative},
+                  instances, methods, [&](std::size_t i) -> const LmdSet& {
                     lmds.clear();
                     instances[i]->search(X_WM, lmds, ignored);
                     return lmds;
@@ -341,6 +268,9 @@ std::vector<ProbeDataset> fcl_datasets() {
               [](Row e) { return e.triangle_moving; })
       .column("triangle_fixed", "1", "triangle of FCL's nearest pair", [](Row e) { return e.triangle_fixed; })
       .column("fixed_body", "1", "fixed mesh of FCL's nearest pair", [](Row e) { return e.fixed_body; })
+      .column("is_error", "1",
+              "1 where a method that promises the complete set is wrong, whatever FCL's rounding",
+              [](Row e) { return e.is_error; })
       .into(all);
   ProbeTable<FclCheck, FclFrame>("fcl", "C", frames)
       .column("frame", "1", "frame that was compared with FCL", [](Frame f) { return f.frame; })

@@ -11,8 +11,9 @@
 
 /// The FCL cross-check: on a stride of frames FCL's minimum distance, the exact nearest pair of lmdbench and
 /// the minimum of each method's fresh search (age 0) stand side by side. Distances are compared only while
-/// the meshes are separated; in contact only the yes or no. A disagreement is a question for arbitration, not
-/// a verdict against either.
+/// the meshes are separated; in contact only the yes or no. A disagreement is a question for arbitration, but for
+/// methods that promise the complete set: of those the exact kernel judges by FCL's nearest triangles and by those of the
+/// exact search, in contact, too (nearest_judge.h), and who is wrong there is an error of the run.
 namespace lmdbench {
 
 struct FclFrame {
@@ -42,6 +43,7 @@ struct FclException {
   std::int32_t triangle_fixed = -1;
   std::int32_t fixed_body = -1;
   std::int64_t moving_body = 0;  ///< Of several movers: whose pose this is.
+  bool is_error = false;         ///< Of a method that promises the complete set: contradicts_nearest.
 };
 
 struct FclCheck : ProbeFindings {

@@ -172,8 +172,7 @@ NearestInstance nearest_instance(const Scene& scene, const BroadPhase& phase, co
     if (pair.triangle_moving < 0 || !(pair.distance <= nearest.distance)) return true;
     const auto index = static_cast<std::int32_t>(instance);
     if (nearest.instance < 0 || pair.distance < nearest.distance || index < nearest.instance)
-      nearest.instance = index;
-    nearest.distance = pair.distance;
+      nearest = {index, pair.distance, pair.triangle_moving, pair.triangle_fixed};
     return true;
   });
   if (nearest.instance < 0) nearest.distance = std::numeric_limits<double>::infinity();

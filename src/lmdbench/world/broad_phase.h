@@ -100,6 +100,8 @@ class BroadPhase {
 struct NearestInstance {
   std::int32_t instance = -1;                                 ///< -1 where none is within the bound.
   double distance = std::numeric_limits<double>::infinity();  ///< [m]; 0 where the meshes intersect.
+  std::int32_t triangle_moving = -1;
+  std::int32_t triangle_fixed = -1;
 };
 
 /// Exact minimum distance to a scene's fixed meshes, each at its pose (snch/minimum_distance.h), nearest boxes first. Of instances that
