@@ -205,7 +205,20 @@ INSTANTIATE_TEST_SUITE_P(
         BrokenMesh{"unknown_format", "a.xyzzy", "hello", ""},
         BrokenMesh{"no_triangle", "a.off", "OFF\n3 0 0\n0 0 0\n1 0 0\n0 1 0\n", "no triangle"},
         BrokenMesh{"line_only", "a.obj", "v 0 0 0\nv 1 0 0\nl 1 2\n", "no triangle"},
-        BrokenMesh{"obj_index", "a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 9\n", "index"},
+        BrokenMesh{"obj_index", "a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 9\n",
+                   "line 4: a face names vertex 9, but the file has 3"},
+        BrokenMesh{"obj_index_back", "a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 -4\n",
+                   "line 4: a face names vertex -4, but 3 vertices stand before it"},
+        BrokenMesh{"obj_index_zero", "a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 0 1 2\n", "names vertex 0"},
+        BrokenMesh{"obj_word", "a.obj", "# made\nv 0 0 0\nv 1 abc 0\nv 0 1 0\nf 1 2 3\n",
+                   "line 3: a coordinate 'abc' is not a number"},
+        BrokenMesh{"obj_comma", "a.obj", "v 0 0 0\nv 1 0 0\nv 0 1,5 0\nf 1 2 3\n",
+                   "line 3: a coordinate '1,5'"},
+        BrokenMesh{"obj_short", "a.obj", "v 0 0 0\nv 1 0\nv 0 1 0\nf 1 2 3\n",
+                   "line 2: a coordinate is missing"},
+        BrokenMesh{"obj_five", "a.obj", "v 0 0 0\nv 1 0 0 0 0\nv 0 1 0\nf 1 2 3\n", "line 2: a vertex of 5"},
+        BrokenMesh{"obj_corner", "a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1/1 2/x y/2\n",
+                   "line 4: a vertex index 'y' is not a number"},
         BrokenMesh{"ply_index", "a.ply", PLY_HEADER + "0 0 0\n1 0 0\n0 1 0\n3 0 1 5\n", "names vertex 5"},
         BrokenMesh{"ply_nan", "a.ply", PLY_HEADER + "0 0 0\n1 nan 0\n0 1 0\n3 0 1 2\n", "vertex 1"},
         BrokenMesh{"coff_cut_short", "a.off", "COFF\n3 4 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n", "1 of 4 faces"},
@@ -227,6 +240,14 @@ TEST(WeldedTest, JoinsEqualPositionsOnlyAndKeepsTheOrder) {
   const TriangleMesh result = welded(mesh);
   EXPECT_THAT(result.vertices, ElementsAre(Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0), Vec3(almost, 0, 0)));
   EXPECT_THAT(result.triangles, ElementsAre(Corners{0, 1, 2}, Corners{3, 2, 0}));
+}
+
+TEST(ImportTest, AnObjMayCallColoursWeightsAndVerticesToCome) {
+  const ScratchDirectory folder;
+  const TriangleMesh mesh = import_mesh(
+      folder.write("a.obj", "v 0 0 0 1\nf 1 2 3\nv 1 0 0 0.2 0.3 0.4\nv 0 1 \\\n0\nv 9 9 9\nf -4 -3 -2\n"));
+  EXPECT_THAT(mesh.vertices, ElementsAre(Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0)));
+  EXPECT_EQ(mesh.triangles.size(), 2u);
 }
 
 TEST(ImportTest, MaterialsOfAnObjAreNotLookedFor) {

@@ -41,8 +41,9 @@ TriangleMesh read_format(const FileContent& content) {
     return read_with_assimp(with_its_first_byte(content.bytes, check_ply(content.bytes, file)), extension,
                             file);
   if (extension == "obj") {
-    check_obj(content.bytes, file);
-    return read_with_assimp(without_materials(content.bytes), extension, file);
+    const std::string text = without_materials(content.bytes);
+    check_obj(text, file);
+    return read_with_assimp(text, extension, file);
   }
   return read_with_assimp(content.bytes, extension, file);
 }

@@ -18,7 +18,9 @@ namespace lmdbench {
 /// Hands out the lines of a mesh in text without comments (# to the end) and blank lines, and numbers from them.
 class LineReader {
  public:
-  LineReader(std::string file, std::string_view text) : file_(std::move(file)), rest_(text) {}
+  /// @param lines_before how many lines of the file stand before the text
+  LineReader(std::string file, std::string_view text, std::size_t lines_before = 0)
+      : file_(std::move(file)), rest_(text), line_number_(lines_before) {}
 
   /// Goes to the next line that holds something.
   bool next_line() {
@@ -76,7 +78,7 @@ class LineReader {
 
   std::string file_;
   std::string_view rest_, line_;
-  std::size_t line_number_ = 0;
+  std::size_t line_number_;
 };
 
 }  // namespace lmdbench

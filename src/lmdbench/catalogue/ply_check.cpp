@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/base/error.h>
 #include <lmdbench/base/limits.h>
+#include <lmdbench/catalogue/line_reader.h>
 #include <lmdbench/catalogue/ply_check.h>
 
 #include <fmt/format.h>
@@ -11,6 +12,7 @@
 #include <charconv>
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <vector>
 
 namespace lmdbench {
@@ -263,6 +265,45 @@ std::int64_t word_count(std::string_view line) {
   return count;
 }
 
+/// What "v" and "f" lines say of vertices.
+class ObjVertices {
+ public:
+  void check(LineReader line, std::size_t number) {
+    if (!line.next_line()) return;
+    const std::string_view keyword = line.word();
+    if (keyword == "v") {
+      std::size_t numbers = 0;
+      for (; numbers < 3 || !line.at_line_end(); ++numbers) line.number<double>("a coordinate");
+      // A weight may follow, or a colour; other lines assimp leaves out.
+      if (numbers != 3 && numbers != 4 && numbers != 6)
+        line.fail(fmt::format("a vertex of {} numbers", numbers));
+      ++count_;
+    }
+    while (keyword == "f" && !line.at_line_end()) {
+      const std::string_view corner = line.word();
+      const auto named = line.number<std::int64_t>("a vertex index", corner.substr(0, corner.find('/')));
+      if (named == 0 || -named > count_)
+        line.fail(fmt::format("a face names vertex {}, but {} vertices stand before it", named, count_),
+                  COUNTED);
+      if (named > largest_) largest_ = named, line_of_largest_ = number;
+    }
+  }
+
+  /// After the last line: a face may name vertices that come later.
+  void check_largest(const std::string& file) const {
+    if (largest_ > count_)
+      throw InputError(file, fmt::format("line {}", line_of_largest_),
+                       fmt::format("a face names vertex {}, but the file has {}", largest_, count_), COUNTED);
+  }
+
+ private:
+  static constexpr const char* COUNTED =
+      "vertices are counted from 1, backwards from -1; correct the index, or add the vertices that are "
+      "missing";
+  std::int64_t count_ = 0, largest_ = 0;
+  std::size_t line_of_largest_ = 0;
+};
+
 }  // namespace
 
 void check_obj(std::string_view text, const std::string& file) {
@@ -270,6 +311,8 @@ void check_obj(std::string_view text, const std::string& file) {
   std::int64_t corners = 0;  // of the face under way: a backslash at a line's end continues it
   std::int64_t length = 0;   // of the lines so joined
   bool in_face = false;
+  std::string joined;  // Lines that are continued, without their backslashes.
+  ObjVertices vertices;
   for (std::size_t number = 1; !text.empty(); ++number) {
     const std::string_view line = text.substr(0, text.find('\n'));
     text.remove_prefix(std::min(line.size() + 1, text.size()));
@@ -290,8 +333,13 @@ void check_obj(std::string_view text, const std::string& file) {
     if (length > BYTES_PER_CORNER * most_corners)
       fail(fmt::format("a line of {} bytes, more than a polygon of {} corners needs", length, most_corners));
     const bool continues = line.ends_with('\\') || line.ends_with("\\\r");
-    if (!continues) length = 0;
+    if (continues || !joined.empty()) joined.append(line.substr(0, line.find('\\'))).append(" ");
+    if (continues) continue;
+    vertices.check(LineReader(file, joined.empty() ? line : joined, number - 1), number);
+    joined.clear();
+    length = 0;
   }
+  vertices.check_largest(file);
 }
 
 std::string without_materials(std::string_view text) {

@@ -27,7 +27,8 @@ PlyContent check_ply(std::string_view bytes, const std::string& file);
 std::string with_its_first_byte(std::string_view ply, const PlyContent& content);
 
 /// Refuses what assimp (5.2.5) reads in more than linear time from OBJ text: lines without end and polygons of
-/// more corners than the limit. Linear in the text.
+/// more corners than the limit; and what it leaves out or cuts without a word: coordinates that are no numbers (1,5), corners that
+/// name no vertex. Linear in the text.
 /// @param file  its name, for messages
 /// @throws InputError naming the line
 void check_obj(std::string_view text, const std::string& file);
