@@ -1,11 +1,16 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/cli/app.h>
+#include <lmdbench/cli/examples.h>
+
 #include "program.h"
+#include <CLI/CLI.hpp>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 #include <support/source_directory.h>
 
+#include <algorithm>
 #include <fstream>
 #include <sstream>
 #include <string>
@@ -36,6 +41,7 @@ TEST(Program, HelpAndVersionGoToStandardOutput) {
     EXPECT_EQ(help.code, 0) << command;
     EXPECT_THAT(help.out, HasSubstr("Usage: ")) << command;
     EXPECT_THAT(help.err, IsEmpty()) << command;
+    EXPECT_THAT(help.out, HasSubstr("\nExamples:\n  lmdbench ")) << command;
   }
   const Outcome version = lmdbench("--version");
   EXPECT_EQ(version.code, 0);
@@ -55,8 +61,11 @@ TEST(RunCommand, WritesAResultFromAnyDirectory) {
   const Outcome outcome = lmdbench("run " + SHORT_RUN, scratch.path());
   EXPECT_EQ(outcome.code, 0) << outcome.err;
   EXPECT_TRUE(std::filesystem::exists(scratch / "results/shapes.h5")) << "the default place";
-  EXPECT_THAT(outcome.out, HasSubstr("shapes: 60 frames"));
-  EXPECT_THAT(outcome.err, HasSubstr("wrote results/shapes.h5"));
+  EXPECT_THAT(outcome.out, StartsWith("shapes: 60 frames"));
+  EXPECT_THAT(outcome.out, HasSubstr("method    recall  force error, RMS  time a frame"));
+  EXPECT_LE(std::ranges::count(outcome.out, '\n'), 6) << "a line a method\n" << outcome.out;
+  EXPECT_THAT(outcome.err, HasSubstr("wrote results/shapes.h5; "));
+  EXPECT_THAT(outcome.err, HasSubstr("lmdbench report results/shapes.h5 --out results/shapes\n"));
   EXPECT_THAT(outcome.err, Not(HasSubstr("ETA"))) << "no bar off a terminal";
   EXPECT_THAT(outcome.err, Not(HasSubstr("\x1b"))) << "no colours off a terminal";
 }

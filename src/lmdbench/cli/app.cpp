@@ -5,6 +5,7 @@
 #include <lmdbench/base/limits.h>
 #include <lmdbench/cli/app.h>
 #include <lmdbench/cli/commands.h>
+#include <lmdbench/cli/examples.h>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -48,7 +49,7 @@ std::shared_ptr<CLI::App> make_app(const std::vector<std::string>& argv, int& ex
   app->fallthrough();  // -v and -q work behind the subcommand, too
   app->set_version_flag("--version", version_text());
   const auto common = std::make_shared<CommonOptions>();
-  app->add_flag("-v,--verbose", common->verbose, "tell more on standard error");
+  app->add_flag("-v,--verbose", common->verbose, "tell more; run prints all numbers, not a table alone");
   app->add_flag("-q,--quiet", common->quiet,
                 "tell errors only; answers (query, compare, --json) are printed all the same");
   app->add_option("--limit", common->limits, limits_help())
@@ -62,6 +63,7 @@ std::shared_ptr<CLI::App> make_app(const std::vector<std::string>& argv, int& ex
       "Exit codes: 0 done; 1 a check failed; 2 usage or experiment file wrong; 3 input data wrong; "
       "4 the environment lacks something; 70 a bug of lmdbench.");
   add_commands(*app, argv, exit_status);
+  add_examples(*app);
   return app;
 }
 

@@ -75,9 +75,13 @@ void run_to_file(const RunOptions& options, const std::vector<std::string>& argv
       if (!result.clocks.empty()) json["realtime"] = realtime_json(result.clocks);
       fmt::print("{}\n", json.dump(2));
     } else if (talk_welcome()) {
-      fmt::print("{}{}", summary_text(summary), realtime_text(result.clocks));
+      fmt::print("{}{}",
+                 spdlog::should_log(spdlog::level::debug) ? summary_text(summary) : summary_table(summary),
+                 realtime_text(result.clocks));
     }
-    spdlog::info("wrote {}", out.string());
+    const std::string page = (out.parent_path() / out.stem()).string();
+    spdlog::info("wrote {}; tables, plots and a 3D view: lmdbench report {} --out {}", out.string(),
+                 out.string(), page);
     if (!summary.broken_limits.empty())
       throw Error(
           ExitCode::CHECK_FAILED, argument.file, "/limits",

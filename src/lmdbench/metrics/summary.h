@@ -64,9 +64,14 @@ struct RunSummary {
 
 RunSummary summarise(const Experiment& experiment, const RunResult& result);
 
-/// For people.
-/// With several profiles a table sets them beside each other, method by method.
+/// For people: a line a method (errors beside times, over the frames in contact), and the verdicts.
+std::string summary_table(const RunSummary& summary);
+
+/// All numbers for people, and the verdicts. With several profiles a table sets them beside each other, method by method.
 std::string summary_text(const RunSummary& summary);
+
+/// Notes, wrong nearest distances and broken limits, a line each.
+std::string summary_verdicts(const RunSummary& summary);
 
 /// JSON text with the same numbers under the names of `summary_numbers`, null for NaN. With several profiles, "profiles":
 /// [{"method", "profile", "against", "force_difference_rms_n", "force_difference_maximum_n",
