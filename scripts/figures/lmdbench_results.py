@@ -277,10 +277,13 @@ def median(values):
     return quantile(values, 0.5)
 
 
+# By name: share of the largest force at s, 1 at the saturation distance and 0 at the cutoff; as src/lmdbench/force/force_law.cpp.
+LAWS = {"linear": lambda s, sharpness: s, "exponential": lambda s, sharpness: np.expm1(sharpness * s) / np.expm1(sharpness) if sharpness else s}
+
+
 def law(distance, cutoff, saturation, maximum, sharpness, name):
-    """Lengths of the forces of LMDs [N], as src/lmdbench/force/force_law.h."""
-    s = np.clip((cutoff - distance) / (cutoff - saturation), 0.0, 1.0)
-    return maximum * (s if name == "linear" or sharpness == 0 else np.expm1(sharpness * s) / np.expm1(sharpness))
+    """Lengths of the forces of LMDs [N]."""
+    return maximum * LAWS[name](np.clip((cutoff - distance) / (cutoff - saturation), 0.0, 1.0), sharpness)
 
 
 class Truth:

@@ -54,6 +54,12 @@ TEST(ForceLaw, SaturatesAndEndsContinuously) {
   }
 }
 
+TEST(ForceLaw, OneWithoutADescriptionIsNoOther) {
+  EXPECT_EQ(force_laws().size(), FORCE_LAW_COUNT);
+  EXPECT_DEATH(force_magnitude(profile_of(static_cast<ForceLaw>(FORCE_LAW_COUNT), 4.0), 0.005),
+               "a force law without a description");
+}
+
 TEST(ForceLaw, SmallSharpnessTendsToLinearWithEveryDigit) {
   const ForceProfile linear = profile_of(ForceLaw::LINEAR, 0.0);
   for (const double k : {0.0, 1e-300, 1e-17, 1e-12, 1e-9}) {

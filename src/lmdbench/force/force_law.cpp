@@ -6,38 +6,57 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <cmath>
 #include <limits>
 
 namespace lmdbench {
 
-const std::vector<ForceLaw>& force_laws() {
-  static const std::vector<ForceLaw> all{ForceLaw::LINEAR, ForceLaw::EXPONENTIAL};
-  return all;
-}
-
-std::string_view to_string(ForceLaw law) {
-  return law == ForceLaw::LINEAR ? "linear" : "exponential";
-}
-
-ForceLaw force_law_named(std::string_view name, const std::string& file, const std::string& place) {
-  std::vector<std::string_view> known;
-  for (const ForceLaw law : force_laws()) {
-    if (to_string(law) == name) return law;
-    known.push_back(to_string(law));
-  }
-  throw UsageError(file, place, fmt::format("unknown force law \"{}\"", name),
-                   fmt::format("known ones: {}", fmt::join(known, ", ")));
-}
-
 namespace {
+
+/// What a law is between the saturation distance and the cutoff, where s of decision E9 goes from 1 to 0.
+struct ForceLawDescription {
+  std::string_view name;
+  double (*magnitude)(const ForceProfile& profile, double s);  ///< newtons
+  double (*stiffness)(const ForceProfile& profile, double s);  ///< N/m
+};
 
 /// Below this sharpness the exponential law differs from the linear one by less than a rounding error: its
 /// relative deviation is k (1 - s) / 2 to first order.
 inline constexpr double LINEAR_SHARPNESS = std::numeric_limits<double>::epsilon();
 
-bool is_linear(const ForceProfile& profile) {
-  return profile.law == ForceLaw::LINEAR || profile.sharpness < LINEAR_SHARPNESS;
+double linear_magnitude(const ForceProfile& profile, double s) {
+  return profile.maximum_force * s;
+}
+
+double linear_stiffness(const ForceProfile& profile, double /*s*/) {
+  return profile.maximum_force / (profile.cutoff - profile.saturation_distance);
+}
+
+double exponential_magnitude(const ForceProfile& profile, double s) {
+  const double k = profile.sharpness;
+  LMDBENCH_EXPECTS(k >= 0.0, "a profile that was not validated (validate_force_profile)");
+  if (k < LINEAR_SHARPNESS) return linear_magnitude(profile, s);
+  // Decision E9, ours: (e^(k s) - 1) / (e^k - 1), written as e^(k (s - 1)) (1 - e^(-k s)) / (1 - e^(-k)), in
+  // which no exponent is positive: nothing overflows for large k, and expm1 keeps every digit for small k.
+  return profile.maximum_force * std::exp(k * (s - 1.0)) * (std::expm1(-k * s) / std::expm1(-k));
+}
+
+double exponential_stiffness(const ForceProfile& profile, double s) {
+  const double k = profile.sharpness, linear = linear_stiffness(profile, s);
+  return k < LINEAR_SHARPNESS ? linear : linear * std::exp(k * (s - 1.0)) * (k / -std::expm1(-k));
+}
+
+/// In the order of ForceLaw.
+constexpr std::array<ForceLawDescription, FORCE_LAW_COUNT> LAWS{
+    {{"linear", linear_magnitude, linear_stiffness},
+     {"exponential", exponential_magnitude, exponential_stiffness}}};
+
+const ForceLawDescription& description_of(ForceLaw law) {
+  const auto index = static_cast<std::size_t>(law);
+  LMDBENCH_ALWAYS(index < LAWS.size() && LAWS[index].magnitude != nullptr,
+                  "a force law without a description");
+  return LAWS[index];
 }
 
 /// s of decision E9: 1 at the saturation distance, 0 at the cutoff.
@@ -53,6 +72,29 @@ double closeness(const ForceProfile& profile, double distance) {
 }
 
 }  // namespace
+
+const std::vector<ForceLaw>& force_laws() {
+  static const std::vector<ForceLaw> all = [] {
+    std::vector<ForceLaw> laws;
+    for (std::size_t law = 0; law < FORCE_LAW_COUNT; ++law) laws.push_back(static_cast<ForceLaw>(law));
+    return laws;
+  }();
+  return all;
+}
+
+std::string_view to_string(ForceLaw law) {
+  return description_of(law).name;
+}
+
+ForceLaw force_law_named(std::string_view name, const std::string& file, const std::string& place) {
+  std::vector<std::string_view> known;
+  for (const ForceLaw law : force_laws()) {
+    if (to_string(law) == name) return law;
+    known.push_back(to_string(law));
+  }
+  throw UsageError(file, place, fmt::format("unknown force law \"{}\"", name),
+                   fmt::format("known ones: {}", fmt::join(known, ", ")));
+}
 
 void validate_force_profile(const ForceProfile& profile, const std::string& file,
                             const std::string& pointer) {
@@ -73,24 +115,14 @@ double force_magnitude(const ForceProfile& profile, double distance) {
   if (std::isnan(distance)) return distance;  // An unset distance must not pass for a free one.
   if (distance <= profile.saturation_distance) return profile.maximum_force;
   if (distance >= profile.cutoff) return 0.0;
-  const double s = closeness(profile, distance);
-  if (is_linear(profile)) return profile.maximum_force * s;
-  LMDBENCH_EXPECTS(profile.sharpness > 0.0, "a profile that was not validated (validate_force_profile)");
-  // Decision E9, ours: (e^(k s) - 1) / (e^k - 1), written as e^(k (s - 1)) (1 - e^(-k s)) / (1 - e^(-k)), in
-  // which no exponent is positive: nothing overflows for large k, and expm1 keeps every digit for small k.
-  const double k = profile.sharpness;
-  return profile.maximum_force * std::exp(k * (s - 1.0)) * (std::expm1(-k * s) / std::expm1(-k));
+  return description_of(profile.law).magnitude(profile, closeness(profile, distance));
 }
 
 double force_stiffness(const ForceProfile& profile, double distance) {
   LMDBENCH_EXPECTS(std::isnan(distance) || distance >= 0.0, "a signed depth in place of a distance");
   if (std::isnan(distance)) return distance;
   if (distance <= profile.saturation_distance || distance >= profile.cutoff) return 0.0;
-  const double linear_stiffness = profile.maximum_force / (profile.cutoff - profile.saturation_distance);
-  if (is_linear(profile)) return linear_stiffness;
-  const double k = profile.sharpness;
-  const double s = closeness(profile, distance);
-  return linear_stiffness * std::exp(k * (s - 1.0)) * (k / -std::expm1(-k));
+  return description_of(profile.law).stiffness(profile, closeness(profile, distance));
 }
 
 }  // namespace lmdbench

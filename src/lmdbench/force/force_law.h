@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <string>
@@ -10,11 +11,15 @@
 
 namespace lmdbench {
 
-/// How the distance of an LMD becomes the length of its force.
+/// How the distance of an LMD becomes the length of its force. To add one: a value here, the count, and its description in
+/// force_law.cpp.
 enum class ForceLaw : std::uint8_t {
   LINEAR,      ///< The original's: proportional to what is left of the cutoff.
   EXPONENTIAL  ///< The improved algorithm's (paper, section 4.5; decision E9).
 };
+
+/// For arrays indexed by ForceLaw.
+inline constexpr std::size_t FORCE_LAW_COUNT = 2;
 
 /// All of them, in the order of their values.
 const std::vector<ForceLaw>& force_laws();

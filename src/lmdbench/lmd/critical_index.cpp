@@ -185,27 +185,15 @@ class SignReader {
   bool near(const ShapeSide&, const Vec3&, const Vec3&, const Vec3& d) const {
     return d.squaredNorm() <= reach_ * reach_;
   }
-  template <class Gradient>
-  static bool above(const ShapeSide&, double height, Gradient&&) {
-    return height > 0.0;
-  }
-  template <class Gradient>
-  bool below_reach(const ShapeSide&, double height, Gradient&&) const {
-    return height <= reach_;
-  }
+  static bool above(const ShapeSide&, double height, const auto&) { return height > 0.0; }
+  bool below_reach(const ShapeSide&, double height, const auto&) const { return height <= reach_; }
   static bool foot_on(const ShapeSide&, const Vec3& p, const Line& line, double) {
     return beyond_corner(p, line.ends[0], line.ends[1]) > 0.0 &&
            beyond_corner(p, line.ends[1], line.ends[0]) > 0.0;
   }
   static double clamped(double parameter) { return parameter; }
-  template <class Gradient>
-  static bool in_box(const ShapeSide&, double, Gradient&&) {
-    return true;
-  }
-  template <class Gradient>
-  static bool in_triangle(const ShapeSide&, double, const Vec3&, const Vec3&, Gradient&&) {
-    return true;
-  }
+  static bool in_box(const ShapeSide&, double, const auto&) { return true; }
+  static bool in_triangle(const ShapeSide&, double, const Vec3&, const Vec3&, const auto&) { return true; }
   static bool parallel(double) { return false; }
   /// Reads first what rejects most: the distance of the lines.
   bool crosses(const Line& a, const Line& b, const Vec3& product, double) {
@@ -265,8 +253,8 @@ class SignReader {
     const Vec3 p = x.a.at(s_ / x.squared_product);
     add(p, p + orientation_ / x.squared_product * x.product);
   }
-  static void face_region(const ShapeSide&, const Line&, const ShapeSide&, const Plane&, double) {}
-  static void face_each_other(const Plane&, const Plane&) {}
+  static void face_region(const auto&...) {}
+  static void face_each_other(const auto&...) {}
 
  private:
   const SignedFeatures& signs_of(const ShapeSide& side) const {

@@ -62,25 +62,21 @@ class Decision {
     distance_ = d.norm();
     return distance_ <= tolerance_.reach && distance_ > 0.0;
   }
-  template <class Gradient>
-  bool above(const ShapeSide& /*from*/, double height, Gradient&& /*gradient*/) const {
+  bool above(const ShapeSide& /*from*/, double height, const auto& /*gradient*/) const {
     return height > -tolerance_.rounding;
   }
-  template <class Gradient>
-  bool below_reach(const ShapeSide& /*from*/, double height, Gradient&& /*gradient*/) const {
+  bool below_reach(const ShapeSide& /*from*/, double height, const auto& /*gradient*/) const {
     return height <= tolerance_.reach;
   }
   bool foot_on(const ShapeSide& /*from*/, const Vec3& /*p*/, const Line& line, double parameter) const {
     return line.beyond(parameter) <= tolerance_.rounding;
   }
   static double clamped(double parameter) { return std::clamp(parameter, 0.0, 1.0); }
-  template <class Gradient>
-  bool in_box(const ShapeSide& /*from*/, double inside, Gradient&& /*gradient*/) const {
+  bool in_box(const ShapeSide& /*from*/, double inside, const auto& /*gradient*/) const {
     return inside >= -BOUND_ROUNDINGS * tolerance_.rounding;
   }
-  template <class Gradient>
   bool in_triangle(const ShapeSide& /*from*/, double inside, const Vec3& side, const Vec3& /*opposite*/,
-                   Gradient&& /*gradient*/) const {
+                   const auto& /*gradient*/) const {
     return inside >= -BOUND_ROUNDINGS * tolerance_.rounding * side.norm();
   }
   bool parallel(double sine) const { return sine <= tolerance_.largest_tilt; }
@@ -120,12 +116,8 @@ class Decision {
     return u;
   }
 
-  bool in_cone(const ShapeSide& side, const FeatureId& /*lead*/, const Vec3& d,
-               const BetweenPoints& /*how*/) const {
-    return admits(side, feature_of(side), d / distance_, between_points(distance_));
-  }
-  bool in_cone(const ShapeSide& side, const FeatureId& /*lead*/, const Vec3& d,
-               const SquareToLine& /*how*/) const {
+  /// BetweenPoints, SquareToLine
+  bool in_cone(const ShapeSide& side, const FeatureId& /*lead*/, const Vec3& d, const auto& /*how*/) const {
     return admits(side, feature_of(side), d / distance_, between_points(distance_));
   }
   bool in_cone(const ShapeSide& side, const FeatureId& /*lead*/, const Vec3& u,

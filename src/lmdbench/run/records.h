@@ -66,9 +66,6 @@ struct RepetitionTimes {
   std::vector<double> second_tracking;
 };
 
-/// The two force laws, for arrays indexed by ForceLaw.
-inline constexpr std::size_t FORCE_LAW_COUNT = 2;
-
 /// Rendered forces, one a frame under each law [N].
 using ForcesByLaw = std::array<std::vector<Vec3>, FORCE_LAW_COUNT>;
 

@@ -182,23 +182,21 @@ std::vector<ProbeDataset> truth_datasets() {
       .column("force_jump", "N", "change of the method's force to the next frame",
               [](Row r) { return r.force_jump; })
       .into(all);
-  constexpr auto LINEAR = static_cast<std::size_t>(ForceLaw::LINEAR);
-  constexpr auto EXPONENTIAL = static_cast<std::size_t>(ForceLaw::EXPONENTIAL);
-  ProbeTable<T, TruthFrame>("/reference", "K", frames)
-      .column("frame", "1", "frame of the exhaustive set", [](Frame t) { return t.frame; })
+  ProbeTable<T, TruthFrame> reference("/reference", "K", frames);
+  reference.column("frame", "1", "frame of the exhaustive set", [](Frame t) { return t.frame; })
       .column("lmd_count", "1", "true LMDs within the cutoff",
               [](Frame t) { return static_cast<std::int64_t>(t.lmds.size()); })
       .column("minimum_distance", "m", "smallest true LMD distance",
-              [](Frame t) { return minimum_distance(t.lmds); })
-      .column("force_linear", "N", "rendered force of the true set, linear law",
-              [](Frame t) { return t.force[LINEAR]; })
-      .column("force_exponential", "N", "rendered force of the true set, exponential law",
-              [](Frame t) { return t.force[EXPONENTIAL]; })
-      .column("force_jump_linear", "N", "change of the true force to the next frame, linear law",
-              [](Frame t) { return t.force_jump[LINEAR]; })
-      .column("force_jump_exponential", "N", "change of the true force to the next frame, exponential law",
-              [](Frame t) { return t.force_jump[EXPONENTIAL]; })
-      .into(all);
+              [](Frame t) { return minimum_distance(t.lmds); });
+  for (const ForceLaw law : force_laws())
+    reference.column(fmt::format("force_{}", to_string(law)), "N",
+                     fmt::format("rendered force of the true set, {} law", to_string(law)),
+                     [law](Frame t) { return t.force[static_cast<std::size_t>(law)]; });
+  for (const ForceLaw law : force_laws())
+    reference.column(fmt::format("force_jump_{}", to_string(law)), "N",
+                     fmt::format("change of the true force to the next frame, {} law", to_string(law)),
+                     [law](Frame t) { return t.force_jump[static_cast<std::size_t>(law)]; });
+  reference.into(all);
   for (const ForceLaw law : force_laws())
     all.push_back({fmt::format("/reference/movers/force_{}", to_string(law)), "K, B, 3", "N",
                    fmt::format("rendered force of the true set on each mover, {} law", to_string(law)),
@@ -274,7 +272,7 @@ std::vector<TruthFrame> truth_frames(const TrueSets& truth, const PreparedRun& r
     TruthFrame here;
     here.frame = static_cast<std::int64_t>(frame);
     here.lmds = truth.sets[frame];
-    for (const ForceLaw law : {ForceLaw::LINEAR, ForceLaw::EXPONENTIAL}) {
+    for (const ForceLaw law : force_laws()) {
       const auto index = static_cast<std::size_t>(law);
       here.force[index] = rendered(frame, law);
       here.force_jump[index] = (rendered(frame + 1, law) - here.force[index]).norm();

@@ -26,9 +26,15 @@ namespace lmdbench {
 struct TruthFrame {
   std::int64_t frame = 0;
   LmdSet lmds;
-  std::array<Vec3, FORCE_LAW_COUNT> force{Vec3::Zero(), Vec3::Zero()};  ///< Rendered, under each law [N].
-  std::array<double, FORCE_LAW_COUNT> force_jump{};  ///< |force at the next frame - force| [N].
+  std::array<Vec3, FORCE_LAW_COUNT> force = no_forces();  ///< Rendered, under each law [N].
+  std::array<double, FORCE_LAW_COUNT> force_jump{};       ///< |force at the next frame - force| [N].
   ForcesByLaw movers;  ///< Where several meshes move: of each by its number, the moving mesh first [N].
+
+  static std::array<Vec3, FORCE_LAW_COUNT> no_forces() {
+    std::array<Vec3, FORCE_LAW_COUNT> forces;
+    forces.fill(Vec3::Zero());
+    return forces;
+  }
 };
 
 /// One method against one TruthFrame. NaN where a quantity does not exist.

@@ -35,24 +35,20 @@ class Recorder {
     return holds("near", reach_ - d.norm(), length_) &&
            (length_ > 0.0 || holds("touch", d.norm() - 0.5 * touch_, 0.0));
   }
-  template <class Gradient>
-  bool above(const ShapeSide&, double height, Gradient&& gradient) {
+  bool above(const ShapeSide&, double height, const auto& gradient) {
     return holds("above", height, length_) && is_unit(gradient());
   }
-  template <class Gradient>
-  bool below_reach(const ShapeSide&, double height, Gradient&&) {
+  bool below_reach(const ShapeSide&, double height, const auto&) {
     return holds("below_reach", reach_ - height, length_);
   }
   bool foot_on(const ShapeSide&, const Vec3&, const Line& line, double parameter) {
     return holds("foot_on", -line.beyond(parameter), length_);
   }
   static double clamped(double parameter) { return parameter; }
-  template <class Gradient>
-  bool in_box(const ShapeSide&, double inside, Gradient&& gradient) {
+  bool in_box(const ShapeSide&, double inside, const auto& gradient) {
     return holds("in_box", inside, length_) && is_unit(gradient());
   }
-  template <class Gradient>
-  bool in_triangle(const ShapeSide&, double inside, const Vec3& side, const Vec3&, Gradient&& gradient) {
+  bool in_triangle(const ShapeSide&, double inside, const Vec3& side, const Vec3&, const auto& gradient) {
     return holds("in_triangle", inside / side.norm(), length_) && is_unit(gradient() / side.norm());
   }
   bool crosses(const Line&, const Line&, const Vec3&, double sine) {
@@ -70,8 +66,7 @@ class Recorder {
     return d;
   }
   bool parallel(double sine) { return holds("parallel", LARGEST_PARALLEL_TILT - sine, sine_); }
-  template <class How>
-  bool in_cone(const ShapeSide& side, const FeatureId& lead, const Vec3& d, const How&) {
+  bool in_cone(const ShapeSide& side, const FeatureId& lead, const Vec3& d, const auto& /*how*/) {
     const FeatureId feature = side.feature_of_lead(lead);
     const Vec3 u = side.direction_to_surface(d) / d.norm();
     return side.shape.for_each_wing(side.surface, feature, [&](const Vec3& wing) {
@@ -80,18 +75,12 @@ class Recorder {
                    -u.dot(wing) / wing.norm(), sine_, d.norm());
     });
   }
-  template <class... Shared>
-  static void share_points(const Shared&...) {}
-  template <class... Shared>
-  static void share_foot(const Shared&...) {}
-  template <class... Shared>
-  static void share_height(const Shared&...) {}
-  template <class... Shared>
-  static void share_perpendicular(const Shared&...) {}
-  template <class... Shared>
-  static void face_region(const Shared&...) {}
-  template <class... Shared>
-  static void face_each_other(const Shared&...) {}
+  static void share_points(const auto&...) {}
+  static void share_foot(const auto&...) {}
+  static void share_height(const auto&...) {}
+  static void share_perpendicular(const auto&...) {}
+  static void face_region(const auto&...) {}
+  static void face_each_other(const auto&...) {}
 
  private:
   static bool is_unit(const Vec3& gradient) {

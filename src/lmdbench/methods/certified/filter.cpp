@@ -46,12 +46,10 @@ class Rejection {
     if (squared < 0.25 * filter_.touch * filter_.touch) return reject({});
     return within_reach(squared, d, from.sign());
   }
-  template <class Gradient>
-  bool above(const ShapeSide& /*from*/, double height, Gradient&& gradient) {
+  bool above(const ShapeSide& /*from*/, double height, const auto& gradient) {
     return height >= -filter_.touch || fails_by(-height, gradient());
   }
-  template <class Gradient>
-  bool below_reach(const ShapeSide& /*from*/, double height, Gradient&& gradient) {
+  bool below_reach(const ShapeSide& /*from*/, double height, const auto& gradient) {
     return height <= filter_.reach + rounding_ || fails_by(height - filter_.reach, -gradient());
   }
   bool foot_on(const ShapeSide& from, const Vec3& /*p*/, const Line& line, double parameter) {
@@ -61,13 +59,11 @@ class Rejection {
     return fails_by(beyond, inwards / line.length * line.along);
   }
   static double clamped(double parameter) { return parameter; }
-  template <class Gradient>
-  bool in_box(const ShapeSide& /*from*/, double inside, Gradient&& gradient) {
+  bool in_box(const ShapeSide& /*from*/, double inside, const auto& gradient) {
     return inside >= -2.0 * filter_.touch || fails_by(-inside, gradient());
   }
-  template <class Gradient>
   bool in_triangle(const ShapeSide& /*from*/, double inside, const Vec3& side, const Vec3& opposite,
-                   Gradient&& gradient) {
+                   const auto& gradient) {
     const double squared_side = side.squaredNorm();
     if (squared_side <= filter_.tiny * filter_.tiny) return false;
     const double width =
@@ -145,12 +141,12 @@ class Rejection {
 
   // What passes is the definition's.
 
-  static void share_points(const Vec3&, const Vec3&, const Vec3&) {}
-  static void share_foot(const ShapeSide&, const ShapeSide&, const Vec3&, const Vec3&, const Line&, double) {}
-  static void share_height(const ShapeSide&, const Vec3&, const ShapeSide&, const Plane&, double) {}
-  static void share_perpendicular(const Crossing&) {}
-  static void face_region(const ShapeSide&, const Line&, const ShapeSide&, const Plane&, double) {}
-  static void face_each_other(const Plane&, const Plane&) {}
+  static void share_points(const auto&...) {}
+  static void share_foot(const auto&...) {}
+  static void share_height(const auto&...) {}
+  static void share_perpendicular(const auto&...) {}
+  static void face_region(const auto&...) {}
+  static void face_each_other(const auto&...) {}
 
  private:
   bool reject(const Certificate& certificate) {
