@@ -259,17 +259,17 @@ void Certified::find(const Pose& X_WM, WorkCounters& counters, Join&& join) {
     std::optional<SignedPair> signs;
     if (signs_moving_ != nullptr) signs.emplace(pair, *signs_moving_, *body.signs);
     const bool keeps = keep && query.possible && body.policy.keep();
-    Frame frame{hierarchy_moving_,
-                body.hierarchy,
-                pair,
-                filter,
-                query,
-                std::max(reach, touch),
-                {pair, static_cast<std::int32_t>(i), touch, keeps, contacts_, intersections_,
-                 crossing_pairs_},
-                contacts_,
-                counters,
-                signs ? &*signs : nullptr};
+    Frame frame{
+        hierarchy_moving_,
+        body.hierarchy,
+        pair,
+        filter,
+        query,
+        std::max(reach, touch),
+        {pair, static_cast<std::int32_t>(i), touch, keeps, contacts_, intersections_, crossing_pairs_},
+        contacts_,
+        counters,
+        signs ? &*signs : nullptr};
     if (keeps) {
       enumerate_coherently(frame, body);
     } else {
