@@ -25,7 +25,6 @@ from matplotlib.ticker import FixedLocator, FuncFormatter, LogLocator, MaxNLocat
 
 RECALL_BINS = 40  # a frame has so few LMDs that its own recall is mostly 0 or 1
 # Truth is a wide pale band: where a method is right, its line runs inside.
-TRUTH_COLOURS = {"linear": style.PALE_GREY, "exponential": style.YELLOW}
 TRUTH_WIDTH = 2.6
 # A time axis ends above this quantile: what a busy machine adds to single samples must not flatten the rest. What is
 # cut off is told with its number and largest value.
@@ -104,7 +103,7 @@ def plot_force(axes, column):
         axes.plot(column.time, method.force_magnitude(), **column.look[method.label])
     for _, method in true_forces(column.methods):
         frames, force = reference_force(method)
-        axes.plot(column.time[frames], force, lw=TRUTH_WIDTH, color=TRUTH_COLOURS[method.force_law], zorder=1,
+        axes.plot(column.time[frames], force, lw=TRUTH_WIDTH, color=style.TRUTH_COLOURS[method.force_law], zorder=1,
                   solid_capstyle="round", solid_joinstyle="round")
     limit = column.result.scene("device_maximum_force_n")
     highest = max(float(np.nanmax(line.get_ydata(), initial=0.0)) for line in axes.lines)
@@ -214,7 +213,7 @@ def keys_of_rows(columns):
             elif method.tracks_locally:
                 searches[name] = plain
         for _, method in true_forces(column.methods):
-            laws[method.force_law] = key(f"truth, {method.force_law} law", TRUTH_COLOURS[method.force_law], width=TRUTH_WIDTH)
+            laws[method.force_law] = key(f"truth, {method.force_law} law", style.TRUTH_COLOURS[method.force_law], width=TRUTH_WIDTH)
     # One method is named; the pale lines of several look alike.
     whose = f"{reducing[0]}, " if len(set(reducing)) == 1 else "any method, "
     before, alone = ([key(whose + words, style.SKY)] if reducing else [] for words in ("before reduction", "search alone"))

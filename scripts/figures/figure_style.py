@@ -26,6 +26,9 @@ BLACK = "#000000"
 YELLOW = "#F0E442"
 GREY = "#8A8A8A"
 PALE_GREY = "#C4C4C4"
+# The true set and, by force law, its force; in scripts/report/scene.js, too.
+TRUTH = "#D9B400"
+TRUTH_COLOURS = {"linear": "#9A9A9A", "exponential": TRUTH}
 
 # Colours and lines of methods, by their place in the registry, so that a method looks the same in every figure.
 METHOD_COLOURS = (VERMILLION, BLUE, GREEN, BLACK, PURPLE, ORANGE, SKY)

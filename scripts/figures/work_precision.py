@@ -111,29 +111,32 @@ def draw_panel(axes, points, quantities, label, markers, colours):
     axes.set_xlabel(label)
 
 
-def draw(results):
+def draw(results, narrow=False):
+    """@param narrow  for a page as wide as a telephone: the panels stand over each other"""
     style.use_style()
     points = [Point(result, method) for result in results for method in result.methods.values()]
     names = list(dict.fromkeys(point.experiment for point in points))
     colours = style.colours_of([point.method for point in points])
     markers = dict(zip(names, MARKERS * (len(names) // len(MARKERS) + 1)))
-    figure, axes = plt.subplots(1, len(PANELS), figsize=(style.TWO_COLUMNS_IN, 3.5), sharey=True, gridspec_kw={
-        "left": 0.092, "right": 0.99, "bottom": 0.145, "top": 0.92, "wspace": 0.08})
+    width, height, rows = (0.5 * style.TWO_COLUMNS_IN, 6.2, len(PANELS)) if narrow else (style.TWO_COLUMNS_IN, 3.5, 1)
+    inch = 3.5 / height
+    figure, axes = plt.subplots(rows, len(PANELS) // rows, figsize=(width, height), sharey=True, gridspec_kw={
+        "left": 0.16 if narrow else 0.092, "right": 0.985, "bottom": 0.145 * inch, "top": 0.92, "wspace": 0.08, "hspace": 0.22})
     for panel, (*quantities, label) in zip(axes, PANELS):
         draw_panel(panel, points, quantities, label, markers, colours)
     axes[0].set_yscale("log")
     axes[0].yaxis.set_major_locator(LogLocator(numticks=12))
     axes[0].yaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
-    axes[0].set_ylabel("run time per frame in contact [ms]\nmedian, whisker to 99th percentile")
+    for panel in axes if narrow else axes[:1]:
+        panel.set_ylabel("run time per frame in contact [ms]\nmedian, whisker to 99th percentile")
     keys = [Line2D([], [], color=colour, lw=2.5, label=label) for label, colour in colours.items()]
     keys += [Line2D([], [], color="#444444", ls="none", marker=markers[name], ms=5.5, mew=0, label=style.shortened(name))
-             for name in names]
+             for name in names if len(names) > 1]
     keys.append(Line2D([], [], color="white", ls="none", marker="o", ms=5, mec="#444444", mew=0.9,
                        label="open: neighbouring features count"))
     style.note_failures(figure, {f"{point.method.label} in {point.experiment}": point.failure for point in points if point.failure})
-    _, lines = style.legend_within(figure, keys, 0.085, 0.95, "upper left", LEGEND_LAYOUTS)
-    axes[0].get_gridspec().update(top=0.92 - 0.055 * lines)
-    figure.text(0.092, 0.955, "Error against run time, lower left is better", fontsize=8.5, fontweight="bold")
+    _, lines = style.legend_within(figure, keys, 0.02 if narrow else 0.085, 0.995, "upper left", LEGEND_LAYOUTS)
+    axes[0].get_gridspec().update(top=0.975 - 0.055 * inch * lines)
     return figure
 
 

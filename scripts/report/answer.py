@@ -28,10 +28,23 @@ def sentence(rows):
         return "No method keeps 99 % of its frames within 1 ms here."
     best = min(punctual, key=lambda row: (row.force_error, row.number("frame_time_median_s")))
     late = int(best.number("frames_late"))
-    return (f"Within one haptic frame (1 ms), {best.label} leaves the least force error: {100 * best.force_error:.3g} % of "
-            f"F_max (root mean square), at {1e6 * best.number('frame_time_median_s'):.3g} us in the median frame, "
-            f"{1e6 * best.number('frame_time_p99_s'):.3g} us in 99 % of them; "
+    return (f"Within one haptic frame (1 ms), {best.label} leaves the least force error: {percent(best.force_error)} % of "
+            f"F_max (root mean square), in {time(best.number('frame_time_median_s'))} in the median frame and "
+            f"{time(best.number('frame_time_p99_s'))} in 99 % of them; "
             f"{late or 'none'} of its frames {'is' if late < 2 else 'are'} late.")
+
+
+def time(value):
+    """[s] in the unit that one reads it in."""
+    if not math.isfinite(value):
+        return "-"
+    unit, scale = next(((name, one) for name, one in (("s", 1.0), ("ms", 1e3)) if abs(value) * one >= 1.0), ("\u00b5s", 1e6))
+    return f"{value * scale:.3g} {unit}"
+
+
+def percent(share):
+    """Of 100; what is rounding is 0, and what a reader cannot tell from it says so."""
+    return "-" if not math.isfinite(share) else "0" if share < 1e-8 else "< 0.01" if share < 1e-4 else f"{100.0 * share:.3g}"
 
 
 def number(value, scale=1.0):
@@ -43,6 +56,14 @@ def summary(name, scale=1.0):
     return lambda row: number(row.number(name), scale)
 
 
+FIRST_COLUMNS = (
+    ("method", lambda row: row.label),
+    ("recall [%]", lambda row: percent(row.number("recall"))),
+    ("force error, RMS [% of F_max]", lambda row: percent(row.force_error)),
+    ("frame, median", lambda row: time(row.number("frame_time_median_s"))),
+    ("frame, 99 %", lambda row: time(row.number("frame_time_p99_s"))),
+    ("late frames", summary("frames_late")),
+)
 COLUMNS = (
     ("method", lambda row: row.label),
     ("force law", lambda row: row.force_law),
@@ -51,14 +72,14 @@ COLUMNS = (
     ("precision [%]", summary("precision", 100.0)),
     ("force error, RMS [% of F_max]", lambda row: number(row.force_error, 100.0)),
     ("force error, largest [% of F_max]", lambda row: number(row.largest_force_error, 100.0)),
-    ("frame, median [us]", summary("frame_time_median_s", 1e6)),
-    ("frame, 99 % [us]", summary("frame_time_p99_s", 1e6)),
-    ("frame, largest [us]", summary("frame_time_maximum_s", 1e6)),
+    ("frame, median [\u00b5s]", summary("frame_time_median_s", 1e6)),
+    ("frame, 99 % [\u00b5s]", summary("frame_time_p99_s", 1e6)),
+    ("frame, largest [\u00b5s]", summary("frame_time_maximum_s", 1e6)),
     ("frames above 1 ms", summary("frames_late")),
 )
 
 
 def answer(result):
     rows = [Row(method) for method in result.methods.values()]
-    return {"sentence": sentence(rows), "headings": [name for name, _ in COLUMNS],
-            "rows": [[cell(row) for _, cell in COLUMNS] for row in rows]}
+    return {"sentence": sentence(rows), **{kind: {"headings": [name for name, _ in columns], "rows": [[cell(row) for _, cell in columns] for row in rows]}
+                                           for kind, columns in (("first", FIRST_COLUMNS), ("whole", COLUMNS))}}

@@ -46,7 +46,7 @@ function panels_csv(panels, time) {
   return csv(rows);
 }
 
-function draw_panel(place, number, panel, time) {
+function draw_panel(place, number, panel, time, last) {
   const result = page.results[number];
   const columns = panel.series.map((line) => floats(line.values));
   const rows = Array.from(time, (t, i) => [t, ...columns.map((column) => Number.isNaN(column[i]) ? null : column[i])]);
@@ -59,15 +59,17 @@ function draw_panel(place, number, panel, time) {
   place.append(box);
   const looks = {};
   for (const line of panel.series)
-    looks[line.label] = {color: line.colour, stepPlot: !!line.steps, connectSeparatedPoints: !!line.points};
+    looks[line.label] = {color: line.colour, stepPlot: !!line.steps, connectSeparatedPoints: !!line.points, strokeWidth: line.wide ? 5 : 1.2};
   return new Dygraph(box.querySelector(".plot"), rows, {
     labels: ["time [s]", ...panel.series.map((line) => line.label)],
     series: looks,
     labelsDiv: box.querySelector(".legend"),
     legend: "always",
+    legendFormatter: (data) => data.series.map((line) => `<span class="key" style="--key: ${line.color}">${line.labelHTML}` +
+        `${line.yHTML === undefined ? "" : ": " + line.yHTML}</span>`).join("") + (data.xHTML ? `at ${data.xHTML}` : ""),
+    xlabel: last ? "time [s]" : null,
     logscale: !!panel.log,
     includeZero: !panel.log,
-    strokeWidth: 1.2,
     axisLineColor: grid_colour(),
     gridLineColor: grid_colour(),
     digitsAfterDecimal: 4,
@@ -100,7 +102,7 @@ function draw_plots() {
     const number = Number(place.dataset.result);
     const result = page.results[number];
     const time = floats(result.time);
-    const plots = result.panels.map((panel) => draw_panel(place, number, panel, time));
+    const plots = result.panels.map((panel, i) => draw_panel(place, number, panel, time, i === result.panels.length - 1));
     if (plots.length > 1) Dygraph.synchronize(plots, {selection: true, zoom: true, range: false});
     zoom_buttons(place, plots);
     page.plots.push(plots);
@@ -128,6 +130,10 @@ function connect_buttons() {
     wide.append(table);
     wide.after(bar);
   });
+  const menu = document.getElementById("menu"), header = document.querySelector("header");
+  const open_menu = (open) => { header.classList.toggle("open", open); menu.setAttribute("aria-expanded", String(open)); };
+  menu.addEventListener("click", () => open_menu(!header.classList.contains("open")));
+  document.getElementById("sections").addEventListener("click", () => open_menu(false));
   document.getElementById("theme").addEventListener("click", () => {
     const root = document.documentElement;
     const dark = root.dataset.theme ? root.dataset.theme === "dark" : matchMedia("(prefers-color-scheme: dark)").matches;

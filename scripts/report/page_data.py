@@ -11,7 +11,6 @@ import figure_style as style
 from lmdbench_results import reference_force, true_forces, truth_of
 
 # Lines must be seen on a white and on a dark page.
-TRUTH_COLOURS = {"linear": style.GREY, "exponential": style.SKY}
 ON_BOTH = {style.BLACK: "#777777"}
 RANGE_MARGIN = 1.05
 RECALL_WINDOW = 40  # probed frames: a frame has so few LMDs that its own recall is mostly 0 or 1
@@ -51,10 +50,11 @@ def moving_recall(truth):
 
 
 def force_panel(result, colours):
-    lines = [series(method.label, method.force_magnitude(), colours[method.label]) for method in result.methods.values()]
-    for name, method in true_forces(result.methods.values()):
+    lines = []
+    for name, method in true_forces(result.methods.values()):  # below the others, and wider
         frames, force = reference_force(method)
-        lines.append(series(name, at_frames(result, frames, force), TRUTH_COLOURS[method.force_law], points=True))
+        lines.append(series(name, at_frames(result, frames, force), style.TRUTH_COLOURS[method.force_law], points=True, wide=True))
+    lines += [series(method.label, method.force_magnitude(), colours[method.label]) for method in result.methods.values()]
     return {"id": "force", "title": "Force", "unit": "N", "series": lines}
 
 

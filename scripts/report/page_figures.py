@@ -42,11 +42,17 @@ def sweep_csv(sweep):
                      for point in sweep.points))
 
 
-def entry(figure, folder, name, title, text, table=""):
+def saved(figure, folder, name):
+    """As SVG and PNG in the folder; the SVG in base64."""
     svg = next(file for file in style.save(figure, folder, name) if file.endswith(".svg"))
     with open(svg, "rb") as stream:
-        data = base64.b64encode(stream.read()).decode("ascii")
-    return {"id": name, "title": title, "text": text, "svg": data, "csv": table, "html": "", "csv_results": []}
+        return base64.b64encode(stream.read()).decode("ascii")
+
+
+def entry(figure, folder, name, title, text, table="", narrow=None):
+    """@param narrow  the same for a page as wide as a telephone"""
+    return {"id": name, "title": title, "text": text, "svg": saved(figure, folder, name), "narrow": saved(narrow, folder, f"{name}-narrow") if narrow else "",
+            "csv": table, "html": "", "csv_results": [], "folded": ""}
 
 
 def sweep_entry(sweep, folder):
@@ -73,12 +79,13 @@ def over_time_entry(results, folder, by_paper):
             taken.append(number)
     if not taken:
         return None
-    names = ", ".join(column.title().rpartition(":")[0] for column in figure7.columns_of([results[i] for i in taken]))
+    names = [column.title().rpartition(":")[0] for column in figure7.columns_of([results[i] for i in taken])]
+    where = f"From left to right {', '.join(names)}: f" if len(names) > 1 else "F"
     name, title, beyond = ("figure7", "The paper's Figure 7", " beyond the paper") if by_paper else ("over_time", "Over time", "")
     made = entry(figure7.draw(*(results[i] for i in taken)), folder, name, title,
-                 f"From left to right {names}: force, LMD counts, search and update times, and{beyond} the true force and the share "
+                 f"{where}orce, LMD counts, search and update times, and{beyond} the true force and the share "
                  "of true LMDs that each method knows. The same over all methods, to zoom: the next section.")
-    return {**made, "csv_results": [(i, results[i].name) for i in taken]}
+    return {**made, "folded": "" if by_paper else "As a figure to print", "csv_results": [(i, results[i].name) for i in taken]}
 
 
 def clock_entry(result, folder):
@@ -102,7 +109,7 @@ def figures(results, sweeps, folder, by_paper):
         entries.append(entry(
             work_precision.draw(probed), folder, "work_precision", "Error against run time of these runs" if sweeps else "Error against run time",
             "A point a method and experiment: what error it leaves for what run time of a frame in contact. Lower left is better; "
-            "shaded lanes hold errors of exactly zero and methods that fail.", work_precision_csv(probed)))
+            "shaded lanes hold errors of exactly zero and methods that fail.", work_precision_csv(probed), work_precision.draw(probed, narrow=True)))
     entries += [clock_entry(result, folder) for result in results if clocks(result)]
     over_time = over_time_entry(results, folder, by_paper)
     return entries + ([over_time] if over_time else [])

@@ -55,12 +55,23 @@ def in_script(text):
     return re.sub(r"(?i)</(?=script)", r"<\\/", text)
 
 
+def code(text):
+    """What stands in backticks, set as code."""
+    return markupsafe.Markup(re.sub(r"`([^`]+)`", r"<code>\1</code>", str(markupsafe.escape(text))))
+
+
+def title_of(results, sweeps):
+    """What the page is about; of several experiments the names, which are shorter than their titles."""
+    titles = list(dict.fromkeys(result.experiment.get("title") or result.experiment_name for result in results))
+    return titles[0] if len(titles) == 1 else " and ".join(dict.fromkeys([result.experiment_name for result in results] or [sweep.title for sweep in sweeps]))
+
+
 def what_was_run(result):
     methods = ", ".join(method.label for method in result.methods.values())
     probed = next((truth_of(method) for method in result.methods.values() if truth_of(method)), None)
     truth = f"errors against exhaustive truth in {probed.frames.size} frames" if probed else "no truth probe"
     cutoffs = dict.fromkeys(f"{method.constant('cutoff_m') * 1e3:.4g}" for method in result.methods.values())
-    return (f"{result.experiment.get('title') or result.name}. {result.time.size} frames, {result.triangles()} triangles, cutoff "
+    return (f"{result.time.size} frames, {result.triangles()} triangles, cutoff "
             f"{' and '.join(cutoffs)} mm; methods {methods}; {truth}.")
 
 
@@ -101,9 +112,9 @@ def navigation(entries, results, studies, claims, paper):
     """Every section of the page in its order; the tables that nobody looks for by name share one entry."""
     of_runs = [{"id": "frames", "title": "Frame by frame"}, {"id": "scene", "title": "In space"}] if results else []
     of_paper = ([{"id": "claims", "title": "The paper's claims"}] if claims else []) + ([{"id": "paper", "title": "Figures 1 to 6"}] if paper else [])
-    first = [entry for entry in studies if entry["name"] in FIRST]
+    first = [{"id": entry["id"], "title": entry["name"].replace("-", " ").capitalize()} for entry in studies if entry["name"] in FIRST]
     more = [{"id": "more", "title": "More tables"}] if len(first) < len(studies) else []
-    return [{"id": "answer", "title": "Answer"}, *entries, *of_runs, *of_paper, *first, *more, {"id": "omissions", "title": "Omissions"},
+    return [{"id": "answer", "title": "Answer"}, *entries, *of_runs, *of_paper, *first, *more, {"id": "omissions", "title": "What is left out"},
             {"id": "provenance", "title": "Provenance"}]
 
 
@@ -117,12 +128,13 @@ def page(results, sweeps, scenes, study_files, by_paper, paper, folder):
     data = {"results": panels_of(results), "scenes": scenes,
             "colours": [page_colours(result) for result in results]}
     environment = jinja2.Environment(loader=jinja2.FileSystemLoader(HERE), autoescape=True, undefined=jinja2.StrictUndefined)
-    described = [{"name": result.name, "what": what_was_run(result), "answer": answer(result), "provenance": provenance(result),
+    environment.filters["code"] = code
+    titles = [result.experiment.get("title") for result in results]
+    described = [{"name": result.name, "what": (f"{title}. " if title and len(set(titles)) > 1 else "") + what_was_run(result), "answer": answer(result), "provenance": provenance(result),
                   "experiment": json.dumps(result.experiment, indent=2),
-                  "warnings": result.texts("/scene/warnings") if result.has("/scene/warnings") else []} for result in results]
+                  "warnings": result.texts("/scene/warnings") if result.has("/scene/warnings") else []} for result, title in zip(results, titles)]
     return environment.get_template("page.html.j2").render(
-        title=" and ".join(dict.fromkeys(result.experiment.get("title") or result.experiment_name for result in results))
-        or " and ".join(sweep.title for sweep in sweeps),
+        title=title_of(results, sweeps),
         results=described, sections=sections, provenances=[*described, *map(sweep_provenance, sweeps)],
         figures=entries, by_paper=by_paper, paper=paper, studies=studies, first_studies=FIRST, claims=claims, linked_claims=linked,
         omissions=[PAPERS_OMISSION, *OMISSIONS] if by_paper else OMISSIONS, style=raw(text_of(HERE, "page.css")),

@@ -5,12 +5,41 @@
 // the world's, in metres.
 
 const LEVELS = 65535;
-const MESH_COLOURS = [0xe0b48c, 0x9fb4c7, 0xa9c7a0, 0xc7a9c2];
-const EXACT_COLOUR = "#d01c8b";
-const CURVE_COLOUR = "#b8860b";
-// An arrow of F_max is this share of the moving mesh's size.
-const ARROW_SHARE = 0.35;
+const MOVING_COLOUR = 0x8fb8de;
+const FIXED_COLOURS = [0xc9c3b6, 0xb9c7b0, 0xc7b3c0];
+const EXACT_COLOUR = "#d9b400";  // truth in every figure: figure_style.py
+const CURVE_COLOUR = "#555555";
+const BALL_SHARES = {exact: 0.011, own: 0.006};  // radius over the distance from the eye: as large from near as from far
+const VIEW_SHARE = 3.6;  // distance of the eye from the contact, over the radius of the moving mesh
+const ARROW_SHARE = 0.6;  // length of the longest arrow over that radius: it stays inside the view
+const CREASE = Math.cos(Math.PI / 6);  // triangles that meet under more than 30 degrees meet in an edge that one sees
 const KEY_TURN = 0.12;  // radians a key press
+
+// Triangles with normals of their corners: smooth over a curved surface, sharp across an edge.
+function creased(vertices, index) {
+  const count = index.length / 3, corner = new THREE.Vector3();
+  const at = (i) => new THREE.Vector3(vertices[3 * i], vertices[3 * i + 1], vertices[3 * i + 2]);
+  const normals = [], units = [], round = Array.from({length: vertices.length / 3}, () => []);
+  for (let f = 0; f < count; ++f) {
+    const a = at(index[3 * f]);
+    normals.push(at(index[3 * f + 1]).sub(a).cross(at(index[3 * f + 2]).sub(a)));
+    units.push(normals[f].clone().normalize());
+    for (let k = 0; k < 3; ++k) round[index[3 * f + k]].push(f);
+  }
+  const positions = new Float32Array(9 * count), directions = new Float32Array(9 * count);
+  for (let i = 0; i < index.length; ++i) {
+    const f = Math.floor(i / 3), v = index[i];
+    corner.set(0, 0, 0);
+    for (const g of round[v]) if (g === f || units[g].dot(units[f]) > CREASE) corner.add(normals[g]);
+    corner.normalize().toArray(directions, 3 * i);
+    for (let k = 0; k < 3; ++k) positions[3 * i + k] = vertices[3 * v + k];
+  }
+  const geometry = new THREE.BufferGeometry();
+  geometry.setAttribute("position", new THREE.BufferAttribute(positions, 3));
+  geometry.setAttribute("normal", new THREE.BufferAttribute(directions, 3));
+  geometry.computeBoundingSphere();
+  return geometry;
+}
 
 function mesh_geometry(mesh, meshes) {
   const source = mesh.triangles ? mesh : meshes.find((other) => other.role === mesh.triangles_of);
@@ -18,12 +47,7 @@ function mesh_geometry(mesh, meshes) {
   const vertices = new Float32Array(steps.length);
   for (let i = 0; i < steps.length; ++i) vertices[i] = mesh.low[i % 3] + (steps[i] / LEVELS) * mesh.size[i % 3];
   const buffer = bytes(source.triangles);
-  const geometry = new THREE.BufferGeometry();
-  geometry.setAttribute("position", new THREE.BufferAttribute(vertices, 3));
-  geometry.setIndex(new THREE.BufferAttribute(source.wide ? new Uint32Array(buffer) : new Uint16Array(buffer), 1));
-  geometry.computeVertexNormals();
-  geometry.computeBoundingSphere();
-  return geometry;
+  return creased(vertices, source.wide ? new Uint32Array(buffer) : new Uint16Array(buffer));
 }
 
 // Decodes what one slider steps through.
@@ -73,10 +97,10 @@ class View {
   build_scene() {
     this.scene = new THREE.Scene();
     this.bodies = this.data.meshes.map((mesh, i) => {
-      // The moving mesh is opaque, the fixed ones let it shine through.
-      const fixed = mesh.role !== "moving";
-      const material = new THREE.MeshLambertMaterial({color: MESH_COLOURS[i % MESH_COLOURS.length], transparent: fixed,
-                                                      opacity: fixed ? 0.6 : 1});
+      // Both let the contact between them shine through.
+      const moves = !mesh.role.startsWith("fixed");
+      const material = new THREE.MeshLambertMaterial({color: moves ? MOVING_COLOUR : FIXED_COLOURS[i % FIXED_COLOURS.length],
+                                                      transparent: true, opacity: moves ? 0.8 : 0.6});
       const body = new THREE.Mesh(mesh_geometry(mesh, this.data.meshes), material);
       if (!mesh.role.startsWith("mover_")) this.scene.add(body);
       return body;
@@ -85,8 +109,6 @@ class View {
     const roles = this.data.meshes.map((mesh) => mesh.role);
     this.movers = this.tracks[0].movers.map((mover) => {
       const {geometry, material} = this.bodies[roles.indexOf(mover.role)];
-      material.transparent = false;
-      material.opacity = 1;
       const body = new THREE.Mesh(geometry, material);
       this.scene.add(body);
       return body;
@@ -94,6 +116,10 @@ class View {
     this.moving = this.bodies[this.data.meshes.findIndex((mesh) => mesh.role === "moving")];
     this.size = Math.max(...this.bodies.map((body) => body.geometry.boundingSphere.radius));
     this.moving_size = this.moving.geometry.boundingSphere.radius;
+    this.largest_force = 0;
+    for (const track of this.tracks)
+      for (const force of Object.values(track.forces))
+        for (let i = 0; i < force.length; i += 3) this.largest_force = Math.max(this.largest_force, Math.hypot(force[i], force[i + 1], force[i + 2]));
     this.marks = new THREE.Group();
     this.scene.add(this.marks, new THREE.AmbientLight(0xffffff, 0.45));
     this.camera = new THREE.PerspectiveCamera(35, 1, this.size * 1e-3, this.size * 100);
@@ -130,30 +156,49 @@ class View {
       });
       place.append(select);
     }
-    box("exact", "exact LMDs", EXACT_COLOUR);
+    box("exact", "true LMDs", EXACT_COLOUR);
     const methods = [...new Set(this.tracks.flatMap((track) => Object.keys(track.forces)))];
     const recorded = methods.filter((label) => this.tracks.some((track) => track.own[label]));
     for (const label of recorded) box(`own ${label}`, `LMDs of ${label}`, this.colours[label]);
     for (const label of methods) box(`force ${label}`, `force of ${label}`, this.colours[label]);
     if (this.tracks.some((track) => track.polylines)) box("polylines", "intersection", CURVE_COLOUR);
+    place.append(`longest arrow: ${this.largest_force.toPrecision(3)} N. `);
     if (!recorded.length) place.append("The run recorded no LMDs of its methods (--set /record/lmds=true).");
   }
 
-  // Starts at the frame with most to see.
+  // Starts at the frame with most to see, of several where the meshes are nearest.
   begin_track() {
-    const counts = this.track.frames.map((_, i) => this.track.exact.offset[i + 1] - this.track.exact.offset[i] +
-                                                   (this.track.polylines ? this.track.polylines[i].length : 0));
-    this.slider.max = String(counts.length - 1);
-    this.slider.value = String(counts.indexOf(Math.max(...counts)));
-    this.show(Number(this.slider.value));
+    const seen = this.track.frames.map((_, i) => {
+      const exact = lmds_of(this.track.exact, i), curves = this.track.polylines ? this.track.polylines[i].length : 0;
+      return [exact.length + curves, -Math.min(...exact.map((lmd) => lmd[2]))];
+    });
+    const best = seen.reduce((most, [count, near], i) => count > seen[most][0] || (count === seen[most][0] && near > seen[most][1]) ? i : most, 0);
+    this.slider.max = String(seen.length - 1);
+    this.slider.value = String(best);
+    this.show(best);
   }
 
+  // Middle of the true contacts of the frame, and the mean direction from the fixed to the moving mesh there.
+  contact() {
+    const middle = new THREE.Vector3(), across = new THREE.Vector3();
+    const exact = lmds_of(this.track.exact, Number(this.slider.value));
+    for (const [moving, fixed] of exact) {
+      middle.addScaledVector(moving, 0.5).addScaledVector(fixed, 0.5);
+      across.add(moving.clone().sub(fixed).normalize());
+    }
+    if (exact.length) middle.divideScalar(exact.length);
+    else middle.copy(this.moving.geometry.boundingSphere.center).applyMatrix4(this.moving.matrixWorld);
+    return [middle, across.normalize()];
+  }
+
+  // At the contact, from the side of the gap and a little from above.
   look() {
-    const centre = new THREE.Vector3();
-    for (const body of this.bodies) centre.add(body.geometry.boundingSphere.center.clone().applyMatrix4(body.matrixWorld));
-    centre.divideScalar(this.bodies.length);
-    this.controls.target.copy(centre);
-    this.camera.position.copy(centre).add(new THREE.Vector3(0.6, 0.5, 1).normalize().multiplyScalar(this.size * 4.5));
+    const [middle, across] = this.contact();
+    const away = new THREE.Vector3().crossVectors(across, this.camera.up);
+    if (away.length() < 0.3) away.set(0, 0, 1);
+    away.normalize().addScaledVector(this.camera.up, 0.45).addScaledVector(across, 0.25).normalize();
+    this.controls.target.copy(middle);
+    this.camera.position.copy(middle).addScaledVector(away, VIEW_SHARE * this.moving_size);
     this.controls.update();
   }
 
@@ -193,17 +238,18 @@ class View {
     for (const mark of this.marks.children) mark.traverse((part) => { if (part.geometry) part.geometry.dispose(); });
     this.marks.remove(...this.marks.children);
     const exact = lmds_of(track.exact, index);
-    if (!this.hidden.has("exact")) for (const lmd of exact) this.add_lmd(lmd, EXACT_COLOUR, 0.016, 0.55);
+    if (!this.hidden.has("exact")) for (const lmd of exact) this.add_lmd(lmd, EXACT_COLOUR, BALL_SHARES.exact, 0.75);
     const counts = [];
     for (const [label, set] of Object.entries(track.own)) {
       const own = lmds_of(set, index);
       counts.push(`${label} ${own.length}`);
-      if (!this.hidden.has(`own ${label}`)) for (const lmd of own) this.add_lmd(lmd, this.colours[label], 0.009, 1);
+      if (!this.hidden.has(`own ${label}`)) for (const lmd of own) this.add_lmd(lmd, this.colours[label], BALL_SHARES.own, 1);
     }
     if (track.polylines && !this.hidden.has("polylines")) for (const line of track.polylines[index]) this.add_curve(line);
-    const origin = this.moving.geometry.boundingSphere.center.clone().applyMatrix4(this.moving.matrixWorld);
-    for (const [label, force] of Object.entries(track.forces))
-      if (!this.hidden.has(`force ${label}`)) this.add_force(label, force.subarray(3 * index, 3 * index + 3), origin);
+    const [origin] = this.contact();
+    Object.entries(track.forces).forEach(([label, force], i, all) => {
+      if (!this.hidden.has(`force ${label}`)) this.add_force(label, force.subarray(3 * index, 3 * index + 3), origin, all.length - i);
+    });
     const nearest = exact.length ? `, nearest ${(Math.min(...exact.map((lmd) => lmd[2])) * 1e3).toPrecision(4)} mm` : "";
     const own = counts.length ? `; ${counts.join(", ")}` : "";
     this.output.textContent = `frame ${track.frames[index]}, ${track.time[index].toFixed(3)} s: ${exact.length} ` +
@@ -213,13 +259,14 @@ class View {
   }
 
   // A pair closer than a pixel would be invisible: balls mark where it is.
-  add_lmd([from, to], colour, radius, opacity) {
+  add_lmd([from, to], colour, share, opacity) {
     const line = new THREE.BufferGeometry().setFromPoints([from, to]);
     this.marks.add(new THREE.Line(line, new THREE.LineBasicMaterial({color: colour, depthTest: false})));
-    const ball = new THREE.Mesh(new THREE.SphereBufferGeometry(this.size * radius, 12, 8),
+    const ball = new THREE.Mesh(new THREE.SphereBufferGeometry(1, 16, 12),
                                 new THREE.MeshBasicMaterial({color: colour, depthTest: false, transparent: true, opacity}));
     ball.position.copy(from).add(to).multiplyScalar(0.5);
     ball.renderOrder = 2;
+    ball.userData.share = share;
     this.marks.add(ball);
   }
 
@@ -232,16 +279,24 @@ class View {
     this.marks.add(curve);
   }
 
-  add_force(label, force, origin) {
+  // Arrows that fall together stay seen: the first method's is the thickest, the last one's lies on top.
+  add_force(label, force, origin, thickness) {
     const vector = new THREE.Vector3(...force);
-    const length = vector.length();
-    if (!(length > 0)) return;
-    const shown = this.moving_size * 2 * ARROW_SHARE * length / this.data.maximum_force;
-    const arrow = new THREE.ArrowHelper(vector.clone().normalize(), origin, shown, this.colours[label], shown * 0.2, shown * 0.1);
-    for (const part of [arrow.line, arrow.cone]) {
-      part.material.depthTest = false;
-      part.renderOrder = 3;
+    if (!(vector.length() > 0)) return;
+    const room = this.moving_size * ARROW_SHARE, length = room * vector.length() / this.largest_force;
+    const head = Math.min(0.15 * room, 0.5 * length), radius = 0.007 * room * (2 * thickness - 1);
+    const material = new THREE.MeshBasicMaterial({color: this.colours[label], depthTest: false, transparent: true});
+    const shaft = new THREE.Mesh(new THREE.CylinderBufferGeometry(radius, radius, length - head, 12), material);
+    const cone = new THREE.Mesh(new THREE.ConeBufferGeometry(radius + 0.03 * room, head, 16), material);
+    shaft.position.y = 0.5 * (length - head);
+    cone.position.y = length - 0.5 * head;
+    const arrow = new THREE.Group();
+    for (const part of [shaft, cone]) {
+      part.renderOrder = 20 - thickness;
+      arrow.add(part);
     }
+    arrow.position.copy(origin);
+    arrow.quaternion.setFromUnitVectors(new THREE.Vector3(0, 1, 0), vector.normalize());
     this.marks.add(arrow);
   }
 
@@ -255,7 +310,11 @@ class View {
     this.camera.updateProjectionMatrix();
     this.render();
   }
-  render() { this.renderer.render(this.scene, this.camera); }
+  render() {
+    for (const mark of this.marks.children)
+      if (mark.userData.share) mark.scale.setScalar(mark.userData.share * this.camera.position.distanceTo(mark.position));
+    this.renderer.render(this.scene, this.camera);
+  }
   repaint() { this.render(); }
 }
 

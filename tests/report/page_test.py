@@ -5,6 +5,7 @@
 error, no request, every section there, plots zoom together, the 3D view draws pixels that change when it is turned, all of it
 by keyboard, too; CSV files hold what is drawn; nothing is wider than the window."""
 
+import csv
 import json
 import os
 import subprocess
@@ -100,6 +101,12 @@ class Page(SharedScratch):
         headings = [heading.text for heading in self.browser.find_elements(By.CSS_SELECTOR, "#answer h2")]
         self.assertEqual(headings, ["shapes: loop kind open", "shapes: loop kind closed"])
 
+    def test_the_scene_begins_at_the_contact(self):
+        away = self.browser.execute_script("const view = page.views[0]; view.look(); const [middle] = view.contact(); "
+                                           "return [view.controls.target.distanceTo(middle), lmds_of(view.track.exact, Number(view.slider.value)).length]")
+        self.assertEqual(away[0], 0)
+        self.assertGreater(away[1], 0)
+
     def picture(self):
         return self.browser.execute_script("return page.views[0].renderer.domElement.toDataURL()")
 
@@ -129,7 +136,7 @@ class Page(SharedScratch):
     def test_scene_shows_the_methods_own_sets_and_hides_them(self):
         self.seen(".view .canvas")
         words = self.seen(".view .choices").text
-        for choice in ("exact LMDs", "LMDs of original", "LMDs of improved", "force of improved", "intersection"):
+        for choice in ("true LMDs", "LMDs of original", "LMDs of improved", "force of improved", "intersection"):
             self.assertIn(choice, words)
         self.assertRegex(self.browser.find_element(By.CSS_SELECTOR, ".view output").text, r"; original \d+, improved \d+")
         box = self.seen(".view .choices input")
@@ -175,12 +182,12 @@ class Page(SharedScratch):
                                     "document.querySelector('.study button').click(); document.querySelector('[data-csv-table]').click()")
         texts = self.browser.execute_async_script("const done = arguments[0]; const wait = () => saved.length < 4 ? setTimeout(wait, 20) : done(saved); wait()")
         panel, whole = sorted((text for text in texts if text.startswith("time [s]")), key=len)
-        lines = panel.splitlines()
+        lines = list(csv.reader(panel.splitlines()))
         self.assertEqual(len(lines), 601)
         with h5py.File(self.path("shapes.h5")) as result:
             force = np.linalg.norm(result["methods/improved/force"][:], axis=1)
-        column = lines[0].split(",").index("Force: improved [N]")
-        np.testing.assert_allclose([float(line.split(",")[column]) for line in lines[1:]], force, rtol=1e-6, atol=1e-9)
+        column = lines[0].index("Force: improved [N]")
+        np.testing.assert_allclose([float(line[column]) for line in lines[1:]], force, rtol=1e-6, atol=1e-9)
         self.assertIn("Local update: improved [us]", whole.splitlines()[0])
         self.show(1280)
 
@@ -193,6 +200,12 @@ class Page(SharedScratch):
 
     def test_fits_a_telephone(self):
         self.show(390)
+        shown = "return document.getElementById('sections').offsetHeight > 0"
+        self.assertFalse(self.browser.execute_script(shown))
+        self.browser.find_element(By.ID, "menu").click()
+        self.assertTrue(self.browser.execute_script(shown))
+        wide = "const image = document.querySelector('#work_precision img'); return image.naturalHeight > image.naturalWidth"
+        self.assertTrue(self.browser.execute_script(wide))
         self.assertLessEqual(self.browser.execute_script("return document.documentElement.scrollWidth"), 390)
         self.show(1280)
 
