@@ -19,6 +19,7 @@ void add_commands(CLI::App& app, const std::vector<std::string>& argv, int& exit
   add_work_precision_command(app, argv);
   add_mesh_command(app);
   add_path_command(app);
+  add_plugin_command(app, exit_status);
 }
 
 }  // namespace lmdbench

@@ -6,6 +6,7 @@
 #include <lmdbench/cli/app.h>
 #include <lmdbench/cli/commands.h>
 #include <lmdbench/cli/examples.h>
+#include <lmdbench/plugin/plugin.h>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -20,6 +21,7 @@ struct CommonOptions {
   int verbose = 0;
   int quiet = 0;
   std::vector<std::string> limits;
+  std::vector<std::string> plugins, trusted_plugins;
 };
 
 std::string limits_help() {
@@ -55,9 +57,20 @@ std::shared_ptr<CLI::App> make_app(const std::vector<std::string>& argv, int& ex
   app->add_option("--limit", common->limits, limits_help())
       ->type_name("NAME=NUMBER")
       ->allow_extra_args(false);
+  app->add_option(
+         "--plugin", common->plugins,
+         "add the methods of a plugin (lmdbench_method.h), which runs in a process of its own; repeatable")
+      ->type_name("FILE.so")
+      ->allow_extra_args(false);
+  app->add_option("--trusted-plugin", common->trusted_plugins,
+                  "the same, but the plugin runs in this program")
+      ->type_name("FILE.so")
+      ->allow_extra_args(false);
   app->parse_complete_callback([common] {
     set_up_talk(common->verbose - common->quiet);
     for (const std::string& limit : common->limits) set_limit(limit);
+    for (const std::string& file : common->plugins) add_plugin(file, PluginTrust::NONE);
+    for (const std::string& file : common->trusted_plugins) add_plugin(file, PluginTrust::TRUSTED);
   });
   app->footer(
       "Exit codes: 0 done; 1 a check failed; 2 usage or experiment file wrong; 3 input data wrong; "

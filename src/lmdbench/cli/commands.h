@@ -37,6 +37,9 @@ void add_mesh_command(CLI::App& app);
 /// `--dir` of a command that takes names of the manifest.
 /// @param folder is `default_mesh_folder` where the option is not given
 void add_mesh_folder_option(CLI::App& command, std::string& folder);
+/// `lmdbench plugin new FOLDER [--language c|c++|python]` and `lmdbench plugin check FILE.so [--json]`.
+/// @param exit_status CHECK_FAILED where a plugin fails
+void add_plugin_command(CLI::App& app, int& exit_status);
 /// `lmdbench path generate SPEC.json --out FILE.tum [--json]` and
 /// `lmdbench path info FILE.tum [--spec SPEC.json] [--rate HZ] [--json]`.
 void add_path_command(CLI::App& app);

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/cli/experiment_argument.h>
+#include <lmdbench/methods/registry.h>
 
 #include <CLI/CLI.hpp>
 #include <spdlog/spdlog.h>
@@ -8,7 +9,10 @@
 namespace lmdbench {
 
 Experiment ExperimentArgument::load() const {
-  Experiment experiment = load_experiment(file, overrides);
+  std::vector<std::string> from_outside;
+  for (const MethodDescription& method : method_descriptions())
+    if (!method.plugin.empty()) from_outside.push_back(method.name);
+  Experiment experiment = load_experiment(file, overrides, from_outside);
   for (const std::string& note : experiment.notes) spdlog::info("{}", note);
   return experiment;
 }

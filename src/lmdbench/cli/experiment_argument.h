@@ -19,7 +19,7 @@ struct ExperimentArgument {
   std::string file;
   std::vector<Override> overrides;
 
-  /// Loads it, and tells what the overrides replaced beside their own values.
+  /// Loads it with the methods of plugins beside its own, and tells what the overrides replaced beside their own values.
   /// @throws UsageError as `load_experiment`
   Experiment load() const;
 };

@@ -8,10 +8,11 @@
 
 namespace lmdbench {
 
-void add_commands(CLI::App& app, const std::vector<std::string>& /*argv*/, int& /*exit_status*/) {
+void add_commands(CLI::App& app, const std::vector<std::string>& /*argv*/, int& exit_status) {
   add_query_command(app);
   add_mesh_command(app);
   add_path_command(app);
+  add_plugin_command(app, exit_status);
   for (const std::string name : {"run", "plan", "init", "stability", "record", "compare", "doctor", "report",
                                  "export", "anatomy", "work-precision"}) {
     CLI::App* command = app.add_subcommand(name, "not in this build: needs HDF5");

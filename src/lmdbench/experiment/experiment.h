@@ -160,11 +160,14 @@ using Override = std::string;
 /// Reads, overrides, checks and completes an experiment.
 /// @throws UsageError naming the JSON pointer at fault: not JSON, unknown or repeated key, wrong type,
 ///         value out of range, unknown method or option, options that contradict each other
-Experiment load_experiment(const std::filesystem::path& file, const std::vector<Override>& overrides = {});
+/// @param also methods that run beside those that the file names
+Experiment load_experiment(const std::filesystem::path& file, const std::vector<Override>& overrides = {},
+                           const std::vector<std::string>& also = {});
 
 /// The same from text; `file` serves messages and relative names.
 Experiment parse_experiment(const std::string& text, const std::filesystem::path& file,
-                            const std::vector<Override>& overrides = {});
+                            const std::vector<Override>& overrides = {},
+                            const std::vector<std::string>& also = {});
 
 /// @throws UsageError naming the place, where a mesh deforms: for what looks at meshes at rest alone
 void refuse_deformation(const Experiment& experiment);

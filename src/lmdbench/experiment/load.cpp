@@ -137,6 +137,17 @@ void check_method_names(const Json& document, const std::string& file) {
       method_description(methods[i]["name"].get<std::string>(), file, fmt::format("/methods/{}/name", i));
 }
 
+/// Adds those that the file does not name, with their defaults.
+void add_methods(Json& document, const std::vector<std::string>& names) {
+  if (!document.is_object() || !document.contains("methods") || !document["methods"].is_array()) return;
+  Json& methods = document["methods"];
+  for (const std::string& name : names)
+    if (std::ranges::none_of(methods, [&](const Json& method) {
+          return method.is_object() && method.contains("name") && method["name"] == name;
+        }))
+      methods.push_back({{"name", name}});
+}
+
 /// @param entries of the file; each is there once a profile
 void check_labels(const std::vector<MethodChoice>& methods, std::size_t entries, const std::string& file) {
   std::set<std::string> labels;
@@ -318,12 +329,13 @@ double ForceChoice::saturation(double cutoff) const {
 }
 
 Experiment parse_experiment(const std::string& text, const std::filesystem::path& file,
-                            const std::vector<Override>& overrides) {
+                            const std::vector<Override>& overrides, const std::vector<std::string>& also) {
   std::vector<DefaultNote> defaults;
   const JsonDocument document(text, file.string(), experiment_schema(), ExitCode::USAGE, overrides,
                               [&](Json& json) {
                                 check_method_names(json, file.string());
                                 defaults = add_file_defaults(json, file);
+                                add_methods(json, also);
                               });
   Experiment experiment = document.locate([&] { return from_json(document.json(), file); });
   experiment.defaults = std::move(defaults);
@@ -331,9 +343,10 @@ Experiment parse_experiment(const std::string& text, const std::filesystem::path
   return experiment;
 }
 
-Experiment load_experiment(const std::filesystem::path& file, const std::vector<Override>& overrides) {
+Experiment load_experiment(const std::filesystem::path& file, const std::vector<Override>& overrides,
+                           const std::vector<std::string>& also) {
   const InputKind kind{.what = "experiment file", .code = ExitCode::USAGE, .most_bytes = Limit::JSON_BYTES};
-  return parse_experiment(read_input_file(file, kind).bytes, file, overrides);
+  return parse_experiment(read_input_file(file, kind).bytes, file, overrides, also);
 }
 
 }  // namespace lmdbench

@@ -9,8 +9,10 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <filesystem>
 #include <functional>
 #include <memory>
+#include <mutex>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -46,6 +48,23 @@ struct CounterDescription {
   CountedBy counted_by;
 };
 
+/// Why answers of a method from outside were lost; from any thread.
+class MethodFaults {
+ public:
+  void tell(const std::string& why) {
+    const std::lock_guard lock(mutex_);
+    last_ = why;
+  }
+  std::string last() const {
+    const std::lock_guard lock(mutex_);
+    return last_;
+  }
+
+ private:
+  mutable std::mutex mutex_;
+  std::string last_;
+};
+
 /// All that the rest of the program knows of a method. Schema, checks, help, plan, result groups, reports and
 /// benchmarks are made from it, so that a new method is its folder and a line in `methods/CMakeLists.txt`.
 struct MethodDescription {
@@ -79,6 +98,13 @@ struct MethodDescription {
 
   /// Every value of the method's enumeration, in the order of reports.
   std::vector<CounterDescription> counters;
+
+  /// File of a method from outside (plugin/plugin.h), of which nothing is believed: it is no truth for others, and what it does from
+  /// one repetition to the next is its own matter. Empty for the program's own.
+  std::filesystem::path plugin;
+  std::shared_ptr<MethodFaults> faults;  ///< Of a method from outside.
+  /// Its first counters are what is wrong with its answers; the very first one, answers that were lost.
+  static constexpr std::size_t MARKS = 8;
 
   /// Makes an instance.
   /// @param options checked against `options`, with all defaults filled in

@@ -76,7 +76,8 @@ const MethodDescription& method_description(std::string_view name, const std::st
       throw missing_part(missing.part, file, place, fmt::format("the method \"{}\"", name));
   const std::string near = nearest_word(std::string(name), method_names());
   throw UsageError(file, place, fmt::format("unknown method \"{}\"", name),
-                   near.empty() ? fmt::format("known methods: {}", fmt::join(method_names(), ", "))
+                   near.empty() ? fmt::format("known methods: {}; --plugin FILE.so adds others",
+                                              fmt::join(method_names(), ", "))
                                 : fmt::format("did you mean \"{}\"?", near));
 }
 

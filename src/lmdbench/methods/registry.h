@@ -9,6 +9,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include <deque>
 #include <functional>
 #include <memory>
 #include <string>
@@ -19,8 +20,11 @@
 /// must know of each from its description.
 namespace lmdbench {
 
-/// In the order of reports.
-const std::vector<MethodDescription>& method_descriptions();
+/// In the order of reports. References stay valid when methods are added.
+const std::deque<MethodDescription>& method_descriptions();
+
+/// Adds a method from outside (plugin/plugin.h), last in the order of reports. For the start of a program.
+void add_method(MethodDescription method);
 
 /// A method that this build was made without, and the part of it that is missing.
 struct MissingMethod {

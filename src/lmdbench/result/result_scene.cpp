@@ -111,9 +111,23 @@ ResultTrack track_of(const ResultReader& result, const std::string& method, std:
   return track;
 }
 
+const MethodDescription& exact_description() {
+  for (const MethodDescription& description : method_descriptions())
+    if (description.promise == Promise::COMPLETE_SET && !description.brute_force) return description;
+  throw EnvironmentError("", "", "this build has no method that is complete in every frame",
+                         "build all methods");
+}
+
 /// @param base what the name of the experiment's file is relative to
 Experiment experiment_of_result(const ResultReader& result, const fs::path& base) {
-  return parse_experiment(result.texts("/provenance/experiment").at(0),
+  // Its scene alone is wanted, and its methods from outside need not be here: a file must not decide what is loaded.
+  nlohmann::json text = nlohmann::json::parse(result.texts("/provenance/experiment").at(0), nullptr, false);
+  const std::vector<std::string> known = method_names();
+  if (text.is_object() && text.contains("methods") && text["methods"].is_array())
+    for (nlohmann::json& method : text["methods"])
+      if (method.is_object() && std::ranges::find(known, method.value("name", "")) == known.end())
+        method = {{"name", exact_description().name}, {"label", method.value("label", "")}};
+  return parse_experiment(text.dump(),
                           base / result.text_attribute("/provenance", "experiment_file").value_or(""));
 }
 
@@ -164,13 +178,6 @@ ResultScene scene_of_experiment(const Experiment& experiment, const ResultReader
   const auto frames = static_cast<std::int64_t>(result.reals("/path/time").size());
   const auto deformation = deformation_of(scene, notes, frames);
   return {scene, deformation, recorded_play(load_movers(experiment, scene, notes), scene, result)};
-}
-
-const MethodDescription& exact_description() {
-  for (const MethodDescription& description : method_descriptions())
-    if (description.promise == Promise::COMPLETE_SET && !description.brute_force) return description;
-  throw EnvironmentError("", "", "this build has no method that is complete in every frame",
-                         "build all methods");
 }
 
 }  // namespace

@@ -113,6 +113,12 @@ void write_frames(ResultWriter& writer, const std::string& group, const MethodCh
                 record.repetitions, &RepetitionTimes::local_update);
   if (experiment.record_timings && experiment.deforms())
     write_times(writer, following_time_info(group + "/"), record.repetitions, &RepetitionTimes::following);
+  if (experiment.record_timings && !record.repetitions.front().way.empty())
+    write_times(writer,
+                {group + "/way_time", "s",
+                 "time to the method from outside and back and to judge its answer, beside "
+                 "local_update_time, by repetition"},
+                record.repetitions, &RepetitionTimes::way);
 }
 
 /// What only a method with a search of its own rate has.
@@ -226,6 +232,7 @@ void write_method(ResultWriter& writer, const Experiment& experiment, const RunR
   writer.attribute(group, "method_order", static_cast<std::int64_t>(method_order(choice.name)));
   writer.attribute(group, "about", method.summary);
   writer.attribute(group, "promise", std::string(to_string(method.promise)));
+  if (!method.plugin.empty()) writer.attribute(group, "plugin", method.plugin.string());
   writer.attribute(group, "tracks_locally", std::int64_t{method.tracks_locally});
   writer.attribute(group, "trackings_after_search", std::int64_t{method.trackings_after_search});
   writer.attribute(group, "force_law", std::string(to_string(choice.force_law)));

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/base/contract.h>
 #include <lmdbench/base/error.h>
+#include <lmdbench/base/own_time.h>
 #include <lmdbench/force/contact_finder.h>
 #include <lmdbench/lmd/method_description.h>
 #include <lmdbench/run/direction_memory.h>
@@ -24,13 +25,15 @@
 namespace lmdbench {
 namespace {
 
-/// Seconds that `work` takes.
+/// Seconds that `work` takes, but for those of others.
 template <typename Work>
 double timed(Work&& work, double planted_share) {
+  seconds_of_others() = 0.0;
   const auto begin = std::chrono::steady_clock::now();
   work();
   if (planted_share > 0.0) work_longer(begin, planted_share);
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count() -
+         seconds_of_others();
 }
 
 /// Running XXH3 hash.
@@ -73,13 +76,15 @@ class MethodRun {
     };
     std::unique_ptr<Method> first = make();
     // The first repetition alone: the others leave the same.
-    keeps_both_laws_ = input.keep_lmds && !first->description().tracks_locally &&
+    keeps_both_laws_ = input.keep_lmds && first->description().plugin.empty() &&
+                       !first->description().tracks_locally &&
                        first->description().promise == Promise::COMPLETE_SET;
     if (first->description().tracks_locally)
       two_rate_.emplace(std::move(first), make(), driver);
     else
       every_frame_ = std::move(first);
     bodies_.prepare_to_deform();
+    is_from_outside_ = every_frame_ && !every_frame_->description().plugin.empty();
     record_.label = method.label;
     record_.repetitions.resize(1);
     record_.frames.reserve(input.poses.size());
@@ -94,6 +99,7 @@ class MethodRun {
       found_.clear();
       run(Stage::LOCAL_UPDATE,
           [&](WorkCounters& counters) { contacts_.search(*every_frame_, pose(), found_, counters); });
+      if (is_from_outside_) times().way.push_back(seconds_of_others());
       result.lmd_count_before_reduction = static_cast<double>(found_.size());
       result.lmd_age = 0.0;
     } else {
@@ -225,6 +231,7 @@ class MethodRun {
   std::unique_ptr<Method> every_frame_;  ///< ... which searches in every frame instead.
   DirectionMemory memory_;
   bool keeps_both_laws_ = false;
+  bool is_from_outside_ = false;
   [[no_unique_address]] const PlantedSlowdown planted_;
   std::shared_ptr<std::vector<Pose>> mover_poses_;  ///< Of the frame, where several meshes move.
   std::vector<LmdSet> sets_;                        ///< Of each mover.
@@ -237,7 +244,10 @@ class MethodRun {
 };
 
 void merge_repetition(MethodRecord& first, MethodRecord&& again, std::int64_t repetition) {
-  if (again.result_hash != first.result_hash || again.work_hash != first.work_hash)
+  const bool differs = again.result_hash != first.result_hash || again.work_hash != first.work_hash;
+  if (differs && !first.repetitions.front().way.empty())
+    ++first.other_repetitions;
+  else if (differs)
     throw Error(ExitCode::INTERNAL, "", "method " + first.label,
                 fmt::format("repetition {} left other {} than the first one", repetition,
                             again.result_hash != first.result_hash ? "forces or LMDs" : "work counters"),
@@ -288,8 +298,10 @@ std::vector<MethodRecord> run_lockstep(const std::vector<LockstepMethod>& method
   for (std::int64_t repetition = 0; repetition < driver.repetitions; ++repetition) {
     // The first repetition is run in any case: what is no time comes from it.
     if (keeper != nullptr && repetition > 0 && keeper->knows_repetition(repetition)) {
-      for (std::size_t i = 0; i < methods.size(); ++i)
+      for (std::size_t i = 0; i < methods.size(); ++i) {
         records[i].repetitions.push_back(keeper->times(repetition, i, records[i].searches.size()));
+        records[i].repetitions.back().way.assign(records[i].repetitions.front().way.size(), UNSET);
+      }
       done += frame_count * method_count;
       continue;
     }

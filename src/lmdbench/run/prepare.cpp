@@ -29,6 +29,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <memory>
+#include <set>
 #include <utility>
 
 namespace lmdbench {
@@ -264,6 +265,14 @@ void warn_of_aggregation(const Experiment& experiment, PreparedRun& prepared) {
                       note.report.non_manifold_edges + note.report.non_manifold_vertices));
 }
 
+/// Of the methods from outside that the experiment names.
+std::set<std::filesystem::path> plugin_files(const Experiment& experiment) {
+  std::set<std::filesystem::path> files;
+  for (const MethodChoice& choice : experiment.methods) files.insert(method_description(choice.name).plugin);
+  files.erase(std::filesystem::path());
+  return files;
+}
+
 }  // namespace
 
 std::shared_ptr<const SceneDeformation> deformation_of(const Scene& scene, const std::vector<MeshNote>& notes,
@@ -285,6 +294,10 @@ PreparedRun prepare(const Experiment& experiment, const Progress& progress, Defo
   Path frames;
   std::vector<RecordingGap> gaps;
   if (!experiment.path_file.empty()) frames = load_frames(experiment, files, gaps);
+
+  for (const std::filesystem::path& plugin : plugin_files(experiment))
+    files.push_back({"plugin:" + plugin.filename().string(), plugin, sha256_of_file(plugin),
+                     static_cast<std::int64_t>(std::filesystem::file_size(plugin))});
 
   std::vector<MeshNote> notes;
   const Scene scene = load_scene(experiment, notes);
@@ -394,6 +407,7 @@ std::vector<std::filesystem::path> input_files(const Experiment& experiment) {
   const std::filesystem::path folder = experiment.file.parent_path();
   std::vector<std::filesystem::path> files{experiment.file, experiment.mesh_folder / "manifest.json"};
   if (!experiment.path_file.empty()) files.push_back(experiment.path_file);
+  for (const std::filesystem::path& plugin : plugin_files(experiment)) files.push_back(plugin);
   const auto add = [&](const MeshChoice& choice) {
     files.push_back(is_mesh_name(choice.mesh) ? built_mesh_file(experiment.mesh_folder, choice.mesh)
                                               : folder / choice.mesh);

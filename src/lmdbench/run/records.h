@@ -61,6 +61,8 @@ struct RepetitionTimes {
   std::vector<double> local_update;  ///< one a frame
   std::vector<double>
       following;  ///< The part of it in which bodies that deform got the frame's shape; empty without such.
+  std::vector<double>
+      way;  ///< Of a method from outside, beside local_update: to it and back, and judging it. Else empty.
   std::vector<double> global_search;  ///< one a search, as the next two
   std::vector<double> first_reduction;
   std::vector<double> second_tracking;
@@ -87,6 +89,8 @@ struct MethodRecord {
   std::vector<LoopFrame> loop;    ///< Closed loop: what the device did in each frame. Empty in an open one.
   std::uint64_t result_hash = 0;  ///< Over every frame's force bits and LMD features, in frame order.
   std::uint64_t work_hash = 0;    ///< Over all counters.
+  std::int64_t other_repetitions =
+      0;  ///< Of a method from outside: repetitions that left other hashes than the first one.
 };
 
 }  // namespace lmdbench

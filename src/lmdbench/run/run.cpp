@@ -1,5 +1,7 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/base/statistics.h>
+#include <lmdbench/methods/registry.h>
 #include <lmdbench/run/contact.h>
 #include <lmdbench/run/mover_probe.h>
 #include <lmdbench/run/realtime_driver.h>
@@ -55,6 +57,35 @@ void note_findings(const Experiment& experiment, RunResult& result) {
       if (const auto found = track.findings.find(probe.name); found != track.findings.end())
         for (std::string& note : found->second->notes(result.group_of(track)))
           result.warnings.push_back(std::move(note));
+}
+
+/// What is wrong with the methods from outside: no other method is touched by it.
+void note_outsiders(const Experiment& experiment, RunResult& result) {
+  for (std::size_t i = 0; i < result.records.size(); ++i) {
+    const MethodDescription& method = method_description(experiment.methods[i].name);
+    if (method.plugin.empty()) continue;
+    const MethodRecord& record = result.records[i];
+    for (const CounterDescription& mark : method.counters) {
+      if (mark.index >= MethodDescription::MARKS) continue;
+      std::uint64_t all = 0;
+      for (const FrameRecord& frame : record.frames) all += frame.counters.values[mark.index];
+      if (all == 0) continue;
+      result.warnings.push_back(
+          fmt::format("{}, from outside: {} {}{}", record.label, all, mark.summary,
+                      mark.index == 0 ? "; the last one: " + method.faults->last() : ""));
+    }
+    if (record.other_repetitions > 0)
+      result.warnings.push_back(
+          fmt::format("{}, from outside: {} of {} repetitions left another result than the first, which is "
+                      "the one that is kept",
+                      record.label, record.other_repetitions, record.repetitions.size()));
+    const std::vector<double>& way = record.repetitions.front().way;
+    if (!way.empty())
+      result.warnings.push_back(fmt::format(
+          "{}, from outside: {:.3g} us in the median of a frame to it, back and for judging its answer, "
+          "beside its own times (way_time)",
+          record.label, 1e6 * median(way)));
+  }
 }
 
 /// Which methods share poses and profile.
@@ -169,6 +200,7 @@ RunResult run_experiment(const Experiment& experiment, const RunProgress& progre
     probe(experiment, methods, input, result, track, phase);
   }
   note_findings(experiment, result);
+  note_outsiders(experiment, result);
   return result;
 }
 

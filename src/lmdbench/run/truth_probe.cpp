@@ -113,6 +113,16 @@ std::optional<CompleteTruth> complete_truth(std::vector<ProbedRecord> candidates
 
 namespace {
 
+/// Of a method from outside.
+bool breaks(Promise promise, const TruthComparison& row, double cutoff) {
+  constexpr double NEAREST_TOLERANCE = 1e-5;  // cutoffs; single precision will do
+  if (promise == Promise::COMPLETE_SET) return !row.same.exact();
+  if (promise == Promise::APPROXIMATION) return false;
+  // NaN: nothing is near, or only one of the two sees it.
+  if (std::isnan(row.minimum_distance_error)) return row.same.true_lmds + row.same.reported > 0;
+  return std::abs(row.minimum_distance_error) > NEAREST_TOLERANCE * cutoff;
+}
+
 std::unique_ptr<ProbeFindings> find_truth(const ProbedTrack& track) {
   if (track.frames.empty()) return nullptr;
   auto found = std::make_unique<TruthFindings>();
@@ -137,6 +147,16 @@ std::unique_ptr<ProbeFindings> find_truth(const ProbedTrack& track) {
                           : compare_with_truth(found->frames, record, law, track.profile.scene));
     // The methods that promise the complete set and leave no doubt about it say what is true in every frame.
     const MethodDescription& method = method_description(track.choices[i]->name);
+    if (!method.plugin.empty()) {
+      const auto broken = std::ranges::count_if(rows, [&](const TruthComparison& row) {
+        return breaks(method.promise, row, track.methods[i].profile.cutoff);
+      });
+      if (broken > 0)
+        found->doubts.push_back(
+            fmt::format("{} breaks its promise ({}) in {} of {} probed frames: disqualified for that promise",
+                        record.label, to_string(method.promise), broken, rows.size()));
+      continue;
+    }
     if (method.promise != Promise::COMPLETE_SET || method.tracks_locally) continue;
     candidates.push_back({&record, &rows});
     const auto wrong =

@@ -1,0 +1,294 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/base/error.h>
+#include <lmdbench/base/file_descriptor.h>
+#include <lmdbench/base/limits.h>
+#include <lmdbench/plugin/plugin_caller.h>
+#include <lmdbench/plugin/wire.h>
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+#include <poll.h>
+#include <spawn.h>
+#include <sys/mman.h>
+#include <sys/socket.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <chrono>
+#include <csignal>
+#include <cstring>
+#include <system_error>
+#include <utility>
+#include <vector>
+
+extern char** environ;
+
+namespace lmdbench {
+namespace {
+
+/// How often a plugin is started anew after a call that was lost.
+constexpr int RESTARTS = 3;
+/// Preparing two meshes may take this many times what a search may.
+constexpr int PREPARING_FACTOR = 30;
+
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+constexpr bool LIMITS_MEMORY = false;  // Sanitizers reserve terabytes of address space.
+#else
+constexpr bool LIMITS_MEMORY = true;
+#endif
+
+[[noreturn]] void refuse(int error) {
+  throw EnvironmentError("", "",
+                         "no process for a plugin can be started: " + std::generic_category().message(error),
+                         "check the limits on processes, files and memory (ulimit -a)");
+}
+
+/// Beside the program, or in libexec/lmdbench beside its folder.
+std::string child_program() {
+  std::error_code none;
+  const std::filesystem::path folder = std::filesystem::read_symlink("/proc/self/exe", none).parent_path();
+  for (const char* place : {"lmdbench-plugin-child", "../libexec/lmdbench/lmdbench-plugin-child"})
+    if (::access((folder / place).c_str(), X_OK) == 0) return (folder / place).string();
+  throw EnvironmentError((folder / "lmdbench-plugin-child").string(), "",
+                         "the program that plugins run in is not there",
+                         "install lmdbench as a whole, or build the target lmdbench_plugin_child");
+}
+
+FileDescriptor shared_memory(const char* name) {
+  FileDescriptor memory(::memfd_create(name, MFD_CLOEXEC | MFD_ALLOW_SEALING));
+  if (!memory.valid()) refuse(errno);
+  return memory;
+}
+
+void append(const FileDescriptor& memory, const void* data, std::size_t size) {
+  const auto* bytes = static_cast<const char*>(data);
+  while (size > 0) {
+    const ssize_t written = ::write(memory.get(), bytes, size);
+    if (written < 0 && errno == EINTR) continue;
+    if (written < 0) refuse(errno);
+    bytes += written;
+    size -= static_cast<std::size_t>(written);
+  }
+}
+
+/// A running child.
+class Child {
+ public:
+  Child(const std::string& plugin, bool describe, int meshes, int contacts) {
+    std::array<int, 2> ends{};
+    if (::socketpair(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0, ends.data()) != 0) refuse(errno);
+    socket_ = FileDescriptor(ends[0]);
+    // Numbers that the child's own cannot be: what dup2 puts there first must not be what comes next.
+    const FileDescriptor child_end(::fcntl(ends[1], F_DUPFD_CLOEXEC, 16));
+    ::close(ends[1]);
+    const FileDescriptor meshes_end(::fcntl(meshes, F_DUPFD_CLOEXEC, 16)),
+        contacts_end(::fcntl(contacts, F_DUPFD_CLOEXEC, 16));
+    posix_spawn_file_actions_t actions;
+    ::posix_spawn_file_actions_init(&actions);
+    ::posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
+    ::posix_spawn_file_actions_adddup2(&actions, STDERR_FILENO, STDOUT_FILENO);
+    ::posix_spawn_file_actions_adddup2(&actions, child_end.get(), wire::SOCKET);
+    ::posix_spawn_file_actions_adddup2(&actions, meshes_end.get(), wire::MESHES);
+    ::posix_spawn_file_actions_adddup2(&actions, contacts_end.get(), wire::CONTACTS);
+    std::vector<std::string> words{child_program(), std::to_string(::getpid()),
+                                   std::to_string(LIMITS_MEMORY ? limit_of(Limit::PLUGIN_BYTES) : 0), plugin};
+    if (describe) words.emplace_back("describe");
+    std::vector<char*> argv;
+    for (std::string& word : words) argv.push_back(word.data());
+    argv.push_back(nullptr);
+    const int error = ::posix_spawn(&pid_, argv.front(), &actions, nullptr, argv.data(), environ);
+    ::posix_spawn_file_actions_destroy(&actions);
+    if (error != 0) refuse(error);
+  }
+  Child(const Child&) = delete;
+  Child& operator=(const Child&) = delete;
+  ~Child() { end(); }
+
+  bool send(const wire::Request& request) {
+    return ::send(socket_.get(), &request, sizeof(request), MSG_NOSIGNAL) == sizeof(request);
+  }
+
+  /// @return empty, or why there is no answer; then the child is gone
+  std::string receive(wire::Answer& answer, double seconds) {
+    using Clock = std::chrono::steady_clock;
+    const auto until =
+        Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds));
+    for (;;) {
+      const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(until - Clock::now()).count();
+      pollfd waiting{socket_.get(), POLLIN, 0};
+      const int ready =
+          left < 0 ? 0
+                   : ::poll(&waiting, 1, static_cast<int>(std::min<std::int64_t>(left + 1, 1'000'000'000)));
+      if (ready < 0 && errno == EINTR) continue;
+      if (ready == 0) {
+        end();
+        return fmt::format("gave no answer within {:g} s (--limit plugin-seconds=NUMBER)", seconds);
+      }
+      const ssize_t got = ::recv(socket_.get(), &answer, sizeof(answer), 0);
+      if (got < 0 && errno == EINTR) continue;
+      if (got == sizeof(answer)) return {};
+      return end();
+    }
+  }
+
+  /// Waits for one that comes to its end by itself.
+  std::string wait(double seconds) {
+    wire::Answer none;
+    return receive(none, seconds);
+  }
+
+ private:
+  /// Ends it, where it has not ended.
+  /// @return how it ended, in words
+  std::string end() {
+    if (pid_ < 0) return {};
+    // One that closed the socket is about to end: what it ends of is worth waiting for.
+    int status = 0;
+    pid_t gone = 0;
+    for (int i = 0; i < 50 && (gone = ::waitpid(pid_, &status, WNOHANG)) == 0; ++i) ::usleep(1000);
+    if (gone == 0) {
+      ::kill(pid_, SIGKILL);
+      while (::waitpid(pid_, &status, 0) < 0 && errno == EINTR) {
+      }
+    }
+    pid_ = -1;
+    if (gone == 0) return "was ended";
+    if (WIFSIGNALED(status)) return fmt::format("crashed ({})", ::strsignal(WTERMSIG(status)));
+    return fmt::format("ended its process with status {}", WEXITSTATUS(status));
+  }
+
+  pid_t pid_ = -1;
+  FileDescriptor socket_;
+};
+
+class ChildCaller : public PluginCaller {
+ public:
+  explicit ChildCaller(PluginTask task)
+      : file_(task.file.string()),
+        meshes_(shared_memory("lmdbench-meshes")),
+        contacts_(shared_memory("lmdbench-contacts")) {
+    write_task(task);
+    if (::ftruncate(contacts_.get(), wire::CONTACT_BYTES) != 0) refuse(errno);
+    void* memory = ::mmap(nullptr, wire::CONTACT_BYTES, PROT_READ, MAP_SHARED, contacts_.get(), 0);
+    if (memory == MAP_FAILED) refuse(errno);
+    // Who makes the memory smaller would end this program at its next look.
+    ::fcntl(contacts_.get(), F_ADD_SEALS, F_SEAL_SHRINK | F_SEAL_GROW | F_SEAL_SEAL);
+    shared_ = static_cast<const lmdbench_contact*>(memory);
+    static_cast<void>(start());
+  }
+  ~ChildCaller() override { ::munmap(const_cast<lmdbench_contact*>(shared_), wire::CONTACT_BYTES); }
+
+  PluginAnswer search(const double* X_BA) override {
+    PluginAnswer answer;
+    if (!child_ && !start()) {
+      answer.lost = why_not_;
+      return answer;
+    }
+    wire::Request request{++number_, {}};
+    std::copy_n(X_BA, request.X_BA.size(), request.X_BA.begin());
+    wire::Answer received;
+    static_cast<void>(child_->send(request));  // One that is gone shows when its answer is waited for.
+    std::string lost = child_->receive(received, static_cast<double>(limit_of(Limit::PLUGIN_SECONDS)));
+    if (lost.empty() && received.number != number_) lost = "answered what it was not asked";
+    if (!lost.empty()) {
+      child_.reset();
+      why_not_ = answer.lost = std::move(lost);
+      return answer;
+    }
+    received.reply.changed_float_mode |= std::exchange(changed_float_mode_, 0U);
+    judge_reply(received.reply, shared_, answer);
+    return answer;
+  }
+
+ private:
+  /// @return whether there is a child that has prepared; else `why_not_`
+  bool start() {
+    if (starts_++ > RESTARTS) return false;
+    child_ = std::make_unique<Child>(file_, false, meshes_.get(), contacts_.get());
+    wire::Answer answer;
+    std::string lost =
+        child_->receive(answer, PREPARING_FACTOR * static_cast<double>(limit_of(Limit::PLUGIN_SECONDS)));
+    if (lost.empty() && answer.reply.status == 0) {
+      changed_float_mode_ = answer.reply.changed_float_mode;
+      return true;
+    }
+    answer.message.back() = '\0';
+    why_not_ = "preparing: " + (lost.empty() ? std::string(answer.message.data()) : lost);
+    if (lost.empty()) starts_ = RESTARTS + 1;  // It said no, and would again.
+    child_.reset();
+    return false;
+  }
+
+  void write_task(const PluginTask& task) {
+    const TriangleMesh &a = task.a->surface().mesh, &b = task.b->surface().mesh;
+    const wire::Task head{task.method,
+                          task.cutoff,
+                          {a.vertices.size(), b.vertices.size()},
+                          {a.triangles.size(), b.triangles.size()}};
+    append(meshes_, &head, sizeof(head));
+    for (const TriangleMesh* mesh : {&a, &b})
+      append(meshes_, mesh->vertices.data(), mesh->vertices.size() * sizeof(Vec3));
+    for (const TriangleMesh* mesh : {&a, &b})
+      append(meshes_, mesh->triangles.data(), mesh->triangles.size() * sizeof(mesh->triangles.front()));
+    append(meshes_, task.options.c_str(), task.options.size() + 1);
+    // The next child must find them as they are.
+    ::fcntl(meshes_.get(), F_ADD_SEALS, F_SEAL_WRITE | F_SEAL_SHRINK | F_SEAL_GROW | F_SEAL_SEAL);
+  }
+
+  std::string file_;
+  FileDescriptor meshes_, contacts_;
+  const lmdbench_contact* shared_ = nullptr;
+  std::unique_ptr<Child> child_;
+  int starts_ = 0;
+  std::uint64_t number_ = 0;
+  std::uint32_t changed_float_mode_ = 0;
+  std::string why_not_;
+};
+
+}  // namespace
+
+void judge_reply(const PluginReply& reply, const lmdbench_contact* contacts, PluginAnswer& answer) {
+  if (reply.status == PluginReply::THREW)
+    answer.lost = "threw an exception";
+  else if (reply.status == PluginReply::UNSTEADY)
+    answer.lost = "had more contacts again when it was given room for those that it had";
+  else if (reply.status != 0)
+    answer.lost = fmt::format("failed with status {}", reply.status);
+  if (!answer.lost.empty()) return;
+  answer.reply = reply;
+  answer.too_many = reply.needed > wire::MOST_CONTACTS;
+  if (!answer.too_many) answer.contacts = {contacts, reply.needed};
+}
+
+std::unique_ptr<PluginCaller> make_child_caller(PluginTask task) {
+  return std::make_unique<ChildCaller>(std::move(task));
+}
+
+std::string describe_plugin(const std::filesystem::path& file) {
+  const auto fail = [&](const std::string& why) {
+    throw InputError(file.string(), "", why,
+                     "see lmdbench_method.h, or begin with lmdbench plugin new FOLDER");
+  };
+  const FileDescriptor none = shared_memory("lmdbench-none"),
+                       text_memory = shared_memory("lmdbench-description");
+  Child child(file.string(), true, none.get(), text_memory.get());
+  const std::string end = child.wait(static_cast<double>(limit_of(Limit::PLUGIN_SECONDS)));
+  if (end != "ended its process with status 0") fail(end + " when it was loaded");
+  struct stat about {};
+  constexpr off_t MOST_BYTES = 1 << 20;
+  if (::fstat(text_memory.get(), &about) != 0 || about.st_size > MOST_BYTES)
+    fail("says more of itself than 1 MiB");
+  std::string text(static_cast<std::size_t>(about.st_size), '\0');
+  if (::pread(text_memory.get(), text.data(), text.size(), 0) != about.st_size) fail("cannot be asked");
+  const nlohmann::json json = nlohmann::json::parse(text, nullptr, false);
+  if (json.is_discarded()) fail("ended its process when it was loaded");
+  if (json.contains("error")) fail(json["error"].get<std::string>());
+  return text;
+}
+
+}  // namespace lmdbench

@@ -1,0 +1,86 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <lmdbench/plugin/lmdbench_method.h>
+
+#include <array>
+#include <chrono>
+#include <cstdint>
+#include <memory>
+#include <string>
+
+/// A plugin in this process, behind calls that check what can be checked there. Used by the child process and, for plugins that
+/// are trusted, by the program itself; depends on nothing but the header and dlopen, so that the child is as bare as a
+/// plugin may expect.
+namespace lmdbench {
+
+/// Rounding mode, flush-to-zero and denormals-are-zero as they are when it is made; puts them back. A shared object that was linked
+/// with -ffast-math sets the latter two for the thread that loads it, and exact predicates break silently.
+class FloatMode {
+ public:
+  FloatMode();
+  /// @return whether they had changed
+  bool restore() const;
+
+ private:
+  unsigned control_;
+  int rounding_;
+};
+
+/// What a search left, without its contacts.
+struct PluginReply {
+  std::int32_t status = 0;               ///< What the plugin returned, or one of those below.
+  std::uint32_t changed_float_mode = 0;  ///< 1 where it did.
+  std::uint64_t needed = 0;              ///< Contacts that there are.
+  double seconds = 0.0;                  ///< In the plugin.
+  std::array<std::uint64_t, LMDBENCH_MOST_COUNTERS> counters{};
+
+  static constexpr std::int32_t THREW = -1000;
+  static constexpr std::int32_t UNSTEADY = -1001;  ///< Given more room it had more contacts again.
+};
+
+/// A shared object that keeps to the interface as far as its tables tell.
+class LoadedPlugin {
+ public:
+  /// @throws std::runtime_error saying what is wrong, and what to do, without the file's name
+  explicit LoadedPlugin(const std::string& file);
+  ~LoadedPlugin();
+  LoadedPlugin(const LoadedPlugin&) = delete;
+  LoadedPlugin& operator=(const LoadedPlugin&) = delete;
+
+  /// @return null behind the last
+  const lmdbench_method* method(std::uint32_t index) const;
+  /// @return null where it counts nothing
+  static const lmdbench_counters* counters(const lmdbench_method& method);
+  /// Whether loading it changed the float mode, which was put back.
+  bool changed_float_mode() const { return changed_float_mode_; }
+
+ private:
+  void* handle_ = nullptr;
+  const lmdbench_method_entry_type* entry_ = nullptr;
+  bool changed_float_mode_ = false;
+};
+
+/// A method of a plugin, prepared for two meshes.
+class LoadedMethod {
+ public:
+  /// @throws std::runtime_error with what the plugin says
+  LoadedMethod(const lmdbench_method& method, const lmdbench_mesh& a, const lmdbench_mesh& b, double cutoff,
+               const char* options);
+  ~LoadedMethod();
+  LoadedMethod(const LoadedMethod&) = delete;
+  LoadedMethod& operator=(const LoadedMethod&) = delete;
+
+  /// @param contacts of `capacity`
+  PluginReply search(const double* X_BA, lmdbench_contact* contacts, std::uint64_t capacity);
+  bool changed_float_mode() const { return changed_float_mode_; }
+
+ private:
+  const lmdbench_method& method_;
+  const lmdbench_counters* counters_;
+  void* instance_ = nullptr;
+  bool changed_float_mode_ = false;
+};
+
+}  // namespace lmdbench

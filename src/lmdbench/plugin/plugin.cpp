@@ -1,0 +1,191 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/base/error.h>
+#include <lmdbench/base/json_schema.h>
+#include <lmdbench/base/own_time.h>
+#include <lmdbench/methods/registry.h>
+#include <lmdbench/plugin/judged_contacts.h>
+#include <lmdbench/plugin/plugin.h>
+#include <lmdbench/plugin/plugin_caller.h>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cstdint>
+#include <memory>
+#include <regex>
+#include <utility>
+
+namespace lmdbench {
+namespace {
+
+using Json = nlohmann::json;
+
+std::array<double, 12> rows_of(const RigidTransform& X) {
+  std::array<double, 12> rows{};
+  for (int r = 0; r < 3; ++r) {
+    for (int c = 0; c < 3; ++c) rows[static_cast<std::size_t>(4 * r + c)] = X.rotation(r, c);
+    rows[static_cast<std::size_t>(4 * r + 3)] = X.translation[r];
+  }
+  return rows;
+}
+
+/// A plugin's method over a scene: one caller a fixed mesh.
+class PluginMethod : public Method {
+ public:
+  PluginMethod(std::shared_ptr<const MethodDescription> description, Scene scene, std::uint32_t index,
+               PluginTrust trust, const Json& options)
+      : description_(std::move(description)), scene_(std::move(scene)) {
+    for (const FixedBody& fixed : scene_.fixed) {
+      PluginTask task{.file = description_->plugin,
+                      .method = index,
+                      .a = scene_.moving,
+                      .b = fixed.body,
+                      .cutoff = scene_.cutoff,
+                      .options = options.dump()};
+      judges_.emplace_back(scene_.moving, fixed.body);
+      callers_.push_back(trust == PluginTrust::TRUSTED ? make_direct_caller(std::move(task))
+                                                       : make_child_caller(std::move(task)));
+    }
+  }
+
+  const MethodDescription& description() const override { return *description_; }
+
+  void search(const Pose& X_WM, LmdSet& lmds, WorkCounters& counters) override {
+    using Clock = std::chrono::steady_clock;
+    const auto begin = Clock::now();
+    double in_plugin = 0.0;
+    lmds.clear();
+    const RigidTransform X(X_WM);
+    const std::array<double, 12> X_BA = rows_of(X);
+    for (std::size_t i = 0; i < callers_.size(); ++i) {
+      const PluginAnswer answer = callers_[i]->search(X_BA.data());
+      if (!answer.reply) {
+        ++counters[PluginMark::LOST];
+        description_->faults->tell(answer.lost);
+        continue;
+      }
+      in_plugin += answer.reply->seconds;
+      counters[PluginMark::TOO_MANY] += answer.too_many ? 1U : 0U;
+      counters[PluginMark::FLOAT_MODE] += answer.reply->changed_float_mode;
+      constexpr auto FIRST = static_cast<std::size_t>(PluginMark::FIRST_OF_ITS_OWN);
+      for (std::size_t c = FIRST; c < description_->counters.size(); ++c)
+        counters.values[c] += answer.reply->counters[c - FIRST];
+      judges_[i].judge(answer.contacts, X, static_cast<std::int32_t>(i), lmds, counters);
+    }
+    std::sort(lmds.begin(), lmds.end(), lmd_less);
+    if (description_->promise == Promise::NEAREST_PAIR && lmds.size() > 1) lmds.resize(1);
+    // What a frame of the method costs is what passed in the plugin; bringing poses there and judging the answer is this program's.
+    seconds_of_others() +=
+        std::max(0.0, std::chrono::duration<double>(Clock::now() - begin).count() - in_plugin);
+  }
+
+  void track(const Pose& X_WM, LmdSet& lmds, WorkCounters& counters) override {
+    search(X_WM, lmds, counters);
+  }
+
+ private:
+  std::shared_ptr<const MethodDescription> description_;
+  Scene scene_;
+  std::vector<std::unique_ptr<PluginCaller>> callers_;
+  std::vector<ContactJudge> judges_;
+};
+
+/// Of the checks that the registry's own methods keep to by a test.
+Json checked_options(const std::string& text, const std::string& file, const std::string& place) {
+  const auto fail = [&](const std::string& why) -> void {
+    throw InputError(file, place, why,
+                     "give \"type\" or \"enum\", \"description\" and \"default\" to each option");
+  };
+  Json options = Json::parse(text, nullptr, false);
+  if (!options.is_object()) fail("its options are no JSON object");
+  Json defaults = Json::object();
+  for (const auto& [name, option] : options.items()) {
+    const bool taken = name == "name" || name == "label" || name == "force_law";
+    if (taken) fail(fmt::format("option \"{}\": experiments use this name for something else", name));
+    if (!option.is_object() || !option.contains("default") ||
+        !option.value("description", Json()).is_string() ||
+        !(option.contains("enum") || option.value("type", Json()).is_string()))
+      fail(fmt::format("option \"{}\" is incomplete", name));
+    defaults[name] = option["default"];
+  }
+  try {
+    validate_against_schema(defaults, {{"type", "object"}, {"properties", options}}, file);
+  } catch (const Error& error) {
+    fail(std::string("its own defaults break its options: ") + error.what());
+  }
+  return options;
+}
+
+MethodDescription description_of(const Json& method, const std::filesystem::path& file, std::uint32_t index,
+                                 PluginTrust trust) {
+  const std::string place = fmt::format("method {}", index);
+  const auto fail = [&](const std::string& why, const std::string& remedy) {
+    throw InputError(file.string(), place, why, remedy);
+  };
+  MethodDescription description;
+  description.name = method["name"].get<std::string>();
+  static const std::regex NAME("[A-Za-z][A-Za-z0-9_-]{0,40}"), COUNTER("[a-z][a-z0-9_]{0,40}");
+  if (!std::regex_match(description.name, NAME))
+    fail("its name is not of up to 41 letters, digits, '-' and '_'", "call it otherwise");
+  description.summary = method["summary"].get<std::string>();
+  const auto promise = method["promise"].get<std::int64_t>();
+  if (promise < LMDBENCH_PROMISE_COMPLETE_SET || promise > LMDBENCH_PROMISE_NEAREST_PAIR)
+    fail(fmt::format("promises {}, which is nothing that this program knows", promise),
+         "take one of LMDBENCH_PROMISE_...");
+  description.promise = promise == LMDBENCH_PROMISE_COMPLETE_SET    ? Promise::COMPLETE_SET
+                        : promise == LMDBENCH_PROMISE_APPROXIMATION ? Promise::APPROXIMATION
+                                                                    : Promise::NEAREST_PAIR;
+  // A process serves one pair of meshes wherever they are; what is remembered of one pose does no harm at the next.
+  description.frame_coherent = (method["flags"].get<std::uint32_t>() & LMDBENCH_KEEPS_FRAMES) != 0;
+  description.options = checked_options(method["options"].get<std::string>(), file.string(), place);
+  description.counters = plugin_marks();
+  for (const Json& counter : method["counters"]) {
+    const std::string name = counter["name"].get<std::string>();
+    const bool taken = std::any_of(description.counters.begin(), description.counters.end(),
+                                   [&](const CounterDescription& other) { return other.name == name; });
+    if (taken || !std::regex_match(name, COUNTER))
+      fail(fmt::format("its counter \"{}\" is not of up to 41 small letters, digits and '_', or taken", name),
+           "call it otherwise");
+    description.counters.emplace_back(static_cast<PluginMark>(description.counters.size()), name,
+                                      counter["summary"].get<std::string>(), CountedBy::SEARCH);
+  }
+  description.plugin = std::filesystem::absolute(file);
+  description.faults = std::make_shared<MethodFaults>();
+  // What makes instances must not hold the description that holds it.
+  const auto shared = std::make_shared<const MethodDescription>(description);
+  description.make = [shared, index, trust](const Scene& scene,
+                                            const Json& options) -> std::unique_ptr<Method> {
+    return std::make_unique<PluginMethod>(shared, scene, index, trust, options);
+  };
+  return description;
+}
+
+}  // namespace
+
+std::vector<MethodDescription> plugin_methods(const std::filesystem::path& file, PluginTrust trust) {
+  const std::string text = describe_plugin(file);
+  std::vector<MethodDescription> methods;
+  try {
+    const Json json = Json::parse(text);
+    for (const Json& method : json.at("methods"))
+      methods.push_back(description_of(method, file, static_cast<std::uint32_t>(methods.size()), trust));
+  } catch (const Json::exception&) {
+    throw InputError(file.string(), "", "says of itself what cannot be read", "see lmdbench_method.h");
+  }
+  return methods;
+}
+
+void add_plugin(const std::filesystem::path& file, PluginTrust trust) {
+  for (MethodDescription& method : plugin_methods(file, trust)) {
+    const std::vector<std::string> names = method_names();
+    if (std::find(names.begin(), names.end(), method.name) != names.end())
+      throw InputError(file.string(), "", fmt::format("there is a method \"{}\" already", method.name),
+                       "give the plugin's method another name");
+    add_method(std::move(method));
+  }
+}
+
+}  // namespace lmdbench

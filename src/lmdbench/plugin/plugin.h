@@ -1,0 +1,30 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <lmdbench/lmd/method_description.h>
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+/// Methods from outside: shared objects with the interface of lmdbench_method.h. Once added, such a method is in the registry and taken
+/// by whatever takes methods, with what its description says: `MethodDescription::plugin` names its file.
+namespace lmdbench {
+
+/// Where a plugin runs.
+enum class PluginTrust : std::uint8_t {
+  NONE,    ///< In a process of its own for each pair of meshes: a crash or a hang costs the frame.
+  TRUSTED  ///< In this process.
+};
+
+/// What a plugin's methods say of themselves, checked; nothing of it runs in this process yet.
+/// @throws InputError naming the file and what is wrong with it: not loadable, another ABI, a name that is no name, options that
+///         are no schema
+std::vector<MethodDescription> plugin_methods(const std::filesystem::path& file, PluginTrust trust);
+
+/// Adds its methods to the registry, behind those of the program. For the start of a program, as `set_limit`.
+/// @throws InputError as above, or for a name that is taken
+void add_plugin(const std::filesystem::path& file, PluginTrust trust);
+
+}  // namespace lmdbench

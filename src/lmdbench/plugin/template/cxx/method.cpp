@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: 0BSD
+// METHOD_NAME: each vertex of A with the nearest one of B. Replace it by a method of yours; lmdbench_method.h says what is owed.
+#include "plugin.hpp"
+
+#include <array>
+#include <cmath>
+#include <utility>
+
+namespace {
+
+using Point = std::array<double, 3>;
+
+double distance(const Point& p, const Point& q) {
+  return std::hypot(q[0] - p[0], q[1] - p[1], q[2] - p[2]);
+}
+
+/// Vertices with a triangle that each is a corner of.
+struct Sites {
+  struct Site {
+    Point p{};
+    int32_t triangle = -1, corner = 0;
+  };
+  std::vector<Site> all;
+
+  explicit Sites(const lmdbench_mesh& mesh) : all(mesh.vertex_count) {
+    for (uint64_t i = 0; i < 3 * mesh.triangle_count; ++i) {
+      const int32_t v = mesh.triangles[i];
+      const double* p = mesh.vertices + 3 * v;
+      all[v] = {{p[0], p[1], p[2]}, static_cast<int32_t>(i / 3), static_cast<int32_t>(i % 3)};
+    }
+    all.erase(std::remove_if(all.begin(), all.end(), [](const Site& site) { return site.triangle < 0; }),
+              all.end());
+  }
+};
+
+class Method {
+ public:
+  Method(const lmdbench_mesh& a, const lmdbench_mesh& b, double cutoff, const std::string& /*options: JSON*/)
+      : a_(a), b_(b), cutoff_(cutoff) {}
+
+  void search(const double* X, std::vector<lmdbench_contact>& contacts) const {
+    std::vector<std::pair<double, lmdbench_contact>> found;
+    for (const auto& a : a_.all) {
+      Point p{};
+      for (int r = 0; r < 3; ++r)
+        p[r] = X[4 * r] * a.p[0] + X[4 * r + 1] * a.p[1] + X[4 * r + 2] * a.p[2] + X[4 * r + 3];
+      const Sites::Site* nearest = nullptr;
+      double best = cutoff_;
+      for (const auto& b : b_.all)
+        if (const double d = distance(p, b.p); d <= best) best = d, nearest = &b;
+      if (nearest == nullptr) continue;
+      const Point& q = nearest->p;
+      found.push_back({best,
+                       {{p[0], p[1], p[2]},
+                        {q[0], q[1], q[2]},
+                        a.triangle,
+                        nearest->triangle,
+                        LMDBENCH_CORNER_0 + a.corner,
+                        LMDBENCH_CORNER_0 + nearest->corner}});
+    }
+    std::stable_sort(found.begin(), found.end(),
+                     [](const auto& x, const auto& y) { return x.first < y.first; });
+    for (const auto& entry : found) contacts.push_back(entry.second);
+  }
+
+ private:
+  Sites a_, b_;
+  double cutoff_;
+};
+
+using Functions = plugin::Functions<Method>;
+const lmdbench_method METHOD = {sizeof(lmdbench_method),
+                                "METHOD_NAME",
+                                "0.1",
+                                "each vertex of the moving mesh with the nearest vertex of the fixed one",
+                                LMDBENCH_PROMISE_APPROXIMATION,
+                                0,
+                                nullptr,
+                                Functions::create,
+                                Functions::search,
+                                Functions::destroy,
+                                nullptr};
+
+const lmdbench_method* get(uint32_t index) {
+  return index == 0 ? &METHOD : nullptr;
+}
+
+}  // namespace
+
+const lmdbench_method_entry_type lmdbench_method_entry = {
+    LMDBENCH_METHOD_ABI_MAJOR, LMDBENCH_METHOD_ABI_MINOR, sizeof(lmdbench_method_entry_type), get};

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: 0BSD
+// What stands between a class and the functions of lmdbench_method.h: no exception leaves, contacts go where there is room.
+#pragma once
+
+#include "lmdbench_method.h"
+
+#include <algorithm>
+#include <exception>
+#include <string>
+#include <vector>
+
+namespace plugin {
+
+/// Method: constructor (const lmdbench_mesh& a, const lmdbench_mesh& b, double cutoff, const std::string& options) that copies what it
+/// keeps and throws where it cannot work; void search(const double* X_BA, std::vector<lmdbench_contact>& contacts).
+template <class Method>
+struct Functions {
+  struct Instance {
+    Method method;
+    std::vector<lmdbench_contact> contacts;
+  };
+
+  static int32_t create(const lmdbench_mesh* a, const lmdbench_mesh* b, double cutoff, const char* options,
+                        void** instance, char* message, uint64_t message_size) {
+    const char* why = "unknown failure";
+    std::string text;
+    try {
+      *instance = new Instance{Method(*a, *b, cutoff, options), {}};
+      return 0;
+    } catch (const std::exception& error) {
+      text = error.what();
+      why = text.c_str();
+    } catch (...) {
+    }
+    if (message_size > 0) std::string(why).append(1, '\0').copy(message, message_size);
+    return 1;
+  }
+  static int32_t search(void* instance, const double* X_BA, lmdbench_contact* contacts, uint64_t capacity,
+                        uint64_t* needed) {
+    try {
+      auto& self = *static_cast<Instance*>(instance);
+      self.contacts.clear();
+      self.method.search(X_BA, self.contacts);
+      *needed = self.contacts.size();
+      std::copy_n(self.contacts.begin(), std::min<uint64_t>(capacity, *needed), contacts);
+      return 0;
+    } catch (...) {
+      return 1;
+    }
+  }
+  static void destroy(void* instance) { delete static_cast<Instance*>(instance); }
+};
+
+}  // namespace plugin

@@ -1,0 +1,164 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/result_file/result_reader.h>
+
+#include <cli/program.h>
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <map>
+#include <numeric>
+#include <string>
+#include <vector>
+
+namespace lmdbench::testing {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+
+const std::string FOLDER = PLUGIN_FOLDER "/";
+/// Those that can be loaded, with the mark that each earns.
+const std::map<std::string, std::string> KINDS{{"crash", "frames_lost"},
+                                               {"hang", "frames_lost"},
+                                               {"leak", "frames_lost"},
+                                               {"write_past_end", "frames_lost"},
+                                               {"not_a_number", "contacts_not_finite"},
+                                               {"unsorted", "answers_unsorted"},
+                                               {"fast_math", "float_mode_changed"},
+                                               {"too_many", "answers_too_large"},
+                                               {"throws", "frames_lost"},
+                                               {"exits", "frames_lost"}};
+
+/// 40 frames of the shapes.
+const std::string RUN =
+    "run " + SHAPES +
+    "--json --set /frames=40 --set /driver/repetitions=2 --set /driver/block_frames=10 "
+    "--set /probes/truth/stride_frames=20 --set /probes/fcl/stride_frames=0 --set "
+    "/force/cutoff_diagonal=0.15 "
+    "--set '/methods=[{\"name\":\"original\"},{\"name\":\"improved\"},{\"name\":\"certified\"}]' --limit "
+    "plugin-seconds=1 ";
+
+class HostilePlugins : public ::testing::Test {
+ protected:
+  nlohmann::json run(const std::string& plugins, const std::string& out) {
+    const Outcome outcome = lmdbench(RUN + plugins + " --out '" + (scratch_ / out).string() + "'");
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    return nlohmann::json::parse(outcome.out, nullptr, false);
+  }
+  static std::map<std::string, nlohmann::json> by_label(const nlohmann::json& summary) {
+    std::map<std::string, nlohmann::json> methods;
+    for (const auto& method : summary.at("methods")) methods[method.at("label")] = method;
+    return methods;
+  }
+  ScratchDirectory scratch_;
+};
+
+TEST_F(HostilePlugins, LoseNoResultAndMarkTheirFrames) {
+  const auto alone = by_label(run("", "alone.h5"));
+  std::string plugins = "--plugin " + FOLDER + "good.so --plugin " + FOLDER + "wrong_promise.so";
+  for (const auto& [name, mark] : KINDS) plugins += " --plugin " + FOLDER + name + ".so";
+  const nlohmann::json summary = run(plugins, "all.h5");
+  const auto all = by_label(summary);
+  ASSERT_EQ(all.size(), alone.size() + KINDS.size() + 2);
+  for (const auto& [label, method] : alone)
+    EXPECT_EQ(method.at("result_hash"), all.at(label).at("result_hash")) << label;
+
+  const ResultReader result(scratch_ / "all.h5");
+  const ResultReader before(scratch_ / "alone.h5");
+  for (const auto& [label, method] : alone)
+    for (const std::string dataset : {"force", "lmd_count", "truth/recall", "truth/force_error"})
+      EXPECT_THAT(result.reals("/methods/" + label + "/" + dataset),
+                  ::testing::Pointwise(::testing::NanSensitiveDoubleEq(),
+                                       before.reals("/methods/" + label + "/" + dataset)))
+          << label << " " << dataset;
+  const auto marks = [&](const std::string& method, const std::string& mark) {
+    const std::vector<std::int64_t> frames = result.integers("/methods/" + method + "/counters/" + mark);
+    return std::accumulate(frames.begin(), frames.end(), std::int64_t{0});
+  };
+  for (const auto& [name, mark] : KINDS) {
+    EXPECT_GT(marks(name, mark), 0) << name;
+    EXPECT_LE(marks(name, mark), 40) << name;
+    EXPECT_EQ(marks("good", mark), 0) << name;
+    if (mark != "frames_lost") {
+      EXPECT_EQ(marks(name, "frames_lost"), 0) << name;
+    }
+    EXPECT_GT(all.at(name).at("local_update_median_s").get<double>(), 0.0)
+        << name << " is timed all the same";
+  }
+  // Three frames good, one lost, four times over; then it is not started again.
+  EXPECT_EQ(marks("crash", "frames_lost"), 40 - 4 * 2);
+  std::string notes;
+  for (const auto& note : summary.at("warnings")) notes += note.get<std::string>() + "\n";
+  EXPECT_THAT(notes, AllOf(HasSubstr("crashed (Segmentation fault)"), HasSubstr("gave no answer within 1 s"),
+                           HasSubstr("threw an exception"), HasSubstr("ended its process with status 0"),
+                           HasSubstr("wrong_promise breaks its promise (complete-set)"),
+                           HasSubstr("good, from outside: ")));
+  EXPECT_FALSE(summary.at("truth_of_every_frame").is_null());
+  EXPECT_EQ(summary.at("truth_of_every_frame"), "certified") << "not what an outsider says is complete";
+  EXPECT_EQ(result.reals("/methods/good/way_time").size(), 80U);
+  EXPECT_EQ(
+      lmdbench("report '" + (scratch_ / "all.h5").string() + "' --out '" + (scratch_ / "page").string() + "'")
+          .code,
+      0)
+      << "without the plugins";
+  EXPECT_EQ(
+      lmdbench("export '" + (scratch_ / "all.h5").string() + "' --out '" + (scratch_ / "view").string() + "'")
+          .code,
+      0);
+  EXPECT_EQ(
+      lmdbench("compare '" + (scratch_ / "all.h5").string() + "' '" + (scratch_ / "all.h5").string() + "'")
+          .err,
+      "");
+}
+
+TEST_F(HostilePlugins, AreRefusedAtTheDoorWhereTheyCannotBeLoaded) {
+  const Outcome abi = lmdbench("plan " + SHAPES + "--plugin " + FOLDER + "wrong_abi.so");
+  EXPECT_EQ(abi.code, INPUT_DATA);
+  EXPECT_THAT(abi.err, AllOf(HasSubstr("wrong_abi.so"), HasSubstr("version 99.0"),
+                             HasSubstr("build it with this program's header")));
+  const Outcome none = lmdbench("plan " + SHAPES + "--plugin missing.so");
+  EXPECT_EQ(none.code, INPUT_DATA);
+  EXPECT_THAT(none.err, HasSubstr("missing.so"));
+  const Outcome other = lmdbench("plan " + SHAPES + "--plugin '" + SHAPES_FILE + "'");
+  EXPECT_EQ(other.code, INPUT_DATA);
+  EXPECT_THAT(
+      lmdbench("plan " + SHAPES + "--plugin " + FOLDER + "good.so --plugin " + FOLDER + "good.so").err,
+      HasSubstr("there is a method \"good\" already"));
+}
+
+TEST_F(HostilePlugins, AreFoundByTheCheck) {
+  EXPECT_THAT(lmdbench("plugin check " + FOLDER + "good.so").out,
+              HasSubstr("passed  good: same again, backwards, shuffled"));
+  const std::map<std::string, std::string> said{{"crash", "crashed"},
+                                                {"write_past_end", "crashed"},
+                                                {"not_a_number", "are not finite"},
+                                                {"too_many", "answers too large"},
+                                                {"fast_math", "link without -ffast-math"},
+                                                {"wrong_promise", "complete-set: recall"},
+                                                {"exits", "ended its process"}};
+  for (const auto& [name, words] : said) {
+    const Outcome outcome = lmdbench("plugin check " + FOLDER + name + ".so");
+    EXPECT_EQ(outcome.code, 1) << name << outcome.out;
+    EXPECT_THAT(outcome.out, AllOf(HasSubstr("failed"), HasSubstr(words))) << name;
+  }
+}
+
+TEST_F(HostilePlugins, MayBeTrustedAndLeaveTheFloatModeAsItWas) {
+  const std::string no_truth = "--set /probes/truth/stride_frames=0 ";
+  const auto alone = by_label(run(no_truth, "alone.h5"));
+  const auto beside = by_label(
+      run(no_truth + "--trusted-plugin " + FOLDER + "fast_math.so --trusted-plugin " + FOLDER + "throws.so",
+          "trusted.h5"));
+  for (const auto& [label, method] : alone)
+    EXPECT_EQ(method.at("result_hash"), beside.at(label).at("result_hash")) << label;
+  const ResultReader result(scratch_ / "trusted.h5");
+  EXPECT_EQ(result.integers("/methods/fast_math/counters/float_mode_changed").front(), 1)
+      << "its constructor";
+  EXPECT_EQ(result.integers("/methods/throws/counters/frames_lost").at(2), 1);
+}
+
+}  // namespace
+}  // namespace lmdbench::testing

@@ -1,0 +1,160 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/base/error.h>
+#include <lmdbench/base/limits.h>
+#include <lmdbench/base/own_time.h>
+#include <lmdbench/methods/registry.h>
+#include <lmdbench/plugin/judged_contacts.h>
+#include <lmdbench/plugin/plugin.h>
+#include <lmdbench/plugin/plugin_caller.h>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <support/scenes.h>
+
+#if defined(__SSE__)
+#include <xmmintrin.h>
+#endif
+
+#include <array>
+#include <chrono>
+#include <string>
+
+namespace lmdbench::testing {
+namespace {
+
+MethodDescription only_method(const std::string& name, PluginTrust trust) {
+  const std::vector<MethodDescription> methods = plugin_methods(PLUGIN_FOLDER "/" + name + ".so", trust);
+  EXPECT_EQ(methods.size(), 1U);
+  return methods.front();
+}
+
+Scene two_spheres() {
+  return make_scene(make_sphere(1.0, 1), make_sphere(1.0, 1), 5.0);
+}
+
+std::uint64_t lost(Method& method, const Pose& pose) {
+  LmdSet lmds;
+  WorkCounters counters;
+  method.search(pose, lmds, counters);
+  return counters[PluginMark::LOST];
+}
+
+TEST(Plugin, IsDescribedAsItSays) {
+  const MethodDescription good = only_method("good", PluginTrust::NONE);
+  EXPECT_EQ(good.name, "good");
+  EXPECT_EQ(good.promise, Promise::APPROXIMATION);
+  EXPECT_EQ(only_method("wrong_promise", PluginTrust::NONE).promise, Promise::COMPLETE_SET);
+  EXPECT_FALSE(good.tracks_locally);
+  EXPECT_EQ(good.counters.size(), MethodDescription::MARKS);
+  EXPECT_EQ(good.plugin, PLUGIN_FOLDER "/good.so");
+}
+
+/// In a process of its own and in this one a plugin gives the same contacts, of several fixed meshes too.
+TEST(Plugin, AnswersTheSameInBothPlaces) {
+  Scene scene = two_spheres();
+  scene.fixed.push_back(make_body("second", translated(make_sphere(0.5, 1), Vec3(0, 4, 0))));
+  const auto child = only_method("good", PluginTrust::NONE).make(scene, nlohmann::json::object());
+  const auto direct = only_method("good", PluginTrust::TRUSTED).make(scene, nlohmann::json::object());
+  for (int frame = 0; frame < 20; ++frame) {
+    const Pose pose = moved(0.1 * frame, 2.5, 0.3);
+    LmdSet a, b;
+    WorkCounters marks;
+    child->search(pose, a, marks);
+    direct->search(pose, b, marks);
+    ASSERT_EQ(a.size(), b.size());
+    ASSERT_GT(a.size(), 16U);
+    EXPECT_TRUE(std::is_sorted(a.begin(), a.end(), lmd_less));
+    for (std::size_t i = 0; i < a.size(); ++i) {
+      EXPECT_TRUE(same_feature_pair(a[i], b[i]));
+      EXPECT_EQ(a[i].distance, b[i].distance);
+      EXPECT_EQ(a[i].point_moving, b[i].point_moving);
+    }
+    marks[PluginMark::DUPLICATES] = 0;  // Triangles share corners.
+    EXPECT_TRUE(marks == WorkCounters{});
+  }
+}
+
+/// What a search takes outside of the plugin is told apart, so that drivers take it off.
+TEST(Plugin, TimesOfTheWayAreNotTheMethods) {
+  const auto method = only_method("good", PluginTrust::NONE).make(two_spheres(), nlohmann::json::object());
+  LmdSet lmds;
+  WorkCounters marks;
+  seconds_of_others() = 0.0;
+  const auto begin = std::chrono::steady_clock::now();
+  method->search(Pose{}, lmds, marks);
+  const double all = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  EXPECT_GT(seconds_of_others(), 0.0);
+  EXPECT_LT(seconds_of_others(), all);
+}
+
+TEST(Plugin, IsStartedAnewThreeTimes) {
+  const MethodDescription description = only_method("crash", PluginTrust::NONE);
+  const auto method = description.make(two_spheres(), nlohmann::json::object());
+  std::string frames;
+  for (int frame = 0; frame < 16; ++frame) frames += lost(*method, Pose{}) > 0 ? 'x' : '.';
+  EXPECT_EQ(frames, "..x..x..x..xxxxx");
+  EXPECT_THAT(description.faults->last(), ::testing::HasSubstr("crashed"));
+}
+
+TEST(Plugin, ThatHangsIsWaitedForOnlySoLong) {
+  set_limit("plugin-seconds=1");
+  const MethodDescription description = only_method("hang", PluginTrust::NONE);
+  const auto method = description.make(two_spheres(), nlohmann::json::object());
+  const auto begin = std::chrono::steady_clock::now();
+  EXPECT_EQ(lost(*method, Pose{}) + lost(*method, Pose{}), 0U);
+  EXPECT_EQ(lost(*method, Pose{}), 1U);
+  EXPECT_EQ(lost(*method, Pose{}), 0U) << "a new process";
+  set_limit("plugin-seconds=10");
+  EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(8));
+}
+
+TEST(Plugin, CannotChangeTheFloatModeOfThisProgram) {
+  const unsigned before = _mm_getcsr() & 0xFFC0U;
+  const auto method =
+      only_method("fast_math", PluginTrust::TRUSTED).make(two_spheres(), nlohmann::json::object());
+  EXPECT_EQ(_mm_getcsr() & 0xFFC0U, before);
+  WorkCounters marks;
+  LmdSet lmds;
+  for (int frame = 0; frame < 3; ++frame) method->search(Pose{}, lmds, marks);
+  EXPECT_EQ(_mm_getcsr() & 0xFFC0U, before);
+  EXPECT_EQ(marks[PluginMark::FLOAT_MODE], 2U) << "its constructor and its third call";
+}
+
+TEST(Plugin, ThatIsTrustedAndWritesPastItsEndIsNoticed) {
+  const auto method =
+      only_method("write_past_end", PluginTrust::TRUSTED).make(two_spheres(), nlohmann::json::object());
+  EXPECT_EQ(lost(*method, Pose{}) + lost(*method, Pose{}), 0U);
+  EXPECT_THROW(lost(*method, Pose{}), InputError);
+}
+
+#ifdef HAS_CERTIFIED_PLUGIN
+/// What certified finds goes through the interface and comes out as it went in.
+TEST(Plugin, CertifiedBehindTheInterfaceIsCertified) {
+  const MethodDescription description = only_method("certified-plugin", PluginTrust::NONE);
+  EXPECT_TRUE(description.frame_coherent);
+  ASSERT_EQ(description.counters.size(), MethodDescription::MARKS + 1);
+  const Scene scene = make_scene(make_l_block(1.0), make_blob(1.0, 0.2, 3), 0.3);
+  const auto behind = description.make(scene, complete_options(description, {{"kernel", "scalar"}}, "test"));
+  const auto certified = make_method("certified", scene);
+  std::mt19937_64 random(4);
+  for (int i = 0; i < 30; ++i) {
+    const Pose pose = grazing_pose(scene, 0.05 * (i % 4), random);
+    LmdSet a, b;
+    WorkCounters marks, ignored;
+    certified->search(pose, a, ignored);
+    behind->search(pose, b, marks);
+    ASSERT_EQ(a.size(), b.size()) << i;
+    for (std::size_t k = 0; k < a.size(); ++k) {
+      EXPECT_TRUE(same_feature_pair(a[k], b[k])) << i;
+      EXPECT_NEAR(a[k].distance, b[k].distance, 1e-14) << "the pose is a matrix, not a quaternion";
+    }
+    EXPECT_GT(marks.values[MethodDescription::MARKS], 0U);
+    marks.values[MethodDescription::MARKS] = 0;
+    EXPECT_TRUE(marks == WorkCounters{}) << i;
+  }
+}
+#endif
+
+}  // namespace
+}  // namespace lmdbench::testing
