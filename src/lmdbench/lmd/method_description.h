@@ -101,8 +101,8 @@ struct MethodDescription {
 
   /// File of a method from outside (plugin/plugin.h), of which nothing is believed: it is no truth for others, and what it does from
   /// one repetition to the next is its own matter. Empty for the program's own.
-  std::filesystem::path plugin;
-  std::shared_ptr<MethodFaults> faults;  ///< Of a method from outside.
+  std::filesystem::path plugin = {};
+  std::shared_ptr<MethodFaults> faults = {};  ///< Of a method from outside.
   /// Its first counters are what is wrong with its answers; the very first one, answers that were lost.
   static constexpr std::size_t MARKS = 8;
 
