@@ -15,39 +15,47 @@ const ARROW_SHARE = 0.6;  // length of the longest arrow over that radius: it st
 const CREASE = Math.cos(Math.PI / 6);  // triangles that meet under more than 30 degrees meet in an edge that one sees
 const KEY_TURN = 0.12;  // radians a key press
 
-// Triangles with normals of their corners: smooth over a curved surface, sharp across an edge.
-function creased(vertices, index) {
-  const count = index.length / 3, corner = new THREE.Vector3();
-  const at = (i) => new THREE.Vector3(vertices[3 * i], vertices[3 * i + 1], vertices[3 * i + 2]);
-  const normals = [], units = [], round = Array.from({length: vertices.length / 3}, () => []);
-  for (let f = 0; f < count; ++f) {
-    const a = at(index[3 * f]);
-    normals.push(at(index[3 * f + 1]).sub(a).cross(at(index[3 * f + 2]).sub(a)));
-    units.push(normals[f].clone().normalize());
-    for (let k = 0; k < 3; ++k) round[index[3 * f + k]].push(f);
-  }
-  const positions = new Float32Array(9 * count), directions = new Float32Array(9 * count);
-  for (let i = 0; i < index.length; ++i) {
-    const f = Math.floor(i / 3), v = index[i];
-    corner.set(0, 0, 0);
-    for (const g of round[v]) if (g === f || units[g].dot(units[f]) > CREASE) corner.add(normals[g]);
-    corner.normalize().toArray(directions, 3 * i);
-    for (let k = 0; k < 3; ++k) positions[3 * i + k] = vertices[3 * v + k];
-  }
+// Triangles with corners of their own, so that an edge can be sharp.
+function creased(index, count) {
+  const round = Array.from({length: count}, () => []);
+  for (let i = 0; i < index.length; ++i) round[index[i]].push(Math.floor(i / 3));
   const geometry = new THREE.BufferGeometry();
-  geometry.setAttribute("position", new THREE.BufferAttribute(positions, 3));
-  geometry.setAttribute("normal", new THREE.BufferAttribute(directions, 3));
-  geometry.computeBoundingSphere();
+  geometry.setAttribute("position", new THREE.BufferAttribute(new Float32Array(3 * index.length), 3));
+  geometry.setAttribute("normal", new THREE.BufferAttribute(new Float32Array(3 * index.length), 3));
+  geometry.userData = {corners: index, round};
   return geometry;
+}
+
+// The vertices of a mesh's n-th shape (one that does not deform has one), with normals: smooth over a curved surface, sharp across an edge.
+function set_shape(geometry, mesh, n) {
+  const {corners, round} = geometry.userData, length = 3 * round.length;
+  const first = n * length < mesh.steps.length ? n * length : 0;
+  const at = (v) => new THREE.Vector3(...[0, 1, 2].map((k) => mesh.low[k] + (mesh.steps[first + 3 * v + k] / LEVELS) * mesh.size[k]));
+  const vertices = Array.from(round, (_, v) => at(v)), normals = [], units = [], corner = new THREE.Vector3();
+  for (let f = 0; f < corners.length / 3; ++f) {
+    const [a, b, c] = [0, 1, 2].map((k) => vertices[corners[3 * f + k]]);
+    normals.push(b.clone().sub(a).cross(c.clone().sub(a)));
+    units.push(normals[f].clone().normalize());
+  }
+  const {position, normal} = geometry.attributes;
+  for (let i = 0; i < corners.length; ++i) {
+    const f = Math.floor(i / 3);
+    vertices[corners[i]].toArray(position.array, 3 * i);
+    corner.set(0, 0, 0);
+    for (const g of round[corners[i]]) if (g === f || units[g].dot(units[f]) > CREASE) corner.add(normals[g]);
+    corner.normalize().toArray(normal.array, 3 * i);
+  }
+  position.needsUpdate = normal.needsUpdate = true;
+  geometry.computeBoundingSphere();
 }
 
 function mesh_geometry(mesh, meshes) {
   const source = mesh.triangles ? mesh : meshes.find((other) => other.role === mesh.triangles_of);
-  const steps = new Uint16Array(bytes(mesh.vertices));
-  const vertices = new Float32Array(steps.length);
-  for (let i = 0; i < steps.length; ++i) vertices[i] = mesh.low[i % 3] + (steps[i] / LEVELS) * mesh.size[i % 3];
+  mesh.steps = new Uint16Array(bytes(mesh.vertices));
   const buffer = bytes(source.triangles);
-  return creased(vertices, source.wide ? new Uint32Array(buffer) : new Uint16Array(buffer));
+  const geometry = creased(source.wide ? new Uint32Array(buffer) : new Uint16Array(buffer), mesh.count);
+  set_shape(geometry, mesh, 0);
+  return geometry;
 }
 
 // Decodes what one slider steps through.
@@ -228,6 +236,9 @@ class View {
 
   show(index, tell_plots = true) {
     const track = this.track;
+    this.data.meshes.forEach((mesh, i) => {
+      if (mesh.steps.length > 3 * mesh.count) set_shape(this.bodies[i].geometry, mesh, index);
+    });
     this.moving.position.fromArray(track.position, 3 * index);
     this.moving.quaternion.fromArray(track.orientation, 4 * index);
     this.moving.updateMatrixWorld(true);

@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: The lmdbench authors
 # SPDX-License-Identifier: BSD-3-Clause
 """The 3D view's data: from the folder that `lmdbench report` leaves for each result the meshes as they stand in the scene
-(moving.off, fixed_0.off, ...) and lmds.jsonl, the exact LMD sets of some frames; from the result itself the methods' own sets
+(moving.off, fixed_0.off, ...), of those that deform their vertices in each frame (moving.shapes), and lmds.jsonl, the exact LMD sets of some frames; from the result itself the methods' own sets
 where the run recorded them, forces and intersection polylines. Coordinates of meshes become 16-bit integers over the mesh's
 box, a thousandth of a pixel; everything else is single precision."""
 
@@ -16,11 +16,13 @@ from page_data import encoded as packed
 LEVELS = 65535
 
 
-def mesh_json(vertices, triangles):
-    low, high = vertices.min(axis=0), vertices.max(axis=0)
+def mesh_json(vertices, triangles, shapes=None):
+    """Vertices are those of the mesh, or of one frame after the other."""
+    places = vertices if shapes is None else shapes
+    low, high = places.min(axis=0), places.max(axis=0)
     size = np.where(high > low, high - low, 1.0)
-    return {"low": low.tolist(), "size": size.tolist(),
-            "vertices": packed(np.round((vertices - low) / size * LEVELS), "<u2"),
+    return {"low": low.tolist(), "size": size.tolist(), "count": len(vertices),
+            "vertices": packed(np.round((places - low) / size * LEVELS), "<u2"),
             "triangles": packed(triangles, "<u4" if len(vertices) > LEVELS else "<u2"), "wide": len(vertices) > LEVELS}
 
 
@@ -88,7 +90,9 @@ def scene(result, folder):
     meshes, same = [], {}
     for role in sorted(name[:-4] for name in os.listdir(folder) if name.endswith(".off")):
         vertices, triangles = read_off(os.path.join(folder, role + ".off"))
-        meshes.append({"role": role, **mesh_json(vertices, triangles)})
+        shapes = os.path.join(folder, role + ".shapes")
+        places = np.fromfile(shapes, "<f4").reshape(-1, 3).astype(float) if os.path.exists(shapes) else None
+        meshes.append({"role": role, **mesh_json(vertices, triangles, places)})
         # Two bodies of one mesh share what they have in common.
         twin = same.setdefault(meshes[-1]["triangles"], role)
         if twin != role:

@@ -182,10 +182,6 @@ TEST(Instances, BadOnesAreToldWithTheirPlace) {
               HasSubstr("limit"));
   EXPECT_THAT(message_of<Error>([] { shapes_with(R"({"rule":"grid","counts":[1000,1000,2]})"); }),
               HasSubstr("limit"));
-  EXPECT_THAT(message_of<Error>([] {
-                shapes_with(R"({"rule":"random","count":3})", {"/record/polylines/stride_frames=5"});
-              }),
-              HasSubstr("polylines"));
   EXPECT_THAT(
       message_of<Error>([] {
         parse_experiment(

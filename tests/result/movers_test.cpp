@@ -16,7 +16,6 @@
 #include <support/message_of.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -335,18 +334,7 @@ TEST(Movers, ExportAndTheViewHaveThemAll) {
     EXPECT_EQ(static_cast<std::int64_t>(nlohmann::json::parse(line)["lmds"].size()), count[frame]) << frame;
 }
 
-TEST(Movers, WhatDoesNotGoTogetherWithThemNamesThePlace) {
-  const std::vector<std::array<std::string, 2>> refused{
-      {"/loop/kind=closed", "/loop/kind"},
-      {"/driver/kind=realtime", "/driver/kind"},
-      {"/driver/prediction=linear", "/driver/prediction"},
-      {"/record/polylines/stride_frames=10", "/record/polylines/stride_frames"},
-      {"/force/aggregation=shared", "/force/aggregation"},
-      {R"(/moving/deformation={"generator":"breathe","amplitude":0.1})", "/movers/0"}};
-  for (const auto& [override, place] : refused)
-    EXPECT_THAT(message_of<UsageError>([&] { movers_scene({BALL}, {override}); }),
-                AllOf(HasSubstr(place), HasSubstr("remedy")))
-        << override;
+TEST(Movers, WhatDoesNotGoTogetherNamesThePlace) {
   EXPECT_THAT(message_of<UsageError>([&] { prepare(movers_scene({BALL})); }), HasSubstr("/movers/0"));
   EXPECT_THAT(message_of<UsageError>([&] {
                 movers_scene({BALL, R"({"mesh":"ball","path":{"file":"a.tum","turn_rad":1}})"});
@@ -378,7 +366,7 @@ TEST(Movers, OnesThatAreTheSameMeshAreReadOnce) {
   std::vector<MeshNote> notes;
   const Experiment experiment = movers_scene({BLOBS, R"({"mesh":"small-blob","diagonal_m":0.1})"});
   const PreparedRun run = prepare(experiment, {}, Deforming::FOLLOWED);
-  const MoverPlay& play = *run.input.movers;
+  const MoverPlay& play = *run.input.motion.movers;
   ASSERT_EQ(play.count(), 7u);
   std::vector<const Body*> body(7);
   for (std::size_t i = 0; i < 7; ++i) body[play.number[i]] = play.bodies[i].get();

@@ -1,6 +1,5 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include <lmdbench/base/error.h>
 #include <lmdbench/cli/commands.h>
 #include <lmdbench/cli/experiment_argument.h>
 #include <lmdbench/mesh/surface.h>
@@ -29,7 +28,8 @@ std::size_t frame_at(const PreparedRun& prepared, std::optional<double> time) {
     const auto later = std::lower_bound(times.begin(), times.end(), *time);
     return std::min(static_cast<std::size_t>(later - times.begin()), times.size() - 1);
   }
-  const std::vector<bool> in_contact = frames_in_contact(prepared.scene(), prepared.input.poses);
+  const std::vector<bool> in_contact =
+      frames_in_contact(prepared.scene(), prepared.input.motion, prepared.input.poses);
   std::vector<std::size_t> touched;
   for (std::size_t frame = 0; frame < in_contact.size(); ++frame)
     if (in_contact[frame]) touched.push_back(frame);
@@ -46,8 +46,9 @@ void add_anatomy_command(CLI::App& app) {
   };
   auto* command = app.add_subcommand(
       "anatomy",
-      "Print, as JSON, what the parts of the paper's algorithms see at one pose: levels of the hierarchy, a "
-      "node "
+      "Print, as JSON, what the parts of the paper's algorithms see at one pose (of instances and movers: "
+      "the "
+      "nearest pair, in the frame of its second mesh): levels of the hierarchy, a node "
       "pair for each verdict of G1 to G3, neighbourhoods of local tracking, the visibility pre-test");
   const auto options = std::make_shared<Options>();
   add_experiment_argument(*command, options->experiment)->required();
@@ -60,16 +61,19 @@ void add_anatomy_command(CLI::App& app) {
       ->capture_default_str();
   command->callback([options] {
     const Experiment experiment = options->experiment.load();
-    if (experiment.is_world())
-      throw UsageError(options->experiment.file, "/fixed",
-                       "anatomy looks at one fixed mesh, not at instances", "leave \"instances\" out");
-    const PreparedRun prepared = prepare(experiment);
+    const PreparedRun prepared = prepare(experiment, {}, Deforming::FOLLOWED);
     const std::size_t frame = frame_at(prepared, options->time);
-    Scene scene = prepared.scene();  // of the first fixed mesh, in the world frame
-    scene.fixed.front() = std::make_shared<const Body>(scene.fixed.front()->name(),
-                                                       build_surface(placed_mesh(scene.fixed.front())));
-    fmt::print("{}\n",
-               anatomy_json(scene, prepared.input.poses[frame], prepared.times[frame], options->levels));
+    SceneFrames bodies(prepared.scene(), prepared.input.motion);
+    bodies.to_frame(static_cast<std::int64_t>(frame));
+    Scene scene = bodies.scene();
+    Pose pose = prepared.input.poses[frame];
+    if (scene.several_move() || scene.is_world()) {
+      // One pair: the nearest, in the frame of its second mesh.
+      const ObjectPair pair = NearestObjects(bodies.scene()).at(pose).objects;
+      pose = relative_pose(scene.pose(pair.other, pose), scene.pose(pair.mover, pose));
+      scene = pair.scene_of(bodies.scene());
+    }
+    fmt::print("{}\n", anatomy_json(scene, pose, prepared.times[frame], options->levels));
   });
 }
 

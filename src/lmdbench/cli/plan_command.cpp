@@ -6,7 +6,6 @@
 #include <lmdbench/cli/progress_bar.h>
 #include <lmdbench/methods/registry.h>
 #include <lmdbench/run/contact.h>
-#include <lmdbench/run/mover_probe.h>
 #include <lmdbench/run/plan.h>
 #include <lmdbench/run/prepare.h>
 #include <lmdbench/run/scene_look.h>
@@ -53,9 +52,7 @@ void add_plan_command(CLI::App& app) {
         Deforming::FOLLOWED);
     Plan plan = make_plan(experiment);
     const std::vector<bool> in_contact =
-        prepared.input.movers
-            ? frames_in_contact(*prepared.input.movers, prepared.scene().cutoff)
-            : frames_in_contact(prepared.scene(), prepared.input.deformation, prepared.input.poses);
+        frames_in_contact(prepared.scene(), prepared.input.motion, prepared.input.poses);
     plan.scene = look_at(experiment, prepared, in_contact);
     plan.rules = decide_rules({experiment, prepared.input.poses, in_contact});
     plan.scene->times = expected_times(experiment, prepared);

@@ -147,7 +147,9 @@ struct Experiment {
   bool deforms() const {
     return moving.deformation.has_value() ||
            std::any_of(fixed.begin(), fixed.end(),
-                       [](const MeshChoice& choice) { return choice.deformation.has_value(); });
+                       [](const MeshChoice& choice) { return choice.deformation.has_value(); }) ||
+           std::any_of(movers.begin(), movers.end(),
+                       [](const MoverChoice& mover) { return mover.mesh.deformation.has_value(); });
   }
   std::vector<DefaultNote> defaults;  ///< What the file leaves open and no mesh is needed for.
   std::vector<std::string> notes;     ///< What overrides replaced beside their own value.
@@ -174,14 +176,6 @@ void refuse_deformation(const Experiment& experiment);
 
 /// @throws UsageError naming the place, where there are movers beside the moving mesh: for what looks at one mesh that moves
 void refuse_movers(const Experiment& experiment);
-
-/// What does not go together with movers.
-/// @throws UsageError naming the place
-void check_movers(const Experiment& experiment);
-
-/// @throws UsageError naming the profile, where one has another aggregation than sum
-void refuse_all_but_sum(const Experiment& experiment, const std::string& file, const std::string& problem,
-                        const std::string& remedy);
 
 /// The JSON Schema (draft 07) of experiment files: experiments/schema/experiment.schema.json, with the names
 /// and options of the methods of this build.

@@ -165,19 +165,9 @@ const MeshDeformation& first_deformation(const Experiment& experiment) {
   const MeshChoice* deforming = &experiment.moving;
   for (const MeshChoice& choice : experiment.fixed)
     if (!deforming->deformation) deforming = &choice;
+  for (const MoverChoice& mover : experiment.movers)
+    if (!deforming->deformation) deforming = &mover.mesh;
   return *deforming->deformation;
-}
-
-/// What does not go together with meshes that deform.
-void check_deformations(const Experiment& experiment, const std::string& file) {
-  if (!experiment.deforms()) return;
-  const std::string& place = first_deformation(experiment).place;
-  if (experiment.is_world())
-    throw UsageError(file, place, "meshes do not deform in a scene with instances",
-                     "list the fixed meshes without \"instances\", or leave the deformation out");
-  if (experiment.realtime)
-    throw UsageError(file, place, "meshes do not deform under the driver realtime",
-                     "take the driver lockstep (--set /driver/kind=lockstep), or leave the deformation out");
 }
 
 Experiment from_json(Json document, const std::filesystem::path& path) {
@@ -242,9 +232,6 @@ Experiment from_json(Json document, const std::filesystem::path& path) {
         "one thread searches: let the latency be at most search_every_frames");
   if (driver["kind"] == "realtime") {
     experiment.realtime = realtime_choice(driver["realtime"]);
-    refuse_all_but_sum(experiment, file,
-                       "threads of the driver realtime hand each other LMDs, no critical pairs",
-                       "take sum, or the driver lockstep");
     // No second traversal is like the first, and when a search starts its thread decides.
     experiment.driver.repetitions = experiment.driver.search_every_frames = 1;
     experiment.driver.search_latency_frames = 0;
@@ -260,8 +247,6 @@ Experiment from_json(Json document, const std::filesystem::path& path) {
   experiment.record_lmds = document["record"]["lmds"].get<bool>();
   if (experiment.is_world() && experiment.path_file.empty())
     throw UsageError(file, "/path/file", "no path is made among instances", "name a path (paths/README.md)");
-  check_deformations(experiment, file);
-  check_movers(experiment);
   if (experiment.movers.empty()) document.erase("movers");  // as the files from before there were any
   experiment.resolved_json = document.dump(2);
   return experiment;
@@ -285,37 +270,6 @@ void refuse_movers(const Experiment& experiment) {
   throw UsageError(experiment.file.string(), experiment.movers.front().place,
                    "a mesh moves beside the moving one, and this looks at one that moves",
                    "leave movers out; run, plan, compare, report and export know them");
-}
-
-void check_movers(const Experiment& experiment) {
-  if (experiment.movers.empty()) return;
-  const std::string file = experiment.file.string();
-  if (experiment.loop.closed)
-    throw UsageError(file, "/loop/kind",
-                     "a closed loop moves one mesh, and /movers are on paths of their own",
-                     "take an open loop (--set /loop/kind=open), or leave movers out");
-  if (experiment.realtime)
-    throw UsageError(file, "/driver/kind", "the driver realtime moves one mesh",
-                     "take the driver lockstep (--set /driver/kind=lockstep), or leave movers out");
-  if (experiment.driver.predict)
-    throw UsageError(file, "/driver/prediction", "a search is predicted for one mesh that moves",
-                     "set it to none, or leave movers out");
-  if (experiment.deforms())
-    throw UsageError(file, experiment.movers.front().place,
-                     "movers do not go together with meshes that deform",
-                     "leave the deformations out, or movers");
-  refuse_all_but_sum(experiment, file, "forces of several movers are sums", "take sum, or leave movers out");
-}
-
-void refuse_all_but_sum(const Experiment& experiment, const std::string& file, const std::string& problem,
-                        const std::string& remedy) {
-  for (std::size_t i = 0; i < experiment.profiles.size(); ++i) {
-    const ForceChoice& profile = experiment.profiles[i];
-    if (profile.aggregation->name == sum_law().name) continue;
-    throw UsageError(file,
-                     profile.name.empty() ? "/force/aggregation" : fmt::format("/force/{}/aggregation", i),
-                     fmt::format("aggregation \"{}\": {}", profile.aggregation->name, problem), remedy);
-  }
 }
 
 std::optional<double> ForceChoice::cutoff(double moving_diagonal) const {

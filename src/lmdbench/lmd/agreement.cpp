@@ -29,12 +29,11 @@ bool share_a_triangle(const Surface& surface, const FeatureId& a, const FeatureI
 }
 
 bool neighbours(const Lmd& a, const Lmd& b, const Scene& scene) {
-  LMDBENCH_EXPECTS(a.fixed_body >= 0 && static_cast<std::size_t>(a.fixed_body) < scene.fixed.size(),
-                   "a set of another scene");
   if (a.fixed_body != b.fixed_body) return false;
-  const Surface& fixed = scene.fixed.at(static_cast<std::size_t>(a.fixed_body))->surface();
-  return share_a_triangle(scene.moving->surface(), a.feature_moving, b.feature_moving) &&
-         share_a_triangle(fixed, a.feature_fixed, b.feature_fixed);
+  const ObjectPair pair = ObjectPair::of(a.fixed_body, scene);
+  LMDBENCH_EXPECTS(a.fixed_body >= 0 && pair.other < scene.object_count(), "a set of another scene");
+  return share_a_triangle(scene.body(pair.mover)->surface(), a.feature_moving, b.feature_moving) &&
+         share_a_triangle(scene.body(pair.other)->surface(), a.feature_fixed, b.feature_fixed);
 }
 
 std::size_t count_same(const LmdSet& truth, const LmdSet& reported) {

@@ -4,6 +4,7 @@
 #include <lmdbench/lmd/lmd.h>
 
 #include <tuple>
+#include <utility>
 
 namespace lmdbench {
 
@@ -11,6 +12,15 @@ bool lmd_less(const Lmd& a, const Lmd& b) {
   return std::tie(a.distance, a.fixed_body, a.feature_moving, a.feature_fixed, a.triangle_moving,
                   a.triangle_fixed) < std::tie(b.distance, b.fixed_body, b.feature_moving, b.feature_fixed,
                                                b.triangle_moving, b.triangle_fixed);
+}
+
+Lmd turned_round(const Lmd& lmd) {
+  Lmd turned = lmd;
+  std::swap(turned.point_moving, turned.point_fixed);
+  std::swap(turned.feature_moving, turned.feature_fixed);
+  std::swap(turned.triangle_moving, turned.triangle_fixed);
+  turned.direction = -lmd.direction;
+  return turned;
 }
 
 bool same_feature_pair(const Lmd& a, const Lmd& b) {

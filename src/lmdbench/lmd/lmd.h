@@ -36,6 +36,9 @@ using LmdSet = std::vector<Lmd>;
 /// depends on the scene alone.
 bool lmd_less(const Lmd& a, const Lmd& b);
 
+/// The LMD with its meshes exchanged; `fixed_body` stays.
+Lmd turned_round(const Lmd& lmd);
+
 /// Same fixed body and same feature pair.
 bool same_feature_pair(const Lmd& a, const Lmd& b);
 

@@ -9,7 +9,7 @@ namespace lmdbench {
 
 RemadeMethod::RemadeMethod(const Scene& scene, Make make)
     : scene_(scene), bodies_{scene.moving}, make_(std::move(make)), method_(make_(scene_)) {
-  for (const FixedBody& fixed : scene.fixed) bodies_.push_back(fixed.body);
+  for (std::size_t i = 0; i < scene.object_count(); ++i) bodies_.push_back(scene.body(i));
   std::ranges::sort(bodies_);
   bodies_.erase(std::unique(bodies_.begin(), bodies_.end()), bodies_.end());
   deformations_ = deformations();

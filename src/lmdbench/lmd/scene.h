@@ -6,6 +6,8 @@
 #include <lmdbench/lmd/body.h>
 
 #include <algorithm>
+#include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <utility>
 #include <vector>
@@ -31,17 +33,56 @@ struct FixedBody {
   }
 };
 
-/// What a method works on: one moving body and the fixed ones.
+/// What a method works on: one moving body and the fixed ones, and what else moves. Its objects are numbered: what moves first, then what
+/// stands.
 struct Scene {
   std::shared_ptr<const Body> moving;
   std::vector<FixedBody> fixed;
   double cutoff = 0.0;  ///< Distance beyond which a pair exerts no force [m]; G1's limit.
+  /// Where several bodies move: all of them, `moving` at its place `held` among them, in an order that the scene alone decides: of a pair
+  /// the earlier one takes the moving mesh's part. Else empty.
+  std::vector<std::shared_ptr<const Body>> movers = {};
+  std::size_t held = 0;
+  /// X_WM of each of them at present, but for that of `moving`, which is what a question is asked with.
+  std::shared_ptr<const std::vector<Pose>> mover_poses = nullptr;
+
+  bool several_move() const { return !movers.empty(); }
+  std::size_t mover_count() const { return movers.empty() ? 1 : movers.size(); }
+  std::size_t object_count() const { return mover_count() + fixed.size(); }
+  bool is_mover(std::size_t object) const { return object < mover_count(); }
+  const std::shared_ptr<const Body>& body(std::size_t object) const {
+    if (!is_mover(object)) return fixed[object - mover_count()].body;
+    return object == held ? moving : movers[object];
+  }
+  /// X_WB of an object.
+  const Pose& pose(std::size_t object, const Pose& X_WM) const {
+    if (!is_mover(object)) return fixed[object - mover_count()].X_WF;
+    return object == held ? X_WM : (*mover_poses)[object];
+  }
 
   /// Whether some fixed mesh is not in the world frame: then poses are composed for each of them (world/world_method.h), and
   /// whoever reads vertices has to place them.
   bool is_world() const {
     return std::any_of(fixed.begin(), fixed.end(), [](const FixedBody& body) { return body.is_placed(); });
   }
+};
+
+/// Two objects of a scene, of which the first one moves and has the lower number.
+struct ObjectPair {
+  std::uint32_t mover = 0, other = 0;
+
+  /// `Lmd::fixed_body` of their LMDs: another number for each pair; where one mesh moves, which of the fixed ones.
+  std::int32_t number(const Scene& scene) const {
+    return static_cast<std::int32_t>(scene.several_move() ? mover * scene.object_count() + other : other - 1);
+  }
+  static ObjectPair of(std::int32_t number, const Scene& scene) {
+    if (!scene.several_move()) return {0, static_cast<std::uint32_t>(number) + 1};
+    const auto all = static_cast<std::size_t>(number);
+    return {static_cast<std::uint32_t>(all / scene.object_count()),
+            static_cast<std::uint32_t>(all % scene.object_count())};
+  }
+  /// The two alone, to be looked at in the frame of the second.
+  Scene scene_of(const Scene& scene) const { return {scene.body(mover), {scene.body(other)}, scene.cutoff}; }
 };
 
 }  // namespace lmdbench

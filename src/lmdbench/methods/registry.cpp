@@ -42,20 +42,24 @@ struct LargestFan {
 
 /// Where two hubs meet, every method looks at all pairs of their triangles.
 void refuse_two_hubs(const Scene& scene) {
-  const auto& moving = scene.moving->prepared<LargestFan>();
-  const Body* last = nullptr;
-  for (const FixedBody& body : scene.fixed) {
-    if (body.body.get() == last) continue;  // another instance
-    last = body.body.get();
-    const auto& fixed = body->prepared<LargestFan>();
-    if (moving.triangles * fixed.triangles <= limit_of(Limit::VERTEX_PAIRS)) continue;
-    throw InputError(
-        scene.moving->name(), fmt::format("vertex {}", moving.vertex),
-        fmt::format(
-            "is in {} triangles, and vertex {} of {} in {}: {} pairs where they meet, above the limit of {}",
-            moving.triangles, fixed.vertex, body->name(), fixed.triangles, moving.triangles * fixed.triangles,
-            limit_of(Limit::VERTEX_PAIRS)),
-        "make grids of the fans, or " + raise_remedy(Limit::VERTEX_PAIRS));
+  const Body *of_mover = nullptr, *last = nullptr;
+  for (std::size_t mover = 0; mover < scene.mover_count(); ++mover) {
+    const Body& one = *scene.body(mover);
+    if (&one == std::exchange(of_mover, &one)) continue;  // another instance, as below
+    const auto& moving = one.prepared<LargestFan>();
+    for (std::size_t other = mover + 1; other < scene.object_count(); ++other) {
+      const Body& body = *scene.body(other);
+      if (&body == std::exchange(last, &body)) continue;
+      const auto& fixed = body.prepared<LargestFan>();
+      if (moving.triangles * fixed.triangles <= limit_of(Limit::VERTEX_PAIRS)) continue;
+      throw InputError(one.name(), fmt::format("vertex {}", moving.vertex),
+                       fmt::format("is in {} triangles, and vertex {} of {} in {}: {} pairs where they meet, "
+                                   "above the limit of {}",
+                                   moving.triangles, fixed.vertex, body.name(), fixed.triangles,
+                                   moving.triangles * fixed.triangles, limit_of(Limit::VERTEX_PAIRS)),
+                       "make grids of the fans, or " + raise_remedy(Limit::VERTEX_PAIRS));
+    }
+    last = nullptr;
   }
 }
 
@@ -103,7 +107,8 @@ std::unique_ptr<Method> make_method(std::string_view name, const Scene& scene, c
                          [&](const Scene& near) { return description.make(near, complete); });
   };
   // Among instances, or in a near frame, it would not see the bodies themselves.
-  if (description.follows_deformation && !scene.is_world() && !NearFrame(scene).differs()) return make(scene);
+  const bool sees_bodies = !scene.several_move() && !scene.is_world() && !NearFrame(scene).differs();
+  if (description.follows_deformation && sees_bodies) return make(scene);
   return std::make_unique<RemadeMethod>(scene, make);
 }
 

@@ -67,8 +67,6 @@ StepNumbers count_steps(const MethodRecord& record, ForceLaw law, const std::vec
   }
   const auto index = static_cast<std::size_t>(law);
   const double maximum_force = run.profiles.front().force.maximum_force;
-  ForceProfile profile = truth_run.profiles.front().force;
-  profile.law = law;
   RootMeanSquare magnitude, torque;
   std::vector<double> angle, distance, force, true_force, count, true_count;
   for (std::size_t i = 0; i < truth.size(); ++i) {
@@ -87,9 +85,7 @@ StepNumbers count_steps(const MethodRecord& record, ForceLaw law, const std::vec
     if (!(minimum_distance(here.lmds) == 0.0)) {  // touching triangles have no direction, so no true force
       magnitude.add(now.force.norm() - true_length);
       angle.push_back(rows[i].force_angle_error);
-      const Vec3 reference_W =
-          RigidTransform(truth_run.input.poses[frame]).point(truth_run.input.reference_M);
-      torque.add((now.torque - sum_forces(here.lmds, profile, reference_W).torque).norm());
+      torque.add((now.torque - here.torque[index]).norm());
     }
     if (i + 1 >= truth.size()) continue;  // the step from the last frame has no true end here
     const FrameRecord& next = record.frames[frame + 1];

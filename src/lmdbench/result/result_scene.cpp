@@ -147,8 +147,7 @@ void check_vertex_files(const std::vector<MeshNote>& notes, const ResultReader& 
 }
 
 /// Movers with the poses that the result has of them.
-std::shared_ptr<const MoverPlay> recorded_play(const LoadedMovers& loaded, const Scene& scene,
-                                               const ResultReader& result) {
+std::shared_ptr<const MoverPlay> recorded_play(const LoadedMovers& loaded, const ResultReader& result) {
   if (loaded.movers.empty()) return nullptr;
   const std::vector<double> p = result.reals("/path/movers/position");
   const std::vector<double> q = result.reals("/path/movers/orientation");
@@ -164,20 +163,21 @@ std::shared_ptr<const MoverPlay> recorded_play(const LoadedMovers& loaded, const
     names.push_back(mover.name);
   }
   for (std::size_t i = 0; i < rows; ++i) poses[i % movers].push_back(recorded_pose(p, q, i));
-  return std::make_shared<const MoverPlay>(make_play(bodies, names, scene.fixed, poses));
+  return std::make_shared<const MoverPlay>(make_play(bodies, names, poses));
 }
 
 ResultScene scene_of_experiment(const Experiment& experiment, const ResultReader& result) {
   std::vector<MeshNote> notes;
   Scene scene = load_scene(experiment, notes);
+  const LoadedMovers movers = load_movers(experiment, scene, notes);
   check_vertex_files(notes, result);
   scene.cutoff = result.real_attribute("/scene", "cutoff_m").value();
   for (const std::string& label : result.groups("/methods"))
     scene.cutoff =
         std::max(scene.cutoff, result.real_attribute("/methods/" + label, "cutoff_m").value_or(0.0));
   const auto frames = static_cast<std::int64_t>(result.reals("/path/time").size());
-  const auto deformation = deformation_of(scene, notes, frames);
-  return {scene, deformation, recorded_play(load_movers(experiment, scene, notes), scene, result)};
+  const SceneMotion motion{recorded_play(movers, result), deformation_of(notes, frames)};
+  return {motion.movers ? motion.movers->with_movers(scene) : scene, motion};
 }
 
 }  // namespace
@@ -235,12 +235,6 @@ std::vector<std::size_t> drawn_bodies(const Scene& scene, const std::vector<Resu
 
 std::unique_ptr<Method> exact_method(const Scene& scene) {
   return make_method(exact_description().name, scene);
-}
-
-std::unique_ptr<Method> exact_method(const MoverScene& scene,
-                                     std::shared_ptr<const std::vector<Pose>> poses) {
-  const MethodDescription& exact = exact_description();
-  return make_among_movers(scene, std::move(poses), exact, method_maker(exact.name));
 }
 
 }  // namespace lmdbench

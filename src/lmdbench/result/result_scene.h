@@ -6,8 +6,7 @@
 #include <lmdbench/lmd/scene.h>
 #include <lmdbench/motion/path.h>
 #include <lmdbench/result_file/result_reader.h>
-#include <lmdbench/run/mover_play.h>
-#include <lmdbench/run/scene_deformation.h>
+#include <lmdbench/run/scene_frames.h>
 
 #include <cstddef>
 #include <memory>
@@ -20,9 +19,7 @@ namespace lmdbench {
 /// The meshes of a result as they stood in the scene, under the largest cutoff of its methods.
 struct ResultScene {
   Scene rest;
-  std::shared_ptr<const SceneDeformation> deformation;  ///< How its bodies deform; null where none does.
-  std::shared_ptr<const MoverPlay> movers =
-      nullptr;  ///< Where several meshes move: with the poses that the result has.
+  SceneMotion motion;  ///< Movers with the poses that the result has.
 };
 /// The run's files are looked for from the working folder, beside the result file and from the folder of the run, and taken only with the
 /// bytes that were run.
@@ -48,8 +45,6 @@ inline constexpr std::size_t MOST_DRAWN = 24;
 /// come nearest to the tracks.
 std::vector<std::size_t> drawn_bodies(const Scene& scene, const std::vector<ResultTrack>& tracks);
 
-/// The same of several movers, whose poses the caller sets.
-std::unique_ptr<Method> exact_method(const MoverScene& scene, std::shared_ptr<const std::vector<Pose>> poses);
 
 /// The method whose sets are the truth at a price that every frame can pay.
 std::unique_ptr<Method> exact_method(const Scene& scene);

@@ -132,7 +132,7 @@ void write_searches(ResultWriter& writer, const std::string& group, const Method
 
 /// @param play of several movers; else null
 void write_lmd_lists(ResultWriter& writer, const std::string& group, const MethodRecord& record,
-                     const MoverPlay* play) {
+                     const Scene& scene, const MoverPlay* play) {
   std::vector<std::int64_t> offsets{0}, moving_bodies;
   LmdSet rows;
   for (std::int64_t frame = 0; frame < static_cast<std::int64_t>(record.frames.size()); ++frame) {
@@ -142,7 +142,7 @@ void write_lmd_lists(ResultWriter& writer, const std::string& group, const Metho
   }
   if (play != nullptr) {
     for (Lmd& lmd : rows) {
-      const FiledLmd filed = as_filed(lmd, *play);
+      const FiledLmd filed = as_filed(lmd, scene, play);
       lmd = filed.lmd;
       moving_bodies.push_back(filed.moving_body);
     }
@@ -243,9 +243,9 @@ void write_method(ResultWriter& writer, const Experiment& experiment, const RunR
   const PreparedProfile& profile = result.prepared.profiles[track.profile];
   writer.attribute(group, "profile", profile.name);
   write_profile(writer, group, profile, result.prepared.input.device);
-  const MoverPlay* movers = result.prepared.input.movers.get();
+  const MoverPlay* movers = result.prepared.input.motion.movers.get();
   write_frames(writer, group, choice, record, experiment);
-  if (movers != nullptr && experiment.record_frames)
+  if (!record.movers.empty() && experiment.record_frames)
     write_mover_frames(writer, group, record, movers->count(), experiment.record_torque);
   if (method.tracks_locally) write_searches(writer, group, method, record, experiment);
   write_findings_of_method(writer, group, result, index);
@@ -258,7 +258,7 @@ void write_method(ResultWriter& writer, const Experiment& experiment, const RunR
     write_in_contact(writer, experiment.loop.closed ? group + "/loop" : group, track.in_contact);
     write_findings(writer, group, experiment, track);
   }
-  if (experiment.record_lmds) write_lmd_lists(writer, group + "/lmds", record, movers);
+  if (experiment.record_lmds) write_lmd_lists(writer, group + "/lmds", record, profile.scene, movers);
 }
 
 }  // namespace
@@ -268,7 +268,7 @@ void write_path(ResultWriter& writer, const RunResult& result) {
   writer.write({"/path/time", "s", "time of the haptic frame"}, std::span<const double>(prepared.times),
                {prepared.times.size()});
   write_poses(writer, "/path", prepared.input.poses);
-  if (prepared.input.movers) write_mover_poses(writer, *prepared.input.movers);
+  if (prepared.input.motion.movers) write_mover_poses(writer, *prepared.input.motion.movers);
 }
 
 void write_result(ResultWriter& writer, const Experiment& experiment, const RunResult& result) {

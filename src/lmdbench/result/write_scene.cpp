@@ -90,7 +90,7 @@ void write_scene(ResultWriter& writer, const RunResult& result) {
       writer.attribute(group, "movers", mesh.movers);
     }
     if (mesh.vertices)
-      write_deformation(writer, group, mesh, *prepared.input.deformation->find(mesh.body_index()));
+      write_deformation(writer, group, mesh, *prepared.input.motion.deformation->find(mesh.body.get()));
   }
   writer.attribute("/scene", "starts_touching", std::int64_t{prepared.starts_touching});
   writer.write({"/scene/warnings", "1", "what a reader of this result must know"}, result.warnings);

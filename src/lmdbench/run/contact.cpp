@@ -12,10 +12,10 @@
 
 namespace lmdbench {
 
-DeformingDistance::DeformingDistance(const Scene& rest, std::shared_ptr<const SceneDeformation> deformation)
-    : bodies_(rest, deformation),
-      deformation_(std::move(deformation)),
-      motion_(rest.moving->surface().mesh, deformation_->farthest(0)) {}
+DeformingDistance::DeformingDistance(const Scene& rest, const SceneMotion& motion)
+    : bodies_(rest, motion),
+      deformation_(motion.deformation),
+      motion_(rest.moving->surface().mesh, deformation_->farthest(rest.moving.get())) {}
 
 double DeformingDistance::look(std::int64_t frame, const Pose& X_WM) {
   bodies_.to_frame(frame);
@@ -33,13 +33,30 @@ DeformingDistance::Interval DeformingDistance::known(std::int64_t frame, const P
           distance_ * (1.0 + MotionBound::ROUNDING) + change};
 }
 
-std::vector<bool> frames_in_contact(const Scene& rest,
-                                    const std::shared_ptr<const SceneDeformation>& deformation,
+namespace {
+
+/// Whether frames tell of each other's distance.
+bool is_one_deforming_pair(const Scene& rest, const SceneMotion& motion) {
+  return motion.deformation && !motion.movers && !rest.is_world();
+}
+
+}  // namespace
+
+std::vector<bool> frames_in_contact(const Scene& rest, const SceneMotion& motion,
                                     const std::vector<Pose>& poses, bool forecast) {
-  if (!deformation) return frames_in_contact(rest, poses, forecast);
-  DeformingDistance distance(rest, deformation);
+  if (!motion.is_any()) return frames_in_contact(rest, poses, forecast);
   std::vector<bool> in_contact;
   in_contact.reserve(poses.size());
+  if (!is_one_deforming_pair(rest, motion)) {
+    SceneFrames frames(rest, motion);
+    NearestObjects nearest(frames.scene());
+    for (const Pose& X_WM : poses) {
+      frames.to_frame(static_cast<std::int64_t>(in_contact.size()));
+      in_contact.push_back(nearest.any_within(X_WM, rest.cutoff));
+    }
+    return in_contact;
+  }
+  DeformingDistance distance(rest, motion);
   for (std::size_t i = 0; i < poses.size(); ++i) {
     const auto frame = static_cast<std::int64_t>(i);
     const DeformingDistance::Interval known =
@@ -120,6 +137,51 @@ class DistanceScan {
 };
 
 }  // namespace
+
+NearestObjects::Nearest NearestObjects::at(const Pose& X_WM, double bound) {
+  Nearest nearest;
+  double least = bound;
+  for (const auto& [at_least, objects] : near_.within(bound, X_WM)) {
+    if (at_least > least) break;
+    const Body &mover = *scene_.body(objects.mover), &other = *scene_.body(objects.other);
+    const NearestPair pair = nearest_pair(
+        mover.surface(), mover.prepared<Hierarchy>(), other.surface(), other.prepared<Hierarchy>(),
+        relative_pose(scene_.pose(objects.other, X_WM), scene_.pose(objects.mover, X_WM)), least);
+    if (pair.triangle_moving < 0 || !(pair.distance < nearest.distance)) continue;
+    nearest = {pair.distance, objects, pair.triangle_moving, pair.triangle_fixed};
+    least = pair.distance;
+  }
+  return nearest;
+}
+
+bool NearestObjects::any_within(const Pose& X_WM, double distance) {
+  return std::ranges::any_of(near_.within(distance, X_WM), [&](const NearPairs::Pair& pair) {
+    const Body &mover = *scene_.body(pair.objects.mover), &other = *scene_.body(pair.objects.other);
+    return within_distance(
+        mover.surface(), mover.prepared<Hierarchy>(), other.surface(), other.prepared<Hierarchy>(),
+        relative_pose(scene_.pose(pair.objects.other, X_WM), scene_.pose(pair.objects.mover, X_WM)),
+        distance);
+  });
+}
+
+SceneDistance::SceneDistance(const Scene& rest, const SceneMotion& motion) : frames_(rest, motion) {
+  if (is_one_deforming_pair(rest, motion))
+    deforming_.emplace(rest, motion);
+  else if (motion.is_any())
+    objects_.emplace(frames_.scene());
+  else if (rest.is_world())
+    phase_.emplace(rest);
+}
+
+double SceneDistance::at(std::int64_t frame, const Pose& X_WM, double bound) {
+  if (deforming_)
+    return deforming_->known(frame, X_WM).least >= bound ? std::numeric_limits<double>::infinity()
+                                                         : deforming_->look(frame, X_WM);
+  frames_.to_frame(frame);
+  if (objects_) return objects_->at(X_WM, bound).distance;
+  if (phase_) return nearest_instance(frames_.scene(), *phase_, X_WM, bound).distance;
+  return nearest_distance(frames_.scene(), X_WM, bound);
+}
 
 double nearest_distance(const Scene& scene, const Pose& X_WM, double bound) {
   double least = std::numeric_limits<double>::infinity();

@@ -5,7 +5,9 @@
 #include <lmdbench/geometry/pose.h>
 #include <lmdbench/lmd/scene.h>
 #include <lmdbench/mesh/triangle_mesh.h>
-#include <lmdbench/run/scene_deformation.h>
+#include <lmdbench/run/scene_frames.h>
+#include <lmdbench/world/broad_phase.h>
+#include <lmdbench/world/mover_method.h>
 
 #include <algorithm>
 #include <cstdint>
@@ -47,7 +49,8 @@ class MotionBound {
 /// bounds on motion and deformation since.
 class DeformingDistance {
  public:
-  DeformingDistance(const Scene& rest, std::shared_ptr<const SceneDeformation> deformation);
+  /// @pre one mesh moves, past others that are not placed
+  DeformingDistance(const Scene& rest, const SceneMotion& motion);
 
   /// The distance, however far; 0 where triangles touch or intersect [m].
   double look(std::int64_t frame, const Pose& X_WM);
@@ -59,7 +62,7 @@ class DeformingDistance {
   Interval known(std::int64_t frame, const Pose& X_WM) const;
 
  private:
-  DeformingScene bodies_;
+  SceneFrames bodies_;
   std::shared_ptr<const SceneDeformation> deformation_;
   MotionBound motion_;  ///< Of the moving mesh in all of its shapes.
   std::optional<Pose> looked_at_;
@@ -69,9 +72,47 @@ class DeformingDistance {
 
 /// As contact.h, each frame at the shape that it has.
 /// @param forecast  whether frames whose contact is known are left out of the search: the answer is the same
-std::vector<bool> frames_in_contact(const Scene& rest,
-                                    const std::shared_ptr<const SceneDeformation>& deformation,
+std::vector<bool> frames_in_contact(const Scene& rest, const SceneMotion& motion,
                                     const std::vector<Pose>& poses, bool forecast = true);
+
+/// Exact distances of the nearest two objects of a scene, of which one moves. Looks at every pair whose spheres are near enough.
+class NearestObjects {
+ public:
+  struct Nearest {
+    double distance = std::numeric_limits<double>::infinity();  ///< [m]; 0 where meshes touch or intersect.
+    ObjectPair objects;
+    std::int32_t triangle_moving = -1;  ///< -1: no pair within the bound.
+    std::int32_t triangle_fixed = -1;
+  };
+
+  /// @param scene must outlive this
+  explicit NearestObjects(const Scene& scene) : scene_(scene), near_(scene) {}
+
+  /// Of equal distances that of the pair whose spheres are nearer.
+  /// @param bound distances above this are not looked for [m]
+  Nearest at(const Pose& X_WM, double bound = std::numeric_limits<double>::infinity());
+  /// Whether any two are that near.
+  bool any_within(const Pose& X_WM, double distance);
+
+ private:
+  const Scene& scene_;
+  NearPairs near_;
+};
+
+/// Exact minimum distance of a scene of any kind, in its frames one after the other.
+class SceneDistance {
+ public:
+  SceneDistance(const Scene& rest, const SceneMotion& motion);
+
+  /// @param bound distances that are known to be above this are not looked for: infinity [m]
+  double at(std::int64_t frame, const Pose& X_WM, double bound = std::numeric_limits<double>::infinity());
+
+ private:
+  SceneFrames frames_;
+  std::optional<DeformingDistance> deforming_;
+  std::optional<BroadPhase> phase_;
+  std::optional<NearestObjects> objects_;
+};
 
 /// "In contact", the one definition: at each pose, whether the meshes are within the cutoff of each other, so
 /// that there is something to feel. A fact of the scene and the path alone: statistics over the frames in

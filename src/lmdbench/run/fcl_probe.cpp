@@ -3,10 +3,11 @@
 #include <lmdbench/base/build_info.h>
 #include <lmdbench/crosscheck/fcl_crosscheck.h>
 #include <lmdbench/experiment/rules.h>
+#include <lmdbench/run/contact.h>
 #include <lmdbench/run/fcl_probe.h>
-#include <lmdbench/run/mover_probe.h>
 #include <lmdbench/run/nearest_judge.h>
-#include <lmdbench/run/nearest_opinions.h>
+#include <lmdbench/snch/minimum_distance.h>
+#include <lmdbench/world/broad_phase.h>
 
 #include <fmt/format.h>
 
@@ -22,6 +23,119 @@
 
 namespace lmdbench {
 namespace {
+
+/// FCL's nearest pair: of instances one after the other, nearest boxes first, of movers pair by pair, nearest spheres first, each at the
+/// relative pose that methods see.
+class FclMinimum {
+ public:
+  explicit FclMinimum(const Scene& scene) : scene_(scene), near_(scene) {
+    if (scene.several_move()) return;
+    if (scene.is_world()) {
+      phase_.emplace(scene);
+      return;
+    }
+    std::vector<const Surface*> fixed;
+    for (const auto& body : scene.fixed) fixed.push_back(&body->surface());
+    all_.emplace(scene.moving->surface(), fixed);
+  }
+
+  FclResult at(const Pose& X_WM) {
+    if (all_) return all_->distance(X_WM);
+    FclResult best;
+    // Of equally near ones the first by its number, or whose spheres are nearer.
+    const auto look = [&](const ObjectPair& pair, bool by_number) {
+      const FclResult found = distance_of(pair, X_WM);
+      const std::int32_t number = pair.number(scene_);
+      const bool is_tie = best.fixed_body >= 0 && found.distance == best.distance;
+      if (best.fixed_body >= 0 && !(found.distance < best.distance) &&
+          !(by_number && is_tie && number < best.fixed_body))
+        return;
+      best = found;
+      best.fixed_body = number;
+    };
+    if (phase_) {
+      phase_->by_distance(X_WM, [&](std::uint32_t instance, double bound) {
+        if (best.fixed_body >= 0 && bound > best.distance) return false;
+        look({0, instance + 1}, true);
+        return true;
+      });
+      return best;
+    }
+    for (const auto& [at_least, objects] : near_.within(std::numeric_limits<double>::infinity(), X_WM)) {
+      if (best.fixed_body >= 0 && at_least > best.distance) break;
+      look(objects, false);
+    }
+    return best;
+  }
+
+ private:
+  FclResult distance_of(const ObjectPair& pair, const Pose& X_WM) {
+    const std::pair key(scene_.body(pair.mover).get(), scene_.body(pair.other).get());
+    auto check = checks_.find(key);
+    if (check == checks_.end())
+      check =
+          checks_.try_emplace(key, key.first->surface(), std::vector<const Surface*>{&key.second->surface()})
+              .first;
+    return check->second.distance(
+        relative_pose(scene_.pose(pair.other, X_WM), scene_.pose(pair.mover, X_WM)));
+  }
+
+  const Scene& scene_;
+  std::optional<FclCrosscheck> all_;  ///< Of fixed meshes that are not placed.
+  std::optional<BroadPhase> phase_;   ///< Of instances.
+  NearPairs near_;                    ///< Of movers.
+  std::map<std::pair<const Body*, const Body*>, FclCrosscheck> checks_;
+};
+
+/// Exact nearest pair of any two objects, frame after frame.
+class ExactMinimum {
+ public:
+  /// @param warm  whether a search begins with the last one's triangles
+  /// @param moves whether anything but the moving mesh does
+  ExactMinimum(const Scene& scene, bool warm, bool moves) : scene_(scene), warm_(warm) {
+    if (scene.several_move() || (scene.is_world() && moves))
+      objects_.emplace(scene);
+    else if (scene.is_world())
+      phase_.emplace(scene);
+    else
+      start();
+  }
+
+  NearestObjects::Nearest at(const Pose& X_WM) {
+    if (objects_) return objects_->at(X_WM);
+    NearestObjects::Nearest nearest;
+    const auto is_of = [&](std::size_t fixed) {
+      return ObjectPair{0, static_cast<std::uint32_t>(fixed) + 1};
+    };
+    if (phase_) {
+      const NearestInstance found = nearest_instance(scene_, *phase_, X_WM);
+      nearest = {found.distance, {}, found.triangle_moving, found.triangle_fixed};
+      if (found.instance >= 0) nearest.objects = is_of(static_cast<std::size_t>(found.instance));
+      return nearest;
+    }
+    if (!warm_) start();
+    for (std::size_t i = 0; i < trackers_.size(); ++i) {
+      const NearestPair pair = trackers_[i].nearest(X_WM);
+      if (pair.triangle_moving >= 0 && pair.distance < nearest.distance)
+        nearest = {pair.distance, is_of(i), pair.triangle_moving, pair.triangle_fixed};
+    }
+    return nearest;
+  }
+
+ private:
+  void start() {
+    trackers_.clear();
+    for (const auto& fixed : scene_.fixed)
+      trackers_.emplace_back(scene_.moving->surface(), scene_.moving->prepared<Hierarchy>(), fixed->surface(),
+                             fixed->prepared<Hierarchy>());
+  }
+
+  const Scene& scene_;
+  bool warm_;
+  std::optional<NearestObjects> objects_;
+  std::optional<BroadPhase> phase_;  ///< Of instances at rest.
+  std::vector<NearestTracker> trackers_;
+};
 
 /// What is known of a frame.
 struct FclAnswers {
@@ -83,28 +197,47 @@ void sort_exceptions(FclCheck& check) {
             });
 }
 
+/// Names the bodies of an exception of several movers as files do.
+void file_exception(FclException& exception, const Scene& scene, const Pose& X_WM, const MoverPlay& play) {
+  Lmd pair;
+  pair.fixed_body = exception.fixed_body;
+  pair.triangle_moving = exception.triangle_moving;
+  pair.triangle_fixed = exception.triangle_fixed;
+  const FiledLmd filed = as_filed(pair, scene, &play);
+  exception.fixed_body = filed.lmd.fixed_body;
+  exception.triangle_moving = filed.lmd.triangle_moving;
+  exception.triangle_fixed = filed.lmd.triangle_fixed;
+  exception.moving_body = filed.moving_body;
+  const auto mover = std::ranges::find(play.number, static_cast<std::size_t>(filed.moving_body));
+  exception.pose = filed.moving_body == 0 ? X_WM
+                                          : play.poses[static_cast<std::size_t>(exception.frame)]
+                                                      [static_cast<std::size_t>(mover - play.number.begin())];
+}
+
 }  // namespace
 
 std::unique_ptr<FclCheck> probe_fcl(const Scene& scene, const LockstepInput& input,
                                     const std::vector<LockstepMethod>& methods,
                                     const std::vector<std::int64_t>& frames, double tolerance_relative,
                                     const Progress& progress, const ProbeShortcuts& shortcuts) {
-  DeformingScene bodies(scene, input.deformation);
+  SceneFrames bodies(scene, input.motion);
   std::vector<std::unique_ptr<Method>> instances;
   for (const LockstepMethod& method : methods) instances.push_back(method.make_for(bodies));
 
   // Where meshes deform FCL's models are built anew in each frame: its refit from the leaves up gives wrong distances for RSS and
   // OBBRSS, since RSS::operator+ takes one axis of the sum from an operand, so that its frame is not orthonormal (FCL 0.7.0).
   std::optional<FclMinimum> fcl;
-  ExactMinimum exact(bodies.scene(), shortcuts.warm && !bodies.deforms());
+  ExactMinimum exact(bodies.scene(), shortcuts.warm && !bodies.deforms(), bodies.is_any());
   auto made = std::make_unique<FclCheck>();
   FclCheck& check = *made;
+  const MoverPlay* play = input.motion.movers.get();
+  check.several_move = play != nullptr;
   WorkCounters ignored;
   LmdSet lmds;
   std::size_t noted = 0;  // exceptions before those of the last frame
   for (const std::int64_t frame : frames) {
     const Pose& X_WM = input.poses[static_cast<std::size_t>(frame)];
-    if (shortcuts.reuse_repeated && !bodies.deforms() && !check.frames.empty() &&
+    if (shortcuts.reuse_repeated && !bodies.is_any() && !check.frames.empty() &&
         same_pose(input.poses[static_cast<std::size_t>(check.frames.back().frame)], X_WM)) {
       check.frames.push_back(check.frames.back());
       check.frames.back().frame = frame;
@@ -122,20 +255,22 @@ std::unique_ptr<FclCheck> probe_fcl(const Scene& scene, const LockstepInput& inp
     bodies.to_frame(frame);
     if (!fcl || bodies.deforms()) fcl.emplace(bodies.scene());
     const FclResult theirs = fcl->at(X_WM);
-    const NearestInstance ours = exact.at(X_WM);
-    const auto named = [&](std::int32_t fixed_body, std::int32_t triangle_moving,
+    const NearestObjects::Nearest ours = exact.at(X_WM);
+    const auto named = [&](const ObjectPair& pair, std::int32_t triangle_moving,
                            std::int32_t triangle_fixed) {
-      const FixedBody& fixed = bodies.scene().fixed[static_cast<std::size_t>(std::max(fixed_body, 0))];
-      const Pose X_FM = fixed.is_placed() ? relative_pose(fixed.X_WF, X_WM) : X_WM;
-      return NamedTriangles{*bodies.scene().moving, *fixed, X_FM, triangle_moving, triangle_fixed};
+      const Scene& now = bodies.scene();
+      return NamedTriangles{*now.body(pair.mover), *now.body(pair.other),
+                            relative_pose(now.pose(pair.other, X_WM), now.pose(pair.mover, X_WM)),
+                            triangle_moving, triangle_fixed};
     };
+    const ObjectPair of_fcl = ObjectPair::of(theirs.fixed_body, bodies.scene());
     add_fcl_frame(check,
                   {frame,
                    X_WM,
                    theirs,
                    ours.distance,
-                   {named(theirs.fixed_body, theirs.triangle_moving, theirs.triangle_fixed),
-                    named(ours.instance, ours.triangle_moving, ours.triangle_fixed)},
+                   {named(of_fcl, theirs.triangle_moving, theirs.triangle_fixed),
+                    named(ours.objects, ours.triangle_moving, ours.triangle_fixed)},
                    scene.cutoff,
                    tolerance_relative},
                   instances, methods, [&](std::size_t i) -> const LmdSet& {
@@ -146,86 +281,20 @@ std::unique_ptr<FclCheck> probe_fcl(const Scene& scene, const LockstepInput& inp
     tell_progress(progress, check.frames.size(), frames.size());
   }
   sort_exceptions(check);
+  if (play != nullptr)
+    for (FclException& exception : check.exceptions)
+      file_exception(exception, scene, input.poses[static_cast<std::size_t>(exception.frame)], *play);
   return made;
 }
 
 namespace {
 
-/// Names the bodies of an exception of several movers as files do.
-void file_exception(FclException& exception, const MoverPlay& play) {
-  Lmd pair;
-  pair.fixed_body = exception.fixed_body;
-  pair.triangle_moving = exception.triangle_moving;
-  pair.triangle_fixed = exception.triangle_fixed;
-  const FiledLmd filed = as_filed(pair, play);
-  exception.fixed_body = filed.lmd.fixed_body;
-  exception.triangle_moving = filed.lmd.triangle_moving;
-  exception.triangle_fixed = filed.lmd.triangle_fixed;
-  exception.moving_body = filed.moving_body;
-  const auto mover = std::ranges::find(play.number, static_cast<std::size_t>(filed.moving_body));
-  exception.pose = play.poses[static_cast<std::size_t>(exception.frame)]
-                             [static_cast<std::size_t>(mover - play.number.begin())];
-}
-
-/// As of one mover, the distances those of the nearest two objects.
-std::unique_ptr<FclCheck> probe_mover_fcl(const MoverPlay& play, double cutoff,
-                                          const std::vector<LockstepMethod>& methods,
-                                          const std::vector<std::int64_t>& frames, double tolerance_relative,
-                                          const Progress& progress) {
-  const MoverScene scene = play.scene(cutoff);
-  const auto poses = std::make_shared<std::vector<Pose>>();
-  std::vector<std::unique_ptr<Method>> instances;
-  for (const LockstepMethod& method : methods) instances.push_back(method.make_among(scene, poses));
-  MoverFclMinimum fcl(play);
-  MoverDistances exact(play);
-  auto made = std::make_unique<FclCheck>();
-  FclCheck& check = *made;
-  check.several_move = true;
-  WorkCounters ignored;
-  LmdSet lmds;
-  for (const std::int64_t frame : frames) {
-    const auto at = static_cast<std::size_t>(frame);
-    *poses = play.poses[at];
-    const FclResult theirs = fcl.at(at);
-    const Pose& X_WM = (*poses)[ObjectPair::of(theirs.fixed_body, play.object_count()).mover];
-    const MoverDistances::Nearest ours = exact.at(at);
-    const auto named = [&](const ObjectPair& objects, std::int32_t triangle_moving,
-                           std::int32_t triangle_fixed) {
-      return NamedTriangles{*scene.movers[objects.mover], *scene.body(objects.other),
-                            relative_pose(scene.pose(objects.other, *poses), (*poses)[objects.mover]),
-                            triangle_moving, triangle_fixed};
-    };
-    add_fcl_frame(check,
-                  {frame,
-                   X_WM,
-                   theirs,
-                   ours.distance,
-                   {named(ObjectPair::of(theirs.fixed_body, play.object_count()), theirs.triangle_moving,
-                          theirs.triangle_fixed),
-                    named(ours.objects, ours.triangle_moving, ours.triangle_fixed)},
-                   cutoff,
-                   tolerance_relative},
-                  instances, methods, [&](std::size_t i) -> const LmdSet& {
-                    lmds.clear();
-                    instances[i]->search(X_WM, lmds, ignored);
-                    return lmds;
-                  });
-    tell_progress(progress, check.frames.size(), frames.size());
-  }
-  sort_exceptions(check);
-  for (FclException& exception : check.exceptions) file_exception(exception, play);
-  return made;
-}
-
 std::unique_ptr<ProbeFindings> cross_check(const ProbedTrack& track) {
   const double tolerance = track.choice.options["tolerance_relative"].get<double>();
   std::unique_ptr<FclCheck> found =
-      track.input.movers ? probe_mover_fcl(*track.input.movers, track.profile.scene.cutoff, track.methods,
-                                           track.frames, tolerance, track.progress)
-                         : probe_fcl(track.profile.scene, track.input, track.methods, track.frames, tolerance,
-                                     track.progress,
-                                     {.warm = is_on(track.rules, Rule::WARM_CROSSCHECK),
-                                      .reuse_repeated = is_on(track.rules, Rule::REPEATED_POSE)});
+      probe_fcl(track.profile.scene, track.input, track.methods, track.frames, tolerance, track.progress,
+                {.warm = is_on(track.rules, Rule::WARM_CROSSCHECK),
+                 .reuse_repeated = is_on(track.rules, Rule::REPEATED_POSE)});
   found->tolerance_relative = tolerance;
   return found;
 }

@@ -47,6 +47,7 @@ std::shared_ptr<const Body> load_body(const MeshChoice& choice, const std::strin
                    {},
                    0,
                    std::move(vertices)});
+  notes.back().body = body;
   return body;
 }
 

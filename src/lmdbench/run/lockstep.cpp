@@ -64,23 +64,18 @@ class MethodRun {
   MethodRun(const LockstepMethod& method, const LockstepInput& input, const DriverChoice& driver)
       : input_(input),
         profile_(method.profile),
-        bodies_(method.scene, input.deformation),
+        bodies_(method.scene, input.motion),
         contacts_(*method.aggregation, bodies_.scene()),
         poses_(input.make_poses ? input.make_poses() : std::make_unique<PathPoses>(input.poses)),
         memory_(method.profile.cutoff),
         planted_(method.label) {
-    if (input.movers) mover_poses_ = std::make_shared<std::vector<Pose>>(input.movers->poses.front());
-    const auto make = [&] {
-      return input.movers ? method.make_among(input.movers->scene(profile_.cutoff), mover_poses_)
-                          : method.make_for(bodies_);
-    };
-    std::unique_ptr<Method> first = make();
+    std::unique_ptr<Method> first = method.make_for(bodies_);
     // The first repetition alone: the others leave the same.
     keeps_both_laws_ = input.keep_lmds && first->description().plugin.empty() &&
                        !first->description().tracks_locally &&
                        first->description().promise == Promise::COMPLETE_SET;
     if (first->description().tracks_locally)
-      two_rate_.emplace(std::move(first), make(), driver);
+      two_rate_.emplace(std::move(first), method.make_for(bodies_), driver);
     else
       every_frame_ = std::move(first);
     bodies_.prepare_to_deform();
@@ -94,7 +89,6 @@ class MethodRun {
     FrameRecord result;
     frame_counters_ = &result.counters;
     const double following = bodies_.to_frame(frame);
-    if (input_.movers) *mover_poses_ = input_.movers->poses[static_cast<std::size_t>(frame)];
     if (every_frame_) {
       found_.clear();
       run(Stage::LOCAL_UPDATE,
@@ -117,6 +111,7 @@ class MethodRun {
   }
 
   // As observer of the clock: times and counters of each stage.
+  void look_at(std::int64_t frame) { bodies_.move_to_frame(frame); }
   void search_starts(std::int64_t frame) {
     search_changed_ = true;
     record_.searches.emplace_back().frame = frame;
@@ -167,9 +162,8 @@ class MethodRun {
                      lmd_less);  // summation in an order that the scene alone decides
     result.contact_without_direction = memory_.complete(lmds);
     const Vec3 reference_W = RigidTransform(pose()).point(input_.reference_M);
-    if (input_.movers) finish_movers(lmds);
-    const LmdSet& of_moving = input_.movers ? sets_[input_.movers->moving()] : lmds;
-    const Wrench wrench = contacts_.combine(of_moving, profile_, reference_W);
+    const Wrench wrench = contacts_.combine(lmds, profile_, reference_W);
+    if (input_.motion.movers) finish_movers(*input_.motion.movers);
     const RenderedForce rendered = input_.device.render(wrench, profile_.largest_sum);
     result.force = rendered.force;
     result.force_clipped = rendered.clipped;
@@ -189,7 +183,7 @@ class MethodRun {
       add_feature(result_hash_, lmd.feature_fixed);
     }
     work_hash_.add(result.counters.values);
-    if (keeps_both_laws_) keep_both_laws(of_moving, reference_W, rendered);
+    if (keeps_both_laws_) keep_both_laws(lmds, reference_W, rendered);
     record_.frames.push_back(result);
     if (input_.keep_lmds && input_.keep_lmds(frame)) record_.lmds.emplace(frame, std::move(lmds));
     const Pose X_WM = poses_->pose();
@@ -200,12 +194,11 @@ class MethodRun {
     }
   }
 
-  /// Splits the set among the movers and renders each.
-  void finish_movers(const LmdSet& lmds) {
-    split_by_mover(lmds, *input_.movers, sets_);
+  /// What each mover feels of the set that was combined.
+  void finish_movers(const MoverPlay& play) {
     const std::vector<MoverFrame> movers =
-        render_movers(sets_, *input_.movers, *mover_poses_, profile_, input_.device);
-    for (const std::size_t number : input_.movers->number)
+        render_movers(contacts_, bodies_.scene(), pose(), play, profile_, input_.device);
+    for (const std::size_t number : play.number)
       for (int axis = 0; axis < 3; ++axis) result_hash_.add(movers[number].force[axis]);
     record_.movers.insert(record_.movers.end(), movers.begin(), movers.end());
   }
@@ -224,7 +217,7 @@ class MethodRun {
 
   const LockstepInput& input_;
   const ForceProfile profile_;
-  DeformingScene bodies_;  ///< The method's own where they deform.
+  SceneFrames bodies_;  ///< The method's own where they deform or others move.
   ContactFinder contacts_;
   std::unique_ptr<PoseSource> poses_;
   std::optional<TwoRate> two_rate_;      ///< Unset for a method without local tracking, ...
@@ -233,11 +226,9 @@ class MethodRun {
   bool keeps_both_laws_ = false;
   bool is_from_outside_ = false;
   [[no_unique_address]] const PlantedSlowdown planted_;
-  std::shared_ptr<std::vector<Pose>> mover_poses_;  ///< Of the frame, where several meshes move.
-  std::vector<LmdSet> sets_;                        ///< Of each mover.
-  LmdSet found_;                                    ///< Of `every_frame_`.
-  WorkCounters* frame_counters_ = nullptr;          ///< Of the frame under way.
-  bool search_changed_ = false;                     ///< Since the last frame that was kept.
+  LmdSet found_;                            ///< Of `every_frame_`.
+  WorkCounters* frame_counters_ = nullptr;  ///< Of the frame under way.
+  bool search_changed_ = false;             ///< Since the last frame that was kept.
   MethodRecord record_;
   Hash result_hash_;
   Hash work_hash_;

@@ -8,10 +8,9 @@
 #include <lmdbench/geometry/pose.h>
 #include <lmdbench/lmd/method.h>
 #include <lmdbench/phantom/virtual_phantom.h>
-#include <lmdbench/run/mover_play.h>
 #include <lmdbench/run/pose_source.h>
 #include <lmdbench/run/records.h>
-#include <lmdbench/run/scene_deformation.h>
+#include <lmdbench/run/scene_frames.h>
 
 #include <cstddef>
 #include <cstdint>
@@ -24,8 +23,8 @@
 /// The lockstep driver: one clock instead of threads, so that results depend on the scene alone, while the
 /// staleness that threads would cause is an explicit number of frames. A frame does what the paper's threads
 /// would (sections 4.3 and 5):
-///  0. Where meshes deform the method's own bodies get this frame's vertices, and what was prepared of them follows: a part of
-///     the frame's local update, whose share of it is kept apart as well.
+///  0. What else moves goes to this frame's place. Where meshes deform the method's own bodies get this frame's vertices, and what was
+///     prepared of them follows: a part of the frame's local update, whose share of it is kept apart as well.
 ///  1. A search whose latency is over arrives: its set is tracked to this frame's pose (second tracking) and
 ///     replaces the working set.
 ///  2. Every `search_every_frames` a global search starts at this frame's pose, followed by the first
@@ -44,15 +43,11 @@ struct LockstepMethod {
   /// What becomes of its LMDs; needs a method that finds critical pairs where it is not their sum.
   const Aggregation* aggregation = &sum_law();
   Scene scene = {};  ///< For aggregations that need more than the method's set.
-  /// Makes it on another scene of the same meshes: where they deform, each run of a method has bodies of its own.
+  /// Makes it on another scene of the same meshes: where some deform or several move, each run of a method has a scene of its own.
   std::function<std::unique_ptr<Method>(const Scene& scene)> make_on = nullptr;
 
-  /// Makes it among several movers, whose poses the driver sets.
-  std::function<std::unique_ptr<Method>(const MoverScene& scene, std::shared_ptr<const std::vector<Pose>>)>
-      make_among = nullptr;
-
-  std::unique_ptr<Method> make_for(const DeformingScene& bodies) const {
-    return bodies.deforms() ? make_on(bodies.scene()) : make();
+  std::unique_ptr<Method> make_for(const SceneFrames& frames) const {
+    return frames.is_any() ? make_on(frames.scene()) : make();
   }
 };
 
@@ -67,10 +62,7 @@ struct LockstepInput {
   Vec3 reference_M = Vec3::Zero();  ///< Point of the moving mesh about which torque is taken.
   VirtualPhantom device;
   std::function<bool(std::int64_t frame)> keep_lmds;  ///< Frames whose LMD sets are to be kept.
-  /// Null where one mesh moves; else every method needs `make_among` and `poses` are the moving mesh's.
-  std::shared_ptr<const MoverPlay> movers = nullptr;
-  /// Null where all meshes are rigid; else every method needs `make_on` and a scene.
-  std::shared_ptr<const SceneDeformation> deformation = nullptr;
+  SceneMotion motion = {};  ///< Where there is any every method needs `make_on` and a scene.
 };
 
 /// Called after every block, and between slow frames, with frames done and frames to do, over all methods and

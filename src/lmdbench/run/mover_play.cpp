@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/base/contract.h>
-#include <lmdbench/force/aggregation.h>
 #include <lmdbench/mesh/triangle_mesh.h>
 #include <lmdbench/run/mover_play.h>
 
@@ -26,8 +25,7 @@ std::size_t MoverPlay::moving() const {
 }
 
 MoverPlay make_play(const std::vector<std::shared_ptr<const Body>>& bodies,
-                    const std::vector<std::string>& names, std::vector<FixedBody> standing,
-                    const std::vector<std::vector<Pose>>& poses) {
+                    const std::vector<std::string>& names, const std::vector<std::vector<Pose>>& poses) {
   MoverPlay play;
   LMDBENCH_EXPECTS(bodies.size() == names.size() && bodies.size() == poses.size() && !poses.empty(),
                    "parallel arrays of unlike lengths");
@@ -46,7 +44,6 @@ MoverPlay make_play(const std::vector<std::shared_ptr<const Body>>& bodies,
     play.bodies.push_back(bodies[number]);
     play.references_M.push_back(bounding_box_centre(bodies[number]->surface().mesh));
   }
-  play.standing = std::move(standing);
   play.poses.resize(poses.front().size());
   LMDBENCH_EXPECTS(
       std::ranges::all_of(poses, [&](const auto& of) { return of.size() == poses.front().size(); }),
@@ -56,56 +53,43 @@ MoverPlay make_play(const std::vector<std::shared_ptr<const Body>>& bodies,
   return play;
 }
 
-Lmd turned_round(const Lmd& lmd) {
-  Lmd turned = lmd;
-  std::swap(turned.point_moving, turned.point_fixed);
-  std::swap(turned.feature_moving, turned.feature_fixed);
-  std::swap(turned.triangle_moving, turned.triangle_fixed);
-  turned.direction = -lmd.direction;
-  return turned;
+Scene MoverPlay::with_movers(Scene scene) const {
+  scene.movers = bodies;
+  scene.held = moving();
+  return scene;
 }
 
-void split_by_mover(const LmdSet& lmds, const MoverPlay& play, std::vector<LmdSet>& sets) {
-  sets.resize(play.count());
-  for (LmdSet& set : sets) set.clear();
-  for (const Lmd& lmd : lmds) {
-    const ObjectPair pair = ObjectPair::of(lmd.fixed_body, play.object_count());
-    LMDBENCH_EXPECTS(pair.mover < play.count() && pair.other < play.object_count(),
-                     "an LMD of another scene");
-    sets[pair.mover].push_back(lmd);
-    if (pair.other < play.count()) sets[pair.other].push_back(turned_round(lmd));
-  }
-}
-
-FiledLmd as_filed(const Lmd& lmd, const MoverPlay& play) {
-  const ObjectPair pair = ObjectPair::of(lmd.fixed_body, play.object_count());
-  std::size_t moving = play.number[pair.mover];
+FiledLmd as_filed(const Lmd& lmd, const Scene& scene, const MoverPlay* play) {
+  if (play == nullptr) return {lmd, 0};
+  const ObjectPair pair = ObjectPair::of(lmd.fixed_body, scene);
+  std::size_t moving = play->number[pair.mover];
   FiledLmd filed{lmd, 0};
-  std::size_t other = pair.other - play.count();
-  if (pair.other < play.count()) {
-    other = play.number[pair.other];
+  std::size_t other = pair.other - play->count();
+  if (scene.is_mover(pair.other)) {
+    other = play->number[pair.other];
     if (other < moving) {
       std::swap(moving, other);
       filed.lmd = turned_round(lmd);
     }
-    other += play.standing.size();
+    other += scene.fixed.size();
   }
   filed.moving_body = static_cast<std::int64_t>(moving);
   filed.lmd.fixed_body = static_cast<std::int32_t>(other);
   return filed;
 }
 
-std::vector<MoverFrame> render_movers(const std::vector<LmdSet>& sets, const MoverPlay& play,
-                                      const std::vector<Pose>& poses, const ForceProfile& profile,
+std::vector<MoverFrame> render_movers(const ContactFinder& contacts, const Scene& scene, const Pose& X_WM,
+                                      const MoverPlay& play, const ForceProfile& profile,
                                       const VirtualPhantom& device) {
   std::vector<MoverFrame> frames(play.count());
-  LMDBENCH_EXPECTS(sets.size() == play.count() && poses.size() == play.count(),
-                   "parallel arrays of unlike lengths");
+  LMDBENCH_EXPECTS(scene.mover_count() == play.count(), "movers of another scene");
   for (std::size_t i = 0; i < play.count(); ++i) {
-    const Wrench wrench = sum_forces(sets[i], profile, RigidTransform(poses[i]).point(play.references_M[i]));
+    const Vec3 reference_W = RigidTransform(scene.pose(i, X_WM)).point(play.references_M[i]);
+    const Wrench wrench = contacts.wrench_on(i, profile, reference_W);
     const RenderedForce rendered = device.render(wrench, profile.largest_sum);
+    const LmdSet& set = contacts.set_of(i);
     frames[play.number[i]] = {rendered.force, wrench.torque, rendered.clipped,
-                              static_cast<std::int64_t>(sets[i].size()), minimum_distance(sets[i])};
+                              static_cast<std::int64_t>(set.size()), minimum_distance(set)};
   }
   return frames;
 }

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <lmdbench/force/force_law.h>
+#include <lmdbench/force/contact_finder.h>
 #include <lmdbench/phantom/virtual_phantom.h>
 #include <lmdbench/run/records.h>
 #include <lmdbench/world/mover_method.h>
@@ -24,43 +24,34 @@ namespace lmdbench {
 struct MoverPlay {
   std::vector<std::shared_ptr<const Body>> bodies;
   std::vector<std::size_t> number;
-  std::vector<Vec3> references_M;  ///< Centres about which torque is taken.
-  std::vector<FixedBody> standing;
+  std::vector<Vec3> references_M;        ///< Centres about which torque is taken.
   std::vector<std::vector<Pose>> poses;  ///< X_WM, of a frame of a mover.
 
   std::size_t count() const { return bodies.size(); }
-  std::size_t object_count() const { return bodies.size() + standing.size(); }
   /// Where the moving mesh is.
   std::size_t moving() const;
-  MoverScene scene(double cutoff) const { return {bodies, standing, cutoff}; }
+  /// The scene with these movers in it; where they are is SceneFrames' to say.
+  Scene with_movers(Scene scene) const;
 };
 
 /// Movers in the order of the file, to be put into their own.
 /// @param names what tells meshes apart, one a mover
 /// @param poses of a mover of a frame
 MoverPlay make_play(const std::vector<std::shared_ptr<const Body>>& bodies,
-                    const std::vector<std::string>& names, std::vector<FixedBody> standing,
-                    const std::vector<std::vector<Pose>>& poses);
-
-/// The sets of the movers: each LMD is one of its pair's mover, and turned round one of the other where that moves, too. In the order of
-/// the set.
-/// @param sets receives one a mover
-void split_by_mover(const LmdSet& lmds, const MoverPlay& play, std::vector<LmdSet>& sets);
-
-/// The LMD with its meshes exchanged.
-Lmd turned_round(const Lmd& lmd);
+                    const std::vector<std::string>& names, const std::vector<std::vector<Pose>>& poses);
 
 /// An LMD as files have it: of its two objects the one with the lower number of the file moves.
 struct FiledLmd {
   Lmd lmd;                       ///< `fixed_body` counts what stands, then the movers by their number.
   std::int64_t moving_body = 0;  ///< Number of the mover.
 };
-FiledLmd as_filed(const Lmd& lmd, const MoverPlay& play);
+/// @param play of the scene; null where one mesh moves
+FiledLmd as_filed(const Lmd& lmd, const Scene& scene, const MoverPlay* play);
 
-/// Forces of all movers in a frame, one a mover by its number.
-/// @param sets of `split_by_mover`
-std::vector<MoverFrame> render_movers(const std::vector<LmdSet>& sets, const MoverPlay& play,
-                                      const std::vector<Pose>& poses, const ForceProfile& profile,
+/// Forces of all movers, one a mover by its number.
+/// @param contacts that have split a set of the scene
+std::vector<MoverFrame> render_movers(const ContactFinder& contacts, const Scene& scene, const Pose& X_WM,
+                                      const MoverPlay& play, const ForceProfile& profile,
                                       const VirtualPhantom& device);
 
 }  // namespace lmdbench

@@ -85,6 +85,9 @@ std::string deformation_text(const Experiment& experiment) {
   for (std::size_t i = 0; i < experiment.fixed.size(); ++i)
     if (experiment.fixed[i].deformation)
       meshes.push_back(fmt::format("fixed_{} {}", i, to_text(*experiment.fixed[i].deformation)));
+  for (std::size_t i = 0; i < experiment.movers.size(); ++i)
+    if (experiment.movers[i].mesh.deformation)
+      meshes.push_back(fmt::format("mover_{} {}", i, to_text(*experiment.movers[i].mesh.deformation)));
   for (const MethodChoice& choice : experiment.methods)
     (method_description(choice.name).follows_deformation ? following : remade).push_back(choice.label);
   std::string text = fmt::format("{}", fmt::join(meshes, "; "));

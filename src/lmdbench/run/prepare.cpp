@@ -17,12 +17,10 @@
 #include <lmdbench/phantom/device.h>
 #include <lmdbench/run/contact.h>
 #include <lmdbench/run/load_body.h>
-#include <lmdbench/run/mover_probe.h>
 #include <lmdbench/run/prepare.h>
 #include <lmdbench/run/prepare_movers.h>
 #include <lmdbench/run/realtime_driver.h>
 #include <lmdbench/snch/hierarchy.h>
-#include <lmdbench/world/broad_phase.h>
 
 #include <fmt/format.h>
 
@@ -162,11 +160,6 @@ void prepare_hierarchies(const Scene& scene) {
                [&](std::size_t i) { (i == 0 ? scene.moving : scene.fixed[i - 1])->prepared<Hierarchy>(); });
 }
 
-bool touches(const Scene& scene, const Pose& X_WM) {
-  if (scene.is_world()) return nearest_instance(scene, BroadPhase(scene), X_WM, scene.cutoff).distance == 0.0;
-  return nearest_distance(scene, X_WM, scene.cutoff) == 0.0;
-}
-
 /// The mesh of an entry; one that the moving mesh is or an earlier entry has is read and prepared once.
 std::shared_ptr<const Body> fixed_body(const Experiment& experiment, std::size_t entry, const Scene& scene,
                                        std::vector<MeshNote>& notes) {
@@ -215,10 +208,11 @@ namespace {
 
 /// What deforming does to triangles, and what follows meshes that deform.
 void warn_of_deformation(PreparedRun& prepared) {
-  if (!prepared.input.deformation) return;
+  if (!prepared.input.motion.deformation) return;
   for (const MeshNote& note : prepared.meshes) {
     if (!note.vertices) continue;
-    const std::vector<DeformationStep>& steps = prepared.input.deformation->find(note.body_index())->steps;
+    const std::vector<DeformationStep>& steps =
+        prepared.input.motion.deformation->find(note.body.get())->steps;
     const auto warn = [&](const char* what, std::int64_t DeformationStep::*count,
                           std::int32_t DeformationStep::*first) {
       std::int64_t all = 0, frames = 0;
@@ -275,13 +269,13 @@ std::set<std::filesystem::path> plugin_files(const Experiment& experiment) {
 
 }  // namespace
 
-std::shared_ptr<const SceneDeformation> deformation_of(const Scene& scene, const std::vector<MeshNote>& notes,
+std::shared_ptr<const SceneDeformation> deformation_of(const std::vector<MeshNote>& notes,
                                                        std::int64_t frames) {
   std::vector<DeformingBody> bodies;
   for (const MeshNote& note : notes)
-    if (note.vertices) bodies.push_back({note.body_index(), note.vertices});
+    if (note.vertices) bodies.push_back({note.body, note.vertices});
   if (bodies.empty()) return nullptr;
-  return std::make_shared<const SceneDeformation>(scene, std::move(bodies), frames);
+  return std::make_shared<const SceneDeformation>(std::move(bodies), frames);
 }
 
 PreparedRun prepare(const Experiment& experiment, const Progress& progress, Deforming deforming) {
@@ -313,7 +307,8 @@ PreparedRun prepare(const Experiment& experiment, const Progress& progress, Defo
       if (!open_cutoff) open_cutoff = default_cutoff(with_movers(scene, movers), defaults);
       cutoff = open_cutoff;
     }
-    profiles.push_back({choice.name, profile_for(choice, *cutoff, place, experiment), scene});
+    profiles.push_back(
+        {choice.name, profile_for(choice, *cutoff, place, experiment), scene, choice.aggregation});
     profiles.back().scene.cutoff = profiles.back().force.cutoff;
   }
   std::optional<GrazingPath> made_path;
@@ -327,20 +322,29 @@ PreparedRun prepare(const Experiment& experiment, const Progress& progress, Defo
     defaults.push_back(note_of(*made_path, hardest->force.cutoff));
   }
 
+  std::vector<Pose> poses;
+  std::vector<double> times;
+  for (const TimedPose& frame : frames) {
+    poses.push_back(frame.pose);
+    times.push_back(frame.time);
+  }
+  if (experiment.realtime && experiment.realtime->seconds)
+    lengthen(poses, times, experiment.frame_rate_hz, *experiment.realtime->seconds);
   std::vector<std::string> warnings;
-  const auto play = play_of(experiment, movers, scene, frames, files, warnings);
-  auto deformation = deformation_of(scene, notes, static_cast<std::int64_t>(frames.size()));
+  const SceneMotion motion{play_of(experiment, movers, poses, frames.size(), files, warnings),
+                           deformation_of(notes, static_cast<std::int64_t>(poses.size()))};
+  for (PreparedProfile& profile : profiles)
+    if (motion.movers) profile.scene = motion.movers->with_movers(profile.scene);
   PreparedRun prepared{.profiles = std::move(profiles),
-                       .input = {.poses = {},
+                       .input = {.poses = std::move(poses),
                                  .frame_rate_hz = experiment.frame_rate_hz,
                                  .make_poses = {},
                                  .frames = std::nullopt,
                                  .reference_M = Vec3::Zero(),
                                  .device = VirtualPhantom(device),
                                  .keep_lmds = {},
-                                 .movers = play,
-                                 .deformation = std::move(deformation)},
-                       .times = {},
+                                 .motion = motion},
+                       .times = std::move(times),
                        .meshes = std::move(notes),
                        .files = std::move(files),
                        .starts_touching = false,
@@ -349,13 +353,7 @@ PreparedRun prepare(const Experiment& experiment, const Progress& progress, Defo
                        .made_path = std::move(made_path),
                        .defaults = std::move(defaults)};
   prepared.input.reference_M = bounding_box_centre(prepared.scene().moving->surface().mesh);
-  for (const TimedPose& frame : frames) {
-    prepared.input.poses.push_back(frame.pose);
-    prepared.times.push_back(frame.time);
-  }
   warn_of_deformation(prepared);
-  if (experiment.realtime && experiment.realtime->seconds)
-    lengthen(prepared.input.poses, prepared.times, experiment.frame_rate_hz, *experiment.realtime->seconds);
   for (const MeshNote& note : prepared.meshes) {
     const bool listed = std::any_of(prepared.files.begin(), prepared.files.end(), [&](const InputFile& file) {
       return file.role == "mesh:" + note.name && file.sha256 == note.sha256;
@@ -391,10 +389,9 @@ PreparedRun prepare(const Experiment& experiment, const Progress& progress, Defo
     };
   warn_of_aggregation(experiment, prepared);
   prepare_hierarchies(prepared.scene());
-  DeformingScene first_frame(prepared.scene(), prepared.input.deformation);
-  first_frame.to_frame(0);
-  prepared.starts_touching = play ? MoverDistances(*play).at(0, prepared.scene().cutoff).distance == 0.0
-                                  : touches(first_frame.scene(), prepared.input.poses.front());
+  prepared.starts_touching =
+      SceneDistance(prepared.scene(), motion).at(0, prepared.input.poses.front(), prepared.scene().cutoff) ==
+      0.0;
   if (prepared.starts_touching)
     prepared.warnings.emplace_back(
         "the meshes touch in the first frame: LMDs at distance 0 have no direction there and exert no force "
@@ -403,12 +400,22 @@ PreparedRun prepare(const Experiment& experiment, const Progress& progress, Defo
   return prepared;
 }
 
+void hold_first_frame(PreparedRun& prepared) {
+  for (PreparedProfile& profile : prepared.profiles) {
+    SceneFrames first(profile.scene, prepared.input.motion);
+    first.to_frame(0);
+    profile.scene = first.scene();
+  }
+  prepared.input.motion = {};
+}
+
 std::vector<std::filesystem::path> input_files(const Experiment& experiment) {
   const std::filesystem::path folder = experiment.file.parent_path();
   std::vector<std::filesystem::path> files{experiment.file, experiment.mesh_folder / "manifest.json"};
   if (!experiment.path_file.empty()) files.push_back(experiment.path_file);
   for (const std::filesystem::path& plugin : plugin_files(experiment)) files.push_back(plugin);
   const auto add = [&](const MeshChoice& choice) {
+    if (choice.instances && !choice.instances->file.empty()) files.push_back(choice.instances->file);
     files.push_back(is_mesh_name(choice.mesh) ? built_mesh_file(experiment.mesh_folder, choice.mesh)
                                               : folder / choice.mesh);
     if (!choice.deformation) return;
@@ -419,14 +426,9 @@ std::vector<std::filesystem::path> input_files(const Experiment& experiment) {
     for (const std::filesystem::path& file : vertex_files(*choice.deformation)) files.push_back(file);
   };
   add(experiment.moving);
-  for (const MeshChoice& choice : experiment.fixed) {
-    add(choice);
-    if (choice.instances && !choice.instances->file.empty()) files.push_back(choice.instances->file);
-  }
+  for (const MeshChoice& choice : experiment.fixed) add(choice);
   for (const MoverChoice& mover : experiment.movers) {
     add(mover.mesh);
-    if (mover.mesh.instances && !mover.mesh.instances->file.empty())
-      files.push_back(mover.mesh.instances->file);
     if (!mover.path_file.empty()) files.push_back(mover.path_file);
   }
   return files;
@@ -442,12 +444,7 @@ std::vector<LockstepMethod> lockstep_methods(const Experiment& experiment, const
       return make_method(name, scene, options);
     };
     methods.push_back({choice.label, [make_on, scene = profile.scene] { return make_on(scene); }, force,
-                       choice.aggregation, profile.scene, make_on,
-                       [name = choice.name, options = choice.options](
-                           const MoverScene& scene, std::shared_ptr<const std::vector<Pose>> poses) {
-                         return make_among_movers(scene, std::move(poses), method_description(name),
-                                                  method_maker(name, options));
-                       }});
+                       choice.aggregation, profile.scene, make_on});
   }
   return methods;
 }

@@ -9,7 +9,7 @@
 #include <lmdbench/motion/grazing.h>
 #include <lmdbench/result_file/provenance.h>
 #include <lmdbench/run/lockstep.h>
-#include <lmdbench/run/scene_deformation.h>
+#include <lmdbench/run/scene_frames.h>
 
 #include <cstdint>
 #include <filesystem>
@@ -35,11 +35,7 @@ struct MeshNote {
   std::shared_ptr<const FrameVertices> vertices = nullptr;  ///< Of a mesh that deforms, frame by frame.
   std::int64_t first_mover = 0;  ///< Number of the first mover of an entry of `/movers`, and ...
   std::int64_t movers = 0;       ///< ... how many it has; 0 of other meshes.
-
-  /// DeformingBody::index of a mesh without instances.
-  std::size_t body_index() const {
-    return role == "moving" ? 0 : static_cast<std::size_t>(first_fixed_body) + 1;
-  }
+  std::shared_ptr<const Body> body = nullptr;  ///< At rest.
 };
 
 /// A force profile with the scene that it reaches into: the meshes under its cutoff, which all profiles share.
@@ -47,17 +43,18 @@ struct PreparedProfile {
   std::string name;    ///< Empty for one alone.
   ForceProfile force;  ///< Its law is each method's own.
   Scene scene;
+  const Aggregation* aggregation = &sum_law();
 };
 
 /// How the bodies of a loaded scene deform in so many frames; null where none does.
-/// @param notes of `load_scene`
-std::shared_ptr<const SceneDeformation> deformation_of(const Scene& scene, const std::vector<MeshNote>& notes,
+/// @param notes of `load_scene` and `load_movers`
+std::shared_ptr<const SceneDeformation> deformation_of(const std::vector<MeshNote>& notes,
                                                        std::int64_t frames);
 
 /// What who prepares a run makes of meshes that deform, and of several that move.
 enum class Deforming : std::uint8_t {
   REFUSED,  ///< Looks at one moving mesh and at meshes at rest alone: an error where one deforms, or another moves.
-  FOLLOWED  ///< Takes each frame at its shape (LockstepInput::deformation) and its poses (LockstepInput::movers).
+  FOLLOWED  ///< Takes each frame at its shape and its poses (LockstepInput::motion).
 };
 
 /// An experiment's inputs, loaded: all that a run works on.
@@ -89,6 +86,9 @@ Scene load_scene(const Experiment& experiment, std::vector<MeshNote>& notes);
 ///         fit the mesh, and for meshes that deform where they are refused
 PreparedRun prepare(const Experiment& experiment, const Progress& progress = {},
                     Deforming deforming = Deforming::REFUSED);
+
+/// Lets all but the moving mesh stay where it is in the first frame, in the shape that it has there.
+void hold_first_frame(PreparedRun& prepared);
 
 /// Files that the experiment will read, as far as its text tells: itself, path, manifest, meshes; some may be
 /// missing. For outputs, which must replace none of them.

@@ -6,7 +6,9 @@
 #include <lmdbench/motion/tum_file.h>
 #include <lmdbench/run/load_body.h>
 #include <lmdbench/run/prepare_movers.h>
+#include <lmdbench/run/realtime_driver.h>
 #include <lmdbench/world/mesh_bounds.h>
+#include <lmdbench/world/mover_method.h>
 
 #include <fmt/format.h>
 
@@ -48,7 +50,8 @@ std::shared_ptr<const Body> body_of(const Experiment& experiment, std::size_t en
 }
 
 std::string name_of(const MeshNote& note) {
-  return fmt::format("{} {:a} {}", note.sha256, note.report.diagonal, note.name);
+  return fmt::format("{} {:a} {} {}", note.sha256, note.report.diagonal, note.name,
+                     note.vertices ? to_text(note.vertices->deformation()) : "");
 }
 
 /// Poses in the frame of the place, one a frame.
@@ -93,7 +96,9 @@ LoadedMovers load_movers(const Experiment& experiment, const Scene& scene, std::
     for (std::size_t k = 0; k < places.size(); ++k)
       loaded.movers.push_back({body, name_of(note), i, k, places[k]});
   }
-  if (!pairs_have_numbers({std::vector(loaded.movers.size(), scene.moving), scene.fixed, 0.0}))
+  Scene all = scene;
+  all.movers.assign(loaded.movers.size(), scene.moving);
+  if (!pairs_have_numbers(all))
     throw UsageError(experiment.file.string(), "/movers",
                      fmt::format("{} movers among {} objects that stand: more pairs than can be told apart",
                                  loaded.movers.size(), scene.fixed.size()),
@@ -108,13 +113,13 @@ Scene with_movers(Scene scene, const LoadedMovers& loaded) {
 }
 
 std::shared_ptr<const MoverPlay> play_of(const Experiment& experiment, const LoadedMovers& loaded,
-                                         const Scene& scene, const Path& frames,
+                                         const std::vector<Pose>& moving, std::size_t path_frames,
                                          std::vector<InputFile>& files, std::vector<std::string>& warnings) {
   if (loaded.movers.empty()) return nullptr;
-  if (loaded.movers.size() > MOST_MOVER_POSES / frames.size())
+  if (loaded.movers.size() > MOST_MOVER_POSES / moving.size())
     throw UsageError(experiment.file.string(), "/movers",
                      fmt::format("{} movers in {} frames: more than {} poses", loaded.movers.size(),
-                                 frames.size(), MOST_MOVER_POSES),
+                                 moving.size(), MOST_MOVER_POSES),
                      "ask for fewer movers or frames");
   std::vector<std::shared_ptr<const Body>> bodies;
   std::vector<std::string> names;
@@ -125,27 +130,28 @@ std::shared_ptr<const MoverPlay> play_of(const Experiment& experiment, const Loa
     names.push_back(mover.name);
     std::vector<Pose>& own = poses.emplace_back();
     if (poses.size() == 1) {
-      for (const TimedPose& frame : frames) own.push_back(frame.pose);
+      own = moving;
       continue;
     }
     const MoverChoice& choice = experiment.movers[mover.entry];
     if (!choice.path_file.empty()) {
       if (mover.which == 0)
-        read = read_path(choice, experiment.file.string(), frames.size(), experiment.frame_rate_hz, files,
+        read = read_path(choice, experiment.file.string(), path_frames, experiment.frame_rate_hz, files,
                          warnings);
+      there_and_back(read, moving.size());
       own = read;
     } else {
       const TriangleMesh& mesh = mover.body->surface().mesh;
       const SwayMotion motion(choice.sway, mover.which, bounding_box_centre(mesh),
                               bounding_box_diagonal(mesh));
-      for (std::size_t frame = 0; frame < frames.size(); ++frame)
+      for (std::size_t frame = 0; frame < moving.size(); ++frame)
         own.push_back(motion.at(static_cast<double>(frame) / experiment.frame_rate_hz));
     }
     // A product with the identity would round.
     if (!same_pose(mover.place, Pose{}))
       for (Pose& pose : own) pose = mover.place * pose;
   }
-  return std::make_shared<const MoverPlay>(make_play(bodies, names, scene.fixed, poses));
+  return std::make_shared<const MoverPlay>(make_play(bodies, names, poses));
 }
 
 }  // namespace lmdbench

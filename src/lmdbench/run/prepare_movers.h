@@ -34,11 +34,12 @@ LoadedMovers load_movers(const Experiment& experiment, const Scene& scene, std::
 Scene with_movers(Scene scene, const LoadedMovers& movers);
 
 /// All poses of all movers.
-/// @param frames of the moving mesh
+/// @param poses of the moving mesh
+/// @param path_frames of its path, which it may take there and back; so do those that have paths of their own
 /// @param files,warnings receive paths that are read, and their gaps
 /// @throws InputError for a path that cannot be used or ends before that of the moving mesh; UsageError for more poses than memory holds
 std::shared_ptr<const MoverPlay> play_of(const Experiment& experiment, const LoadedMovers& loaded,
-                                         const Scene& scene, const Path& frames,
+                                         const std::vector<Pose>& poses, std::size_t path_frames,
                                          std::vector<InputFile>& files, std::vector<std::string>& warnings);
 
 }  // namespace lmdbench

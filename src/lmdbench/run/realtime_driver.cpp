@@ -93,9 +93,12 @@ class MethodOnClock {
         profile_(method.profile),
         period_(std::llround(1e9 / input.frame_rate_hz)),
         frames_(static_cast<std::int64_t>(input.poses.size())),
-        first_(method.make()),
+        first_frames_(method.scene, input.motion),
+        local_frames_(method.scene, input.motion),
+        first_(method.make_for(first_frames_)),
         tracks_(first_->description().tracks_locally),
-        local_(tracks_ ? method.make() : nullptr),
+        local_(tracks_ ? method.make_for(local_frames_) : nullptr),
+        aggregation_(*method.aggregation),
         cores_(plan_cores(choice_, tracks_)),
         kept_(static_cast<std::size_t>(frames_)),
         queues_(static_cast<std::size_t>(choice_.queue_ticks), LIST_ROWS),
@@ -105,6 +108,7 @@ class MethodOnClock {
     recorder_ = std::make_unique<RealtimeRecorder>(queues_, method.label, frames_, settings.loop.closed,
                                                    kept_, keeper, index);
     recorder_->clock.period = period_;
+    recorder_->deforms = first_frames_.deforms();
   }
 
   /// @return false when `progress` stopped it
@@ -166,9 +170,13 @@ class MethodOnClock {
       const std::size_t poses = std::min(input_.poses.size(), PRIMING_POSES);
       // One after the other as on the clock: what is kept from frame to frame grows along the way, not at poses apart.
       // Twice, because the way back to the first pose is a jump, after which what is kept is laid out anew.
+      const auto search_at = [&](std::size_t i) {
+        first_frames_.to_frame(static_cast<std::int64_t>(i));
+        first_->search(input_.poses[i], lmds, ignored);
+      };
       for (int round = 0; round < 2; ++round)
-        for (std::size_t i = 0; i < poses; ++i) first_->search(input_.poses[i], lmds, ignored);
-      first_->search(input_.poses.front(), lmds, ignored);
+        for (std::size_t i = 0; i < poses; ++i) search_at(i);
+      search_at(0);
       return;
     }
     PoseNote note;
@@ -235,8 +243,8 @@ class MethodOnClock {
                                                       choice_.device_steps, input_.reference_M);
     else
       device = std::make_unique<RecordedDevice>(input_.poses);
-    ServoRole servo(profile_, input_, start, exchange_, queues_, *device, tracks_ ? nullptr : first_.get(),
-                    kept_);
+    ServoRole servo(profile_, aggregation_, input_, start, exchange_, queues_, *device, first_frames_,
+                    tracks_ ? nullptr : first_.get(), kept_);
     start_ = start;
     start_.notify_all();
     bool begun = false;
@@ -308,7 +316,9 @@ class MethodOnClock {
     exchange_.pose_for_search.fetch();
     const PoseNote note = exchange_.pose_for_search.value();
     const std::int64_t begin = monotonic_ns();
-    const Pose pose = settings_.predict ? predicted(note, begin + last_search_ns_ - note.at) : note.pose;
+    const std::int64_t ahead = settings_.predict ? begin + last_search_ns_ - note.at : 0;
+    const Pose pose = predicted(note, ahead);
+    first_frames_.to_frame(note.period + std::max<std::int64_t>(ahead, 0) / period_);
     SearchTurn turn;
     SearchedSet& found = exchange_.searched.slot();
     first_->search(pose, found.lmds, turn.search.counters);
@@ -368,16 +378,17 @@ class MethodOnClock {
     exchange_.pose_for_tracking.fetch();
     const PoseNote& note = exchange_.pose_for_tracking.value();
     const std::int64_t begin = monotonic_ns();
-    Pose pose = note.pose;
-    if (settings_.predict && start > 0) {
-      // The next tick of the servo uses the set.
-      const std::int64_t next_tick = start + ((begin - start) / period_ + 1) * period_;
-      pose = predicted(note, next_tick - note.at);
-    }
+    std::int64_t ahead = 0;
+    // The next tick of the servo uses the set.
+    if (settings_.predict && start > 0) ahead = start + ((begin - start) / period_ + 1) * period_ - note.at;
+    const Pose pose = predicted(note, ahead);
+    const double following_s =
+        local_frames_.to_frame(note.period + std::max<std::int64_t>(ahead, 0) / period_);
     TrackedSet& out = exchange_.tracked.slot();
     out.counters = {};
     local_->track(pose, working_, out.counters);
     out.update_s = seconds_between(begin, monotonic_ns());
+    out.following_s = following_s;
     out.lmds.clear();
     for (const Lmd& lmd : working_)
       if (lmd.distance <= profile_.cutoff) out.lmds.push_back(lmd);
@@ -422,9 +433,11 @@ class MethodOnClock {
   const RealtimeChoice& choice_;
   const ForceProfile profile_;
   const std::int64_t period_, frames_;
+  SceneFrames first_frames_, local_frames_;  ///< Of these, each in its own thread:
   std::unique_ptr<Method> first_;  ///< The search's instance; the servo's where there is no other loop.
   const bool tracks_;
   std::unique_ptr<Method> local_;  ///< The tracking's.
+  const Aggregation& aggregation_;
   const CorePlan cores_;
   std::vector<char> kept_;
   ServoExchange exchange_;
@@ -471,17 +484,7 @@ RealtimeRun run_realtime(const std::vector<LockstepMethod>& methods, const Locks
 
 void lengthen(std::vector<Pose>& poses, std::vector<double>& times, double frame_rate_hz, double seconds) {
   const auto wanted = static_cast<std::size_t>(std::llround(seconds * frame_rate_hz)) + 1;
-  const std::size_t way = poses.size() - 1;
-  if (way == 0) {
-    poses.resize(wanted, poses.front());
-  } else {
-    poses.reserve(wanted);
-    for (std::size_t i = poses.size(); i < wanted; ++i) {
-      const std::size_t turn = i % (2 * way);
-      poses.push_back(poses[turn <= way ? turn : 2 * way - turn]);
-    }
-    poses.resize(wanted);
-  }
+  there_and_back(poses, wanted);
   times.resize(poses.size());
   for (std::size_t i = 0; i < times.size(); ++i) times[i] = static_cast<double>(i) / frame_rate_hz;
 }

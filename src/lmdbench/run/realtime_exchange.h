@@ -41,7 +41,7 @@ struct TrackedSet {
   std::int64_t candidates = 0;
   std::int64_t tracked_count = 0;
   std::int64_t contact_without_direction = 0;
-  double update_s = UNSET;
+  double update_s = UNSET, following_s = 0.0;
   WorkCounters counters;
 };
 
@@ -53,6 +53,7 @@ struct TickRecord {
   std::int64_t set_age = 0, search_age = 0;
   double update_s =
       UNSET;  ///< Of the update that the set comes from; of a method without tracking, of its search.
+  double following_s = 0.0;  ///< The part of it in which meshes that deform followed.
   FrameRecord frame;
   Pose pose;
   LoopFrame loop;

@@ -68,7 +68,7 @@ void RealtimeRecorder::take(const TickRecord& tick) {
   // A device that calls faster than the grid gives a period two ticks: the first one is the frame.
   if (static_cast<std::int64_t>(record.frames.size()) > frame) return;
   record.frames.push_back(tick.frame);
-  record.repetitions.front().local_update.push_back(tick.update_s);
+  note_times(tick.update_s, tick.following_s);
   if (closed_loop_) {
     record.poses.push_back(tick.pose);
     record.loop.push_back(tick.loop);
@@ -76,6 +76,11 @@ void RealtimeRecorder::take(const TickRecord& tick) {
   if (has_last_list_) record.lmds.emplace(frame, last_list_);
   clock.frame_source.push_back(FrameSource::TICK);
   frame_complete();
+}
+
+void RealtimeRecorder::note_times(double update_s, double following_s) {
+  record.repetitions.front().local_update.push_back(update_s);
+  if (deforms) record.repetitions.front().following.push_back(following_s);
 }
 
 void RealtimeRecorder::take_list(const TickRecord& tick) {
@@ -95,7 +100,7 @@ void RealtimeRecorder::hold_until(std::int64_t frame, FrameSource source) {
     held.counters = {};
     held.lmd_age += period_s;
     record.frames.push_back(held);
-    record.repetitions.front().local_update.push_back(UNSET);
+    note_times(UNSET, UNSET);
     if (closed_loop_) {
       record.poses.push_back(record.poses.empty() ? Pose() : record.poses.back());
       record.loop.push_back(record.loop.empty() ? LoopFrame() : record.loop.back());

@@ -41,11 +41,13 @@ class RealtimeRecorder {
 
   std::int64_t frames_done() const { return done_.load(std::memory_order_relaxed); }
 
+  bool deforms = false;  ///< Whether meshes do, so that the record has how long they took to follow.
   MethodRecord record;
   RealtimeRecord clock;  ///< Roles as RoleIndex says.
 
  private:
   void take(const TickRecord& tick);
+  void note_times(double update_s, double following_s);
   void take_list(const TickRecord& tick);
   void hold_until(std::int64_t frame, FrameSource source);
   void frame_complete();

@@ -16,7 +16,7 @@ Path record_path(const Experiment& experiment, std::size_t every, const RunProgr
   Experiment alone = experiment;
   alone.methods.resize(1);
   alone.driver.repetitions = 1;
-  const PreparedRun prepared = prepare(alone);
+  const PreparedRun prepared = prepare(alone, {}, Deforming::FOLLOWED);
   Progress counted;
   if (progress)
     counted = [&](std::int64_t done, std::int64_t total) { return progress("record", done, total); };

@@ -3,7 +3,6 @@
 #include <lmdbench/base/statistics.h>
 #include <lmdbench/methods/registry.h>
 #include <lmdbench/run/contact.h>
-#include <lmdbench/run/mover_probe.h>
 #include <lmdbench/run/realtime_driver.h>
 #include <lmdbench/run/run.h>
 
@@ -171,10 +170,8 @@ RunResult run_experiment(const Experiment& experiment, const RunProgress& progre
   const std::unique_ptr<RunKeeper> keeper =
       make_keeper ? make_keeper(result, prepared.input.frames.value_or(frame_count)) : nullptr;
   const bool forecast = allowed(experiment.rules, Rule::CONTACT_FORECAST);
-  const std::shared_ptr<const MoverPlay> movers = prepared.input.movers;
   const auto contact_along = [&](const Scene& scene, const std::vector<Pose>& poses) {
-    return movers ? frames_in_contact(*movers, scene.cutoff)
-                  : frames_in_contact(scene, prepared.input.deformation, poses, forecast);
+    return frames_in_contact(scene, prepared.input.motion, poses, forecast);
   };
   result.in_contact = contact_along(prepared.scene(), prepared.input.poses);
   result.plan.scene = look_at(experiment, prepared, result.in_contact);

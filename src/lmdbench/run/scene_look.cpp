@@ -5,10 +5,8 @@
 #include <lmdbench/mesh/winding_number.h>
 #include <lmdbench/methods/registry.h>
 #include <lmdbench/run/contact.h>
-#include <lmdbench/run/mover_probe.h>
 #include <lmdbench/run/prepare.h>
 #include <lmdbench/run/scene_look.h>
-#include <lmdbench/world/broad_phase.h>
 
 #include <Eigen/Geometry>
 #include <fmt/format.h>
@@ -17,7 +15,6 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <optional>
 #include <utility>
 
 namespace lmdbench {
@@ -145,10 +142,10 @@ void look_at_entries(SceneLook& look, const Experiment& experiment, const Prepar
 }
 
 /// Distances do not tell inside from outside.
-void look_inside(SceneLook& look, const Experiment& experiment, const PreparedRun& prepared) {
-  if (prepared.input.movers) return;  // each of which would have to be looked at
-  if (experiment.is_world()) return;  // where meshes may well be in each other
-  DeformingScene bodies(prepared.scene(), prepared.input.deformation);
+void look_inside(SceneLook& look, const PreparedRun& prepared) {
+  if (prepared.input.motion.movers) return;  // each of which would have to be looked at
+  if (prepared.scene().is_world()) return;   // where meshes may well be in each other
+  SceneFrames bodies(prepared.scene(), prepared.input.motion);
   const std::size_t fixed_count = bodies.scene().fixed.size();
   std::vector<BoxedMesh> boxed;  // the moving mesh, then the fixed ones
   const auto box_them = [&] {
@@ -215,20 +212,10 @@ void look_at_path(SceneLook& look, const PreparedRun& prepared) {
   }
   if (look.frames_in_contact > 0) return;
   double bound = std::numeric_limits<double>::infinity();
-  std::optional<BroadPhase> phase;
-  if (prepared.scene().is_world()) phase.emplace(prepared.scene());
-  std::optional<MoverDistances> movers;
-  if (prepared.input.movers) movers.emplace(*prepared.input.movers);
-  std::optional<DeformingDistance> deforming;
-  if (prepared.input.deformation) deforming.emplace(prepared.scene(), prepared.input.deformation);
+  SceneDistance distance(prepared.scene(), prepared.input.motion);
   for (std::size_t frame = 0; frame < prepared.input.poses.size(); ++frame) {
     const auto at = static_cast<std::int64_t>(frame);
-    const Pose& pose = prepared.input.poses[frame];
-    if (deforming && deforming->known(at, pose).least >= bound) continue;
-    const double least = movers      ? movers->at(frame, bound).distance
-                         : deforming ? deforming->look(at, pose)
-                         : phase     ? nearest_instance(prepared.scene(), *phase, pose, bound).distance
-                                     : nearest_distance(prepared.scene(), pose, bound);
+    const double least = distance.at(at, prepared.input.poses[frame], bound);
     if (!(least < bound)) continue;
     bound = least;
     look.nearest_frame = at;
@@ -269,7 +256,7 @@ SceneLook look_at(const Experiment& experiment, const PreparedRun& prepared,
   look_at_entries(look, experiment, prepared);
   // In a closed loop the path is what the hand means: it may well lie inside.
   if (!experiment.loop.closed) {
-    look_inside(look, experiment, prepared);
+    look_inside(look, prepared);
     look_at_path(look, prepared);
   }
   return look;
@@ -345,9 +332,7 @@ nlohmann::ordered_json to_json(const SceneLook& look) {
 namespace {
 
 /// Mean seconds of a search at frames spread over the path, each at its shape.
-/// @param mover_poses of several movers, which `play` has
-double search_seconds(Method& method, DeformingScene& bodies, const std::vector<Pose>& poses,
-                      const MoverPlay* play, std::vector<Pose>& mover_poses) {
+double search_seconds(Method& method, SceneFrames& bodies, const std::vector<Pose>& poses) {
   const auto count = static_cast<std::int64_t>(poses.size());
   const std::int64_t samples = std::min(TIMED_FRAMES, count);
   const auto begin = std::chrono::steady_clock::now();
@@ -356,7 +341,6 @@ double search_seconds(Method& method, DeformingScene& bodies, const std::vector<
     WorkCounters counters;
     const std::int64_t frame = (2 * k + 1) * count / (2 * samples);
     bodies.to_frame(frame);
-    if (play != nullptr) mover_poses = play->poses[static_cast<std::size_t>(frame)];
     method.search(poses[static_cast<std::size_t>(frame)], lmds, counters);
   }
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count() /
@@ -367,31 +351,23 @@ double search_seconds(Method& method, DeformingScene& bodies, const std::vector<
 
 std::vector<ExpectedTime> expected_times(const Experiment& experiment, const PreparedRun& prepared) {
   const auto frames = static_cast<double>(prepared.input.poses.size());
-  const MoverPlay* play = prepared.input.movers.get();
-  const auto mover_poses = std::make_shared<std::vector<Pose>>();
-  const auto make = [&](const std::string& name, const Scene& scene, const nlohmann::json& options) {
-    return play != nullptr ? make_among_movers(play->scene(scene.cutoff), mover_poses,
-                                               method_description(name), method_maker(name, options))
-                           : make_method(name, scene, options);
-  };
   std::vector<ExpectedTime> times;
   for (const MethodChoice& choice : experiment.methods) {
-    DeformingScene bodies(prepared.profiles[choice.profile].scene, prepared.input.deformation);
-    const auto method = make(choice.name, bodies.scene(), choice.options);
+    SceneFrames bodies(prepared.profiles[choice.profile].scene, prepared.input.motion);
+    const auto method = make_method(choice.name, bodies.scene(), choice.options);
     // Where meshes deform the local update makes the method anew, which costs as much as a search.
     const double searches = method->description().tracks_locally && !bodies.deforms()
                                 ? frames / static_cast<double>(experiment.driver.search_every_frames)
                                 : frames;
-    times.push_back(
-        {choice.label, static_cast<double>(experiment.driver.repetitions) * searches *
-                           search_seconds(*method, bodies, prepared.input.poses, play, *mover_poses)});
+    times.push_back({choice.label, static_cast<double>(experiment.driver.repetitions) * searches *
+                                       search_seconds(*method, bodies, prepared.input.poses)});
   }
   if (const std::int64_t stride = experiment.probe_stride("truth"); stride > 0) {
-    DeformingScene bodies(prepared.scene(), prepared.input.deformation);
-    const auto truth = make("exhaustive", bodies.scene(), nlohmann::json::object());
+    SceneFrames bodies(prepared.scene(), prepared.input.motion);
+    const auto truth = make_method("exhaustive", bodies.scene());
     // Two searches a probed frame: the next frame's force tells the true jump.
     times.push_back({"truth", 2.0 * frames / static_cast<double>(stride) *
-                                  search_seconds(*truth, bodies, prepared.input.poses, play, *mover_poses)});
+                                  search_seconds(*truth, bodies, prepared.input.poses)});
   }
   return times;
 }

@@ -8,16 +8,18 @@
 
 namespace lmdbench {
 
-ServoRole::ServoRole(const ForceProfile& profile, const LockstepInput& input, std::int64_t start,
-                     ServoExchange& exchange, RecordQueues& queues, ServoDevice& device, Method* every_frame,
-                     const std::vector<char>& kept)
+ServoRole::ServoRole(const ForceProfile& profile, const Aggregation& aggregation, const LockstepInput& input,
+                     std::int64_t start, ServoExchange& exchange, RecordQueues& queues, ServoDevice& device,
+                     SceneFrames& frames, Method* every_frame, const std::vector<char>& kept)
     : profile_(profile),
       input_(input),
       start_(start),
       exchange_(exchange),
       queues_(queues),
       device_(device),
+      frames_(frames),
       every_frame_(every_frame),
+      contacts_(aggregation, frames.scene()),
       kept_(kept),
       memory_(profile.cutoff) {
   memory_.reserve(LONGEST_SET);
@@ -34,10 +36,11 @@ void ServoRole::tell_pose(const Tick& tick, const Pose& pose) {
   last_at_ = tick.woken;
 }
 
-const LmdSet& ServoRole::found_here(const Pose& pose) {
+const LmdSet& ServoRole::found_here(const Tick& tick, const Pose& pose) {
   FrameRecord& frame = record_.frame;
   const std::int64_t begin = monotonic_ns();
-  every_frame_->search(pose, found_, frame.counters);
+  record_.following_s = frames_.to_frame(tick.period);
+  contacts_.search(*every_frame_, pose, found_, frame.counters);
   record_.update_s = 1e-9 * static_cast<double>(monotonic_ns() - begin);
   frame.lmd_count_before_reduction = static_cast<double>(found_.size());
   frame.tracked_count = static_cast<std::int64_t>(found_.size());
@@ -50,7 +53,7 @@ const LmdSet& ServoRole::found_here(const Pose& pose) {
 }
 
 const LmdSet& ServoRole::set_in_use(const Tick& tick, const Pose& pose) {
-  if (every_frame_ != nullptr) return found_here(pose);
+  if (every_frame_ != nullptr) return found_here(tick, pose);
   exchange_.tracked.fetch();
   const TrackedSet& set = exchange_.tracked.value();
   FrameRecord& frame = record_.frame;
@@ -59,6 +62,7 @@ const LmdSet& ServoRole::set_in_use(const Tick& tick, const Pose& pose) {
   frame.tracked_count = set.tracked_count;
   frame.contact_without_direction = set.contact_without_direction;
   record_.update_s = set.update_s;
+  record_.following_s = set.following_s;
   record_.set_age = tick.woken - std::max(set.at, start_);
   record_.search_age = tick.woken - std::max(set.searched_at, start_);
   return set.lmds;
@@ -83,7 +87,7 @@ void ServoRole::tick(const Tick& tick) {
   record_.pose = pose;
   if (every_frame_ == nullptr) tell_pose(tick, pose);
   const LmdSet& lmds = set_in_use(tick, pose);
-  const Wrench wrench = sum_forces(lmds, profile_, RigidTransform(pose).point(input_.reference_M));
+  const Wrench wrench = contacts_.combine(lmds, profile_, RigidTransform(pose).point(input_.reference_M));
   const RenderedForce rendered = input_.device.render(wrench, profile_.largest_sum);
   const std::int64_t ready = monotonic_ns();
   device_.render(rendered, ready);
@@ -95,6 +99,7 @@ void ServoRole::tick(const Tick& tick) {
   frame.torque = wrench.torque;
   frame.effective_stiffness = wrench.stiffness;
   frame.lmd_count = static_cast<std::int64_t>(lmds.size());
+  frame.lmds_without_index = contacts_.without_index(profile_.cutoff);
   frame.minimum_distance = minimum_distance(lmds);
   frame.lmd_age = 1e-9 * static_cast<double>(record_.search_age);
   if (const LoopFrame* moved = device_.moved()) record_.loop = *moved;

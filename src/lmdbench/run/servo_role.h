@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <lmdbench/force/contact_finder.h>
 #include <lmdbench/realtime/thread_use.h>
 #include <lmdbench/run/direction_memory.h>
 #include <lmdbench/run/lockstep.h>
@@ -27,11 +28,13 @@ class ServoRole {
   /// @param start        of the grid [ns]; until then the mesh stood at its first pose
   /// @param every_frame  the method, where it searches in every frame; else nullptr: sets come through `exchange`
   /// @param kept         by frame, whether its LMD list is to be kept
-  ServoRole(const ForceProfile& profile, const LockstepInput& input, std::int64_t start,
-            ServoExchange& exchange, RecordQueues& queues, ServoDevice& device, Method* every_frame,
-            const std::vector<char>& kept);
+  /// @param frames       the scene of that method; else one that nobody else has
+  ServoRole(const ForceProfile& profile, const Aggregation& aggregation, const LockstepInput& input,
+            std::int64_t start, ServoExchange& exchange, RecordQueues& queues, ServoDevice& device,
+            SceneFrames& frames, Method* every_frame, const std::vector<char>& kept);
 
-  /// Nothing in it allocates, locks, writes or faults in once sets are no longer than LONGEST_SET.
+  /// Nothing in it allocates, locks, writes or faults in once sets are no longer than LONGEST_SET: under the aggregation `sum`, of one rigid
+  /// mesh that moves. What saddles join, sets of several movers and shapes that change are memory of each tick.
   void tick(const Tick& tick);
 
   /// Before the first tick and after the last one, in their thread.
@@ -48,7 +51,7 @@ class ServoRole {
   void tell_pose(const Tick& tick, const Pose& pose);
   /// The set for this tick's force.
   const LmdSet& set_in_use(const Tick& tick, const Pose& pose);
-  const LmdSet& found_here(const Pose& pose);
+  const LmdSet& found_here(const Tick& tick, const Pose& pose);
   void record_lists(std::int64_t frame, const LmdSet& lmds);
 
   const ForceProfile profile_;
@@ -57,7 +60,9 @@ class ServoRole {
   ServoExchange& exchange_;
   RecordQueues& queues_;
   ServoDevice& device_;
+  SceneFrames& frames_;
   Method* every_frame_;
+  ContactFinder contacts_;
   const std::vector<char>& kept_;
   DirectionMemory memory_;
   LmdSet found_;

@@ -6,12 +6,12 @@
 #include <lmdbench/force/contact_finder.h>
 #include <lmdbench/geometry/cone.h>
 #include <lmdbench/methods/registry.h>
-#include <lmdbench/run/mover_probe.h>
 #include <lmdbench/run/truth_probe.h>
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <memory>
 #include <optional>
@@ -43,27 +43,37 @@ std::vector<TruthFrame> probe_truth(const Scene& scene, const LockstepInput& inp
                                     const ForceProfile& profile, const Aggregation& aggregation,
                                     const std::vector<std::int64_t>& frames, const Progress& progress,
                                     const std::vector<bool>* in_contact, bool reuse_repeated) {
-  DeformingScene bodies(scene, input.deformation);
-  reuse_repeated = reuse_repeated && !bodies.deforms();
+  SceneFrames bodies(scene, input.motion);
+  const MoverPlay* play = input.motion.movers.get();
+  reuse_repeated = reuse_repeated && !bodies.is_any();
   const std::unique_ptr<Method> exhaustive = make_method("exhaustive", bodies.scene());
   ContactFinder contacts(aggregation, bodies.scene());
   WorkCounters ignored;
+  const auto rendered = [&](const Wrench& wrench) {
+    return input.device.render(wrench, profile.largest_sum).force;
+  };
   std::optional<Pose> searched;  // where the last set was found, ...
   TruthFrame last;               // ... and what was found
   const auto search = [&](std::int64_t frame) -> TruthFrame {
     const auto at = static_cast<std::size_t>(frame);
-    if (in_contact != nullptr && !(*in_contact)[at]) return {};
+    const bool is_empty = in_contact != nullptr && !(*in_contact)[at];
+    if (is_empty && play == nullptr) return {};
     const Pose& X_WM = input.poses[at];
     if (reuse_repeated && searched && same_pose(*searched, X_WM)) return last;
     bodies.to_frame(frame);
     TruthFrame found;
-    contacts.search(*exhaustive, X_WM, found.lmds, ignored);
+    if (!is_empty) contacts.search(*exhaustive, X_WM, found.lmds, ignored);
     const Vec3 reference_W = RigidTransform(X_WM).point(input.reference_M);
     for (const ForceLaw law : force_laws()) {
+      const auto index = static_cast<std::size_t>(law);
       ForceProfile with_law = profile;
       with_law.law = law;
-      found.force[static_cast<std::size_t>(law)] =
-          input.device.render(contacts.combine(found.lmds, with_law, reference_W), profile.largest_sum).force;
+      if (!is_empty) found.force[index] = rendered(contacts.combine(found.lmds, with_law, reference_W));
+      if (play == nullptr) continue;
+      found.movers[index].resize(play->count(), Vec3::Zero());
+      if (is_empty) continue;
+      std::ranges::transform(render_movers(contacts, bodies.scene(), X_WM, *play, with_law, input.device),
+                             found.movers[index].begin(), &MoverFrame::force);
     }
     if (reuse_repeated) {
       searched = X_WM;
@@ -80,8 +90,8 @@ std::vector<TruthComparison> compare_with_truth(const std::vector<TruthFrame>& t
   std::vector<TruthComparison> comparisons;
   for (const TruthFrame& here : truth) {
     const LmdSet& lmds = record.lmds.at(here.frame);
-    const FrameRecord& frame = record.frames[static_cast<std::size_t>(here.frame)];
-    const FrameRecord& next = record.frames[static_cast<std::size_t>(here.frame) + 1];
+    const auto at = static_cast<std::size_t>(here.frame);
+    const FrameRecord &frame = record.frames[at], &next = record.frames[at + 1];
     const Vec3& true_force = here.force[static_cast<std::size_t>(law)];
     TruthComparison comparison;
     comparison.same = agreement(here.lmds, lmds, Match::SAME_FEATURES, scene);
@@ -89,6 +99,15 @@ std::vector<TruthComparison> compare_with_truth(const std::vector<TruthFrame>& t
     comparison.minimum_distance_error = minimum_distance(lmds) - minimum_distance(here.lmds);
     comparison.force_error = (frame.force - true_force).norm();
     comparison.force_angle_error = force_angle(frame.force, true_force);
+    const std::vector<Vec3>& forces = here.movers[static_cast<std::size_t>(law)];
+    // On the clock only what the device holds is rendered.
+    for (std::size_t i = 0; i < forces.size() && !record.movers.empty(); ++i) {
+      const Vec3& force = record.movers[at * forces.size() + i].force;
+      comparison.force_error = std::max(comparison.force_error, (force - forces[i]).norm());
+      const double angle = force_angle(force, forces[i]);
+      if (!(angle <= comparison.force_angle_error) && !std::isnan(angle))
+        comparison.force_angle_error = angle;
+    }
     comparison.force_jump = (next.force - frame.force).norm();
     comparisons.push_back(comparison);
   }
@@ -126,15 +145,11 @@ bool breaks(Promise promise, const TruthComparison& row, double cutoff) {
 std::unique_ptr<ProbeFindings> find_truth(const ProbedTrack& track) {
   if (track.frames.empty()) return nullptr;
   auto found = std::make_unique<TruthFindings>();
-  const MoverPlay* movers = track.input.movers.get();
   const std::vector<bool>* empty_elsewhere =
       is_on(track.rules, Rule::TRUTH_IN_CONTACT) ? &track.in_contact : nullptr;
   const ForceProfile& force = track.profile.force;
-  found->frames =
-      movers != nullptr
-          ? probe_mover_truth(*movers, track.input, force, track.frames, track.progress, empty_elsewhere)
-          : probe_truth(track.profile.scene, track.input, force, *track.aggregation, track.frames,
-                        track.progress, empty_elsewhere, is_on(track.rules, Rule::REPEATED_POSE));
+  found->frames = probe_truth(track.profile.scene, track.input, force, *track.aggregation, track.frames,
+                              track.progress, empty_elsewhere, is_on(track.rules, Rule::REPEATED_POSE));
   std::vector<ProbedRecord> candidates;
   found->comparisons.reserve(track.methods.size());
   for (std::size_t i = 0; i < track.methods.size(); ++i) {
@@ -142,9 +157,8 @@ std::unique_ptr<ProbeFindings> find_truth(const ProbedTrack& track) {
     LMDBENCH_EXPECTS(record.frames.size() == track.input.poses.size(),
                      "a record of other frames than the track's");
     const ForceLaw law = track.methods[i].profile.law;
-    const std::vector<TruthComparison>& rows = found->comparisons.emplace_back(
-        movers != nullptr ? compare_with_truth(found->frames, record, law, *movers)
-                          : compare_with_truth(found->frames, record, law, track.profile.scene));
+    const std::vector<TruthComparison>& rows =
+        found->comparisons.emplace_back(compare_with_truth(found->frames, record, law, track.profile.scene));
     // The methods that promise the complete set and leave no doubt about it say what is true in every frame.
     const MethodDescription& method = method_description(track.choices[i]->name);
     if (!method.plugin.empty()) {
@@ -257,16 +271,25 @@ Probe truth_probe() {
 }
 
 TrueSets true_sets(const PreparedRun& run, std::int64_t checks, const Progress& progress) {
-  const std::unique_ptr<Method> certified = make_method("certified", run.scene());
-  const std::unique_ptr<Method> exhaustive = make_method("exhaustive", run.scene());
+  SceneFrames bodies(run.scene(), run.input.motion);
+  const std::unique_ptr<Method> certified = make_method("certified", bodies.scene());
+  const std::unique_ptr<Method> exhaustive = make_method("exhaustive", bodies.scene());
+  ContactFinder contacts(*run.profiles.front().aggregation, bodies.scene());
   const auto frames = static_cast<std::int64_t>(run.input.poses.size());
   TrueSets truth;
   WorkCounters ignored;
   LmdSet other;
   for (std::int64_t frame = 0; frame < frames; ++frame) {
     const Pose& X_WM = run.input.poses[static_cast<std::size_t>(frame)];
+    bodies.to_frame(frame);
     LmdSet& set = truth.sets.emplace_back();
-    certified->search(X_WM, set, ignored);
+    contacts.search(*certified, X_WM, set, ignored);
+    const Vec3 reference_W = RigidTransform(X_WM).point(run.input.reference_M);
+    for (const ForceLaw law : force_laws()) {
+      ForceProfile profile = run.profiles.front().force;
+      profile.law = law;
+      truth.wrenches[static_cast<std::size_t>(law)].push_back(contacts.combine(set, profile, reference_W));
+    }
     // The frames at which an even spread of `checks` over `frames` steps on; the first one is among them.
     if (frame * checks / frames != (frame - 1) * checks / frames || (frame == 0 && checks > 0)) {
       other.clear();
@@ -280,12 +303,8 @@ TrueSets true_sets(const PreparedRun& run, std::int64_t checks, const Progress& 
 }
 
 std::vector<TruthFrame> truth_frames(const TrueSets& truth, const PreparedRun& run, std::int64_t first) {
-  const auto rendered = [&](std::size_t frame, ForceLaw law) {
-    ForceProfile profile = run.profiles.front().force;
-    profile.law = law;
-    const Vec3 reference_W = RigidTransform(run.input.poses[frame]).point(run.input.reference_M);
-    return run.input.device.render(sum_forces(truth.sets[frame], profile, reference_W), profile.largest_sum)
-        .force;
+  const auto rendered = [&](std::size_t frame, std::size_t law) {
+    return run.input.device.render(truth.wrenches[law][frame], run.profiles.front().force.largest_sum).force;
   };
   std::vector<TruthFrame> result;
   for (auto frame = static_cast<std::size_t>(first); frame + 1 < truth.sets.size(); ++frame) {
@@ -294,8 +313,9 @@ std::vector<TruthFrame> truth_frames(const TrueSets& truth, const PreparedRun& r
     here.lmds = truth.sets[frame];
     for (const ForceLaw law : force_laws()) {
       const auto index = static_cast<std::size_t>(law);
-      here.force[index] = rendered(frame, law);
-      here.force_jump[index] = (rendered(frame + 1, law) - here.force[index]).norm();
+      here.force[index] = rendered(frame, index);
+      here.torque[index] = truth.wrenches[index][frame].torque;
+      here.force_jump[index] = (rendered(frame + 1, index) - here.force[index]).norm();
     }
     result.push_back(std::move(here));
   }

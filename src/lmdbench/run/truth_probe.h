@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <lmdbench/force/aggregation.h>
 #include <lmdbench/force/force_law.h>
 #include <lmdbench/lmd/agreement.h>
 #include <lmdbench/lmd/scene.h>
@@ -27,7 +28,9 @@ struct TruthFrame {
   std::int64_t frame = 0;
   LmdSet lmds;
   std::array<Vec3, FORCE_LAW_COUNT> force = no_forces();  ///< Rendered, under each law [N].
-  std::array<double, FORCE_LAW_COUNT> force_jump{};       ///< |force at the next frame - force| [N].
+  /// On the moving mesh before the device clips it, under each law [N m]; of `truth_frames` alone.
+  std::array<Vec3, FORCE_LAW_COUNT> torque = no_forces();
+  std::array<double, FORCE_LAW_COUNT> force_jump{};  ///< |force at the next frame - force| [N].
   ForcesByLaw movers;  ///< Where several meshes move: of each by its number, the moving mesh first [N].
 
   static std::array<Vec3, FORCE_LAW_COUNT> no_forces() {
@@ -109,7 +112,9 @@ std::vector<TruthComparison> compare_with_truth(const std::vector<TruthFrame>& t
 /// shares no search code with it, is asked at some frames whether that stands in this scene, too.
 
 struct TrueSets {
-  std::vector<LmdSet> sets;         ///< One a frame.
+  std::vector<LmdSet> sets;  ///< One a frame, as is
+  std::array<std::vector<Wrench>, FORCE_LAW_COUNT>
+      wrenches;                     ///< what the moving mesh feels of it under each law.
   std::int64_t checked_frames = 0;  ///< Compared with the exhaustive set.
   std::int64_t wrong_frames = 0;    ///< Of these, with another set of feature pairs.
 };

@@ -24,7 +24,8 @@ enum class Stage : std::uint8_t { GLOBAL_SEARCH, FIRST_REDUCTION, SECOND_TRACKIN
 /// would. Runs and benchmarks share it; what they measure of it is the observer's business:
 /// - `observer.search_starts(frame)` before a search;
 /// - `observer.run(stage, work)` must call `work(counters)` once, with the WorkCounters that are to count it;
-/// - `observer.search_ends(search)` after the first reduction.
+/// - `observer.search_ends(search)` after the first reduction;
+/// - `observer.look_at(frame)`, where it has that, brings what else moves to where it is in a frame.
 /// With prediction (the paper's future work) a search and its first reduction take place not at the present pose
 /// but where the mesh will be when the result arrives, if it goes on as in the last frame.
 class TwoRate {
@@ -51,7 +52,9 @@ class TwoRate {
     if (pending_ && frame == pending_->search.frame + latency_) receive(X_WM, observer);
     if (frame % every_ == 0) {
       const bool ahead = predicts_ && last_pose_;
+      if (ahead) look_at(frame + latency_, observer);
       search(frame, ahead ? extrapolated(*last_pose_, X_WM, static_cast<double>(latency_)) : X_WM, observer);
+      if (ahead) look_at(frame, observer);
       if (latency_ == 0) receive(X_WM, observer);
     }
     observer.run(Stage::LOCAL_UPDATE,
@@ -76,6 +79,11 @@ class TwoRate {
     LmdSet lmds;
     Search search;
   };
+
+  template <typename Observer>
+  static void look_at(std::int64_t frame, Observer& observer) {
+    if constexpr (requires { observer.look_at(frame); }) observer.look_at(frame);
+  }
 
   template <typename Observer>
   void search(std::int64_t frame, const Pose& X_WM, Observer& observer) {

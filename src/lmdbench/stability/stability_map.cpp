@@ -129,7 +129,8 @@ void map_stability(const Experiment& experiment, const StabilityMapGrid& grid,
   if (static_cast<double>(grid.frames) < (SETTLED_S + 0.2) * rate)
     throw UsageError(file, "/frames", "too few frames to settle and to be measured",
                      "give 0.7 seconds or more");
-  const PreparedRun prepared = prepare(experiment);
+  PreparedRun prepared = prepare(experiment, {}, Deforming::FOLLOWED);
+  hold_first_frame(prepared);
   const Pose& start = prepared.input.poses.front();
   const std::vector<LockstepMethod> methods = lockstep_methods(experiment, prepared);
   for (std::size_t m = 0; m < methods.size(); ++m) {

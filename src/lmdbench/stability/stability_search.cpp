@@ -264,7 +264,8 @@ std::vector<StabilityRow> find_critical_stiffness(const Experiment& experiment, 
   if (!experiment.loop.closed)
     throw UsageError(experiment.file.string(), "/loop/kind", "the loop is open, so nothing can shake",
                      "set it to closed");
-  const PreparedRun prepared = prepare(experiment);
+  PreparedRun prepared = prepare(experiment, {}, Deforming::FOLLOWED);
+  hold_first_frame(prepared);
   SampledLoop sampled{experiment.loop.dynamics, 1.0 / experiment.frame_rate_hz, experiment.loop.delay_frames};
   if (experiment.loop.rotation) sampled.turn = SampledTurn{experiment.loop.rotation->dynamics, 0.0};
   StabilityRow common;

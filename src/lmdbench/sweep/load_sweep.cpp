@@ -86,8 +86,6 @@ SweepPoint make_point(const std::filesystem::path& file, const Json& sweep, cons
   if (point.experiment.loop.closed)
     throw UsageError(file.string(), "/loop/kind", "a closed loop",
                      "sweep in an open loop: truth is at the poses of the path");
-  refuse_all_but_sum(point.experiment, file.string(), "the truth of sweeps is the plain sum of the true set",
-                     "sweep with sum");
   add_overrides(overrides, series["truth"]);
   point.truth = series["truth"].empty() ? point.experiment : load_experiment(file, overrides);
   return point;

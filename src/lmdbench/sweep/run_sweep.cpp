@@ -36,8 +36,8 @@ using Json = nlohmann::json;
 class SharedScene {
  public:
   SharedScene(const Sweep& sweep, const SweepPoint& point, InputHashes& hashes)
-      : run_(prepare(point.experiment)),
-        in_contact_(frames_in_contact(run_.scene(), run_.input.poses)),
+      : run_(prepare(point.experiment, {}, Deforming::FOLLOWED)),
+        in_contact_(frames_in_contact(run_.scene(), run_.input.motion, run_.input.poses)),
         hashes_(hashes) {
     hashes_.check(run_);
     for (std::int64_t frame = 0; frame < std::min<std::int64_t>(sweep.from_frame, std::ssize(in_contact_));
@@ -59,7 +59,7 @@ class SharedScene {
     if (!is_new) return truth;
     try {
       if (key != scene_key(point.experiment))
-        truth.other = std::make_unique<PreparedRun>(prepare(point.truth));
+        truth.other = std::make_unique<PreparedRun>(prepare(point.truth, {}, Deforming::FOLLOWED));
       if (truth.other) hashes_.check(*truth.other);
       const PreparedRun& run = truth.other ? *truth.other : run_;
       if (run.input.poses.size() != run_.input.poses.size())

@@ -135,9 +135,31 @@ void export_recorded(Exporter& exporter, const ResultReader& result, const std::
   }
 }
 
+/// The fixed meshes: once, or where they deform in each frame.
+void export_fixed(Exporter& exporter, const ResultScene& result_scene,
+                  const std::vector<ResultTrack>& tracks) {
+  const SceneDeformation* deformation = result_scene.motion.deformation.get();
+  for (const std::size_t i : drawn_bodies(result_scene.rest, tracks)) {
+    const std::string name = fmt::format("fixed_{}", i);
+    if (deformation == nullptr || deformation->find(result_scene.rest.fixed[i].body.get()) == nullptr) {
+      exporter.write_top(name + ".vtu", vtu_text(mesh_grid(placed_mesh(result_scene.rest.fixed[i]), {})));
+      continue;
+    }
+    SceneFrames bodies(result_scene.rest, result_scene.motion);
+    for (const ResultTrack& track : tracks) {
+      Series series(exporter, name, track.method);
+      for (std::size_t k = 0; k < track.frames.size(); ++k) {
+        bodies.to_frame(static_cast<std::int64_t>(track.frames[k]));
+        series.add(track.poses[k].time, track.frames[k], mesh_grid(placed_mesh(bodies.scene().fixed[i]), {}));
+      }
+      series.finish();
+    }
+  }
+}
+
 void export_track(Exporter& exporter, const ResultReader& result, const ResultScene& result_scene,
                   const ResultTrack& track) {
-  DeformingScene bodies(result_scene.rest, result_scene.deformation);
+  SceneFrames bodies(result_scene.rest, result_scene.motion);
   const Scene& scene = bodies.scene();
   const std::vector<std::string> labels =
       track.method.empty() ? result.groups("/methods") : std::vector<std::string>{track.method};
@@ -146,21 +168,12 @@ void export_track(Exporter& exporter, const ResultReader& result, const ResultSc
   Series moving(exporter, "moving", track.method), lmds(exporter, "lmds-exact", track.method),
       forces(exporter, "forces", track.method);
   std::vector<std::vector<double>> force_of;
-  std::vector<Series> fixed;
-  std::vector<std::size_t> fixed_index;
-  for (std::size_t i = 0; result_scene.deformation && i < scene.fixed.size(); ++i) {
-    if (result_scene.deformation->find(i + 1) == nullptr) continue;
-    fixed_index.push_back(i);
-    fixed.emplace_back(exporter, fmt::format("fixed_{}", i), track.method);
-  }
   for (const std::string& label : labels) force_of.push_back(result.reals("/methods/" + label + "/force"));
   for (std::size_t i = 0; i < track.frames.size(); ++i) {
     const auto& [time, pose] = track.poses[i];
     const std::size_t frame = track.frames[i];
     const RigidTransform transform(pose);
     bodies.to_frame(static_cast<std::int64_t>(frame));
-    for (std::size_t k = 0; k < fixed.size(); ++k)
-      fixed[k].add(time, frame, mesh_grid(placed_mesh(scene.fixed[fixed_index[k]]), {}));
     moving.add(time, frame, mesh_grid(mesh, transform));
     VtuGrid pairs = empty_lmd_grid();
     for (const Lmd& lmd : query(*exact, track.poses[i].pose, scene.cutoff).lmds)
@@ -176,29 +189,32 @@ void export_track(Exporter& exporter, const ResultReader& result, const ResultSc
     forces.add(time, frame, middle);
   }
   for (Series* series : {&moving, &lmds, &forces}) series->finish();
-  for (Series& series : fixed) series.finish();
   export_recorded(exporter, result, labels, track);
 }
 
 /// Meshes, exact LMDs and forces of several movers; each carries its number.
 void export_movers(Exporter& exporter, const ResultReader& result, const ResultScene& result_scene,
                    const ResultTrack& track) {
-  const MoverPlay& play = *result_scene.movers;
-  const auto poses = std::make_shared<std::vector<Pose>>();
-  const MoverScene scene = play.scene(result_scene.rest.cutoff);
-  const std::unique_ptr<Method> exact = exact_method(scene, poses);
-  const std::vector<std::string> labels = result.groups("/methods");
+  const MoverPlay& play = *result_scene.motion.movers;
+  SceneFrames frames(result_scene.rest, result_scene.motion);
+  const Scene& scene = frames.scene();
+  const std::unique_ptr<Method> exact = exact_method(scene);
+  std::vector<std::string> labels;
+  // A run on the clock renders what the device holds alone.
+  for (const std::string& label :
+       track.method.empty() ? result.groups("/methods") : std::vector<std::string>{track.method})
+    if (result.has("/methods/" + label + "/movers/force")) labels.push_back(label);
   std::vector<std::vector<double>> force_of;
   for (const std::string& label : labels)
     force_of.push_back(result.reals("/methods/" + label + "/movers/force"));
-  Series movers(exporter, "movers", ""), lmds(exporter, "lmds-movers", ""),
-      forces(exporter, "forces-movers", "");
+  Series movers(exporter, "movers", track.method), lmds(exporter, "lmds-movers", track.method),
+      forces(exporter, "forces-movers", track.method);
   LmdSet set;
   WorkCounters ignored;
   for (std::size_t i = 0; i < track.frames.size(); ++i) {
     const std::size_t frame = track.frames[i];
-    const double time = track.poses[i].time;
-    *poses = play.poses[frame];
+    const auto& [time, pose] = track.poses[i];
+    frames.to_frame(static_cast<std::int64_t>(frame));
     VtuGrid meshes, middles, pairs = empty_lmd_grid();
     meshes.cell = VtuCell::TRIANGLE;
     meshes.cell_data = {{"mover", 1, {}}};
@@ -206,8 +222,8 @@ void export_movers(Exporter& exporter, const ResultReader& result, const ResultS
     for (const std::string& label : labels)
       middles.point_data.push_back({"force of " + label + " [N]", 3, {}});
     for (std::size_t m = 0; m < play.count(); ++m) {
-      const RigidTransform X_WM((*poses)[m]);
-      const VtuGrid mesh = mesh_grid(play.bodies[m]->surface().mesh, X_WM);
+      const RigidTransform X_WM(scene.pose(m, pose));
+      const VtuGrid mesh = mesh_grid(scene.body(m)->surface().mesh, X_WM);
       const auto first = static_cast<std::int32_t>(meshes.points.size()),
                  ends = static_cast<std::int32_t>(meshes.corners.size());
       meshes.points.insert(meshes.points.end(), mesh.points.begin(), mesh.points.end());
@@ -223,7 +239,7 @@ void export_movers(Exporter& exporter, const ResultReader& result, const ResultS
                                                 force.end());
       }
     }
-    exact->search(Pose{}, set, ignored);
+    exact->search(pose, set, ignored);
     for (const Lmd& lmd : set)
       add_lmd(pairs, lmd.point_moving, lmd.point_fixed, lmd.distance,
               static_cast<double>(lmd.feature_moving.kind), static_cast<double>(lmd.feature_fixed.kind));
@@ -267,15 +283,11 @@ void export_polylines(Exporter& exporter, const ResultReader& result, const std:
 std::vector<fs::path> export_frames(const ResultReader& result, const fs::path& folder,
                                     std::size_t most_frames) {
   const ResultScene result_scene = scene_of_result(result);
-  const Scene& scene = result_scene.rest;
   Exporter exporter(result.file(), folder);
   const std::vector<ResultTrack> tracks = tracks_of_result(result, most_frames);
-  for (const std::size_t i : drawn_bodies(scene, tracks))
-    if (!result_scene.deformation || result_scene.deformation->find(i + 1) == nullptr)
-      exporter.write_top(fmt::format("fixed_{}.vtu", i),
-                         vtu_text(mesh_grid(placed_mesh(scene.fixed[i]), {})));
+  export_fixed(exporter, result_scene, tracks);
   for (const ResultTrack& track : tracks) {
-    if (result_scene.movers)
+    if (result_scene.motion.movers)
       export_movers(exporter, result, result_scene, track);
     else
       export_track(exporter, result, result_scene, track);

@@ -18,9 +18,11 @@
 #include <array>
 #include <cstddef>
 #include <cstdlib>
+#include <map>
 #include <memory>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace lmdbench {
 namespace {
@@ -113,43 +115,82 @@ constexpr std::size_t MOST_FRAMES = 600;
 /// Movers times frames: with more the page shows fewer frames.
 constexpr std::size_t MOST_MOVER_POSES = 30000;
 
-/// One mesh an entry of `/movers`; where each of its movers is the page reads in the result.
-void write_movers(const ResultReader& result, const MoverPlay& play, const std::filesystem::path& folder) {
+/// Vertices of meshes that deform, over all frames: with more the page shows fewer frames.
+constexpr std::size_t MOST_SHAPE_VERTICES = 1000000;
+
+/// A mesh of the view, under its name there.
+struct DrawnMesh {
+  std::string role;
+  std::size_t object = 0;  ///< Of the scene.
+  bool deforms = false;
+
+  TriangleMesh in(const Scene& scene) const {
+    return scene.is_mover(object) ? scene.body(object)->surface().mesh
+                                  : placed_mesh(scene.fixed[object - scene.mover_count()]);
+  }
+};
+
+/// The moving mesh, one an entry of `/movers`, and fixed ones.
+std::vector<DrawnMesh> drawn_meshes(const ResultReader& result, const ResultScene& result_scene,
+                                    const std::vector<ResultTrack>& tracks) {
+  const Scene& scene = result_scene.rest;
+  std::vector<DrawnMesh> meshes{{"moving", scene.held}};
   for (std::size_t entry = 0;; ++entry) {
     const std::string role = fmt::format("mover_{}", entry);
     const auto first = result.integer_attribute("/scene/" + role, "first_mover");
-    if (!first) return;
-    const auto mover = std::ranges::find(play.number, static_cast<std::size_t>(*first));
-    write_off(folder / (role + ".off"),
-              play.bodies.at(static_cast<std::size_t>(mover - play.number.begin()))->surface().mesh);
+    if (!first) break;
+    const auto mover =
+        std::ranges::find(result_scene.motion.movers->number, static_cast<std::size_t>(*first));
+    meshes.push_back({role, static_cast<std::size_t>(mover - result_scene.motion.movers->number.begin())});
   }
+  for (const std::size_t i : drawn_bodies(scene, tracks))
+    meshes.push_back({fmt::format("fixed_{}", i), scene.mover_count() + i});
+  if (const SceneDeformation* deformation = result_scene.motion.deformation.get())
+    for (DrawnMesh& mesh : meshes) mesh.deforms = deformation->find(scene.body(mesh.object).get()) != nullptr;
+  return meshes;
+}
+
+/// A triangle mesh each; of what deforms the vertices of every frame, too, in single precision.
+void write_meshes(const std::vector<DrawnMesh>& meshes, const ResultScene& result_scene,
+                  const std::vector<std::size_t>& frames, const std::filesystem::path& folder) {
+  for (const DrawnMesh& mesh : meshes) write_off(folder / (mesh.role + ".off"), mesh.in(result_scene.rest));
+  std::map<std::string, std::string> shapes;
+  SceneFrames bodies(result_scene.rest, result_scene.motion);
+  for (const std::size_t frame : frames) {
+    bodies.to_frame(static_cast<std::int64_t>(frame));
+    for (const DrawnMesh& mesh : meshes) {
+      if (!mesh.deforms) continue;
+      std::string& own = shapes[mesh.role];
+      for (const Vec3& vertex : mesh.in(bodies.scene()).vertices) {
+        const Eigen::Vector3f single = vertex.cast<float>();
+        own.append(reinterpret_cast<const char*>(single.data()), sizeof(float) * 3);
+      }
+    }
+  }
+  for (const auto& [role, bytes] : shapes) write_file_atomically(folder / (role + ".shapes"), bytes);
 }
 
 }  // namespace
 
 void write_report_scene(const ResultReader& result, const std::filesystem::path& folder) {
   const ResultScene result_scene = scene_of_result(result);
-  if (result_scene.deformation)
-    throw UsageError(result.file().string(), "", "the view does not draw meshes that deform",
-                     "lmdbench export writes the shape of each frame, for ParaView");
   const Scene& scene = result_scene.rest;
-  write_off(folder / "moving.off", scene.moving->surface().mesh);
-  const MoverPlay* play = result_scene.movers.get();
-  if (play != nullptr) write_movers(result, *play, folder);
-  const std::size_t frames = play != nullptr
-                                 ? std::clamp<std::size_t>(MOST_MOVER_POSES / play->count(), 1, MOST_FRAMES)
-                                 : MOST_FRAMES;
+  std::size_t frames = MOST_FRAMES;
+  if (result_scene.motion.movers)
+    frames = std::clamp<std::size_t>(MOST_MOVER_POSES / scene.mover_count(), 1, frames);
+  std::size_t vertices = 0;
+  for (const DrawnMesh& mesh : drawn_meshes(result, result_scene, tracks_of_result(result, 1)))
+    if (mesh.deforms) vertices += scene.body(mesh.object)->surface().mesh.vertices.size();
+  if (vertices > 0) frames = std::clamp<std::size_t>(MOST_SHAPE_VERTICES / vertices, 1, frames);
   const std::vector<ResultTrack> tracks = tracks_of_result(result, frames);
-  for (const std::size_t i : drawn_bodies(scene, tracks))
-    write_off(folder / fmt::format("fixed_{}.off", i), placed_mesh(scene.fixed[i]));
+  write_meshes(drawn_meshes(result, result_scene, tracks), result_scene, tracks.front().frames, folder);
 
-  const auto poses = std::make_shared<std::vector<Pose>>();
-  const std::unique_ptr<Method> method =
-      play != nullptr ? exact_method(play->scene(scene.cutoff), poses) : exact_method(scene);
+  SceneFrames bodies(scene, result_scene.motion);
+  const std::unique_ptr<Method> method = exact_method(bodies.scene());
   std::string lines;
   for (const ResultTrack& track : tracks)
     for (std::size_t i = 0; i < track.poses.size(); ++i) {
-      if (play != nullptr) *poses = play->poses[track.frames[i]];
+      bodies.to_frame(static_cast<std::int64_t>(track.frames[i]));
       const std::string line =
           query_json(query(*method, track.poses[i].pose, scene.cutoff, track.poses[i].time));
       lines += fmt::format("{{\"frame\":{},\"track\":{},{}\n", track.frames[i],

@@ -206,7 +206,7 @@ Method& MoverGroup::method_of(Candidate& candidate) {
   return *candidate.method;
 }
 
-void MoverGroup::search(std::span<const Pose> poses, MoverContacts& contacts, Work& work) {
+void MoverGroup::for_each_near(std::span<const Pose> poses, Work& work, const Ask& ask) {
   refuse_bad_poses(poses, mover_count_);
   look_for_deformation();
   stale_.clear();
@@ -217,22 +217,28 @@ void MoverGroup::search(std::span<const Pose> poses, MoverContacts& contacts, Wo
     if (is_stale_[i]) stale_.push_back(i);
   }
   if (!stale_.empty()) anchor(poses, work);
-  contacts.pairs.clear();
-  contacts.lmds.clear();
   for (Candidate& candidate : pairs_) {
     if (!is_near(candidate, work)) continue;
     Method& method = method_of(candidate);
     const Pose& X_WF = is_mover(candidate.other) ? poses[candidate.other] : objects_[candidate.other].anchor;
-    const PlacedPair place = candidate.meshes->placed(X_WF, poses[candidate.mover]);
-    method.search(place.X_FM, lmds_, work.of_methods);
     ++work.pairs_searched;
-    if (lmds_.empty()) continue;
-    contacts.pairs.push_back({candidate.mover, candidate.other, contacts.lmds.size(), lmds_.size()});
-    for (Lmd& lmd : lmds_) {
-      place.to_world(lmd, candidate.other);
-      contacts.lmds.push_back(lmd);
-    }
+    ask(candidate.mover, candidate.other, method, candidate.meshes->placed(X_WF, poses[candidate.mover]));
   }
+}
+
+void MoverGroup::search(std::span<const Pose> poses, MoverContacts& contacts, Work& work) {
+  contacts.pairs.clear();
+  contacts.lmds.clear();
+  for_each_near(poses, work,
+                [&](std::uint32_t mover, std::uint32_t other, Method& method, const PlacedPair& place) {
+                  method.search(place.X_FM, lmds_, work.of_methods);
+                  if (lmds_.empty()) return;
+                  contacts.pairs.push_back({mover, other, contacts.lmds.size(), lmds_.size()});
+                  for (Lmd& lmd : lmds_) {
+                    place.to_world(lmd, other);
+                    contacts.lmds.push_back(lmd);
+                  }
+                });
 }
 
 }  // namespace lmdbench

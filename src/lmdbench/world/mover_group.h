@@ -11,6 +11,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
@@ -71,10 +72,14 @@ class MoverGroup {
   MoverGroup(const std::vector<std::shared_ptr<const Body>>& movers, const std::vector<FixedBody>& standing,
              double cutoff, MeshPair::Make make, const Tuning& tuning);
 
-  /// The sets of all pairs that have an LMD. Where a body has deformed since, everything is made anew.
+  /// Calls ask(mover, other, method, place) for each pair that may be within reach, by mover, then by other. Where a body has deformed since, everything is made anew.
   /// @param poses X_WM of each mover
   /// @param work  is added to
   /// @throws UsageError for another number of poses, and for one that is not finite or no rotation
+  using Ask = std::function<void(std::uint32_t mover, std::uint32_t other, Method&, const PlacedPair& place)>;
+  void for_each_near(std::span<const Pose> poses, Work& work, const Ask& ask);
+
+  /// The sets of all pairs that have an LMD.
   void search(std::span<const Pose> poses, MoverContacts& contacts, Work& work);
 
   std::size_t mover_count() const { return mover_count_; }

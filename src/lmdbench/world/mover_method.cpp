@@ -23,10 +23,10 @@ enum class MoverCounter : std::uint8_t {
 };
 
 /// The nearest LMD of each mover, of a set in the order of distances.
-void keep_nearest_of_each(LmdSet& lmds, const MoverScene& scene) {
-  std::vector<bool> has(scene.movers.size(), false);
+void keep_nearest_of_each(LmdSet& lmds, const Scene& scene) {
+  std::vector<bool> has(scene.mover_count(), false);
   std::erase_if(lmds, [&](const Lmd& lmd) {
-    const ObjectPair pair = ObjectPair::of(lmd.fixed_body, scene.object_count());
+    const ObjectPair pair = ObjectPair::of(lmd.fixed_body, scene);
     bool nearest = !has[pair.mover];
     has[pair.mover] = true;
     if (scene.is_mover(pair.other)) {
@@ -39,14 +39,9 @@ void keep_nearest_of_each(LmdSet& lmds, const MoverScene& scene) {
 
 class MoverMethod : public Method {
  public:
-  MoverMethod(const MoverScene& scene, std::shared_ptr<const std::vector<Pose>> poses,
-              const MethodDescription& description, MeshPair::Make make)
-      : scene_(scene),
-        poses_(std::move(poses)),
-        description_(among_movers(description)),
-        make_(std::move(make)),
-        near_(scene_) {
-    if (!description_.brute_force) group_.emplace(scene.movers, scene.standing, scene.cutoff, make_);
+  MoverMethod(const Scene& scene, const MethodDescription& description, MeshPair::Make make)
+      : scene_(scene), description_(among_movers(description)), make_(std::move(make)), near_(scene_) {
+    if (!description_.brute_force) group_.emplace(scene.movers, scene.fixed, scene.cutoff, make_);
     double known = 0.0;
     for (std::size_t i = 0; i < scene.object_count(); ++i)
       known = std::max(known, scene.body(i)->prepared<MeshBounds>().known);
@@ -55,12 +50,14 @@ class MoverMethod : public Method {
 
   const MethodDescription& description() const override { return description_; }
 
-  void search(const Pose& /*X_WM*/, LmdSet& lmds, WorkCounters& counters) override {
+  void search(const Pose& X_WM, LmdSet& lmds, WorkCounters& counters) override {
     lmds.clear();
-    if (description_.brute_force)
-      search_all(lmds, counters);
-    else
-      search_group(lmds, counters);
+    for_each_near(X_WM, counters, [&](const ObjectPair& pair, Method& method, const PlacedPair& place) {
+      method.search(place.X_FM, found_, counters);
+      const auto number = static_cast<std::uint32_t>(pair.number(scene_));
+      for (Lmd& lmd : found_) place.to_world(lmd, number);
+      lmds.insert(lmds.end(), found_.begin(), found_.end());
+    });
     std::sort(lmds.begin(), lmds.end(), lmd_less);
     if (description_.promise == Promise::NEAREST_PAIR) keep_nearest_of_each(lmds, scene_);
   }
@@ -73,9 +70,9 @@ class MoverMethod : public Method {
     for (std::size_t begin = 0, end = 0; begin < lmds.size(); begin = end) {
       const std::int32_t number = lmds[begin].fixed_body;
       while (end < lmds.size() && lmds[end].fixed_body == number) ++end;
-      const ObjectPair pair = ObjectPair::of(number, scene_.object_count());
+      const ObjectPair pair = ObjectPair::of(number, scene_);
       MeshPair& meshes = meshes_of(pair);
-      const PlacedPair place = placed(meshes, pair);
+      const PlacedPair place = placed(meshes, pair, X_WM);
       found_.assign(lmds.begin() + static_cast<std::ptrdiff_t>(begin),
                     lmds.begin() + static_cast<std::ptrdiff_t>(end));
       for (Lmd& lmd : found_) place.to_mesh(lmd);
@@ -86,85 +83,86 @@ class MoverMethod : public Method {
     lmds = tracked_;
   }
 
+  void find_critical(const Pose& X_WM, CriticalSet& critical, WorkCounters& counters) override {
+    critical.clear();
+    CriticalSet found;
+    for_each_near(X_WM, counters, [&](const ObjectPair& pair, Method& method, const PlacedPair& place) {
+      method.find_critical(place.X_FM, found, counters);
+      const auto number = static_cast<std::uint32_t>(pair.number(scene_));
+      for (CriticalPair& one : found) place.to_world(one.pair, number);
+      critical.insert(critical.end(), found.begin(), found.end());
+    });
+    sort_critical(critical);
+  }
+
  private:
-  void search_group(LmdSet& lmds, WorkCounters& counters) {
-    MoverGroup::Work work;
-    group_->search(*poses_, contacts_, work);
-    for (const MoverContacts::Pair& pair : contacts_.pairs) {
-      const std::int32_t number = ObjectPair{pair.mover, pair.other}.number(scene_.object_count());
-      for (Lmd lmd : contacts_.of(pair)) {
-        lmd.fixed_body = number;
-        lmds.push_back(lmd);
+  /// Calls ask(pair, method, place) for each pair of objects that may be within reach.
+  template <class Ask>
+  void for_each_near(const Pose& X_WM, WorkCounters& counters, const Ask& ask) {
+    if (description_.brute_force) {
+      const std::vector<NearPairs::Pair>& near = near_.within(reach_, X_WM);
+      for (const auto& [bound, pair] : near) {
+        MeshPair& meshes = meshes_of(pair);
+        ask(pair, meshes.shared(), placed(meshes, pair, X_WM));
       }
+      counters[MoverCounter::PAIRS_TOUCHED] += scene_.mover_count() * (scene_.object_count() - 1);
+      counters[MoverCounter::PAIRS_SEARCHED] += near.size();
+      return;
     }
-    counters += work.of_methods;
+    poses_ = *scene_.mover_poses;
+    poses_[scene_.held] = X_WM;
+    MoverGroup::Work work;
+    group_->for_each_near(
+        poses_, work, [&](std::uint32_t mover, std::uint32_t other, Method& method, const PlacedPair& place) {
+          ask(ObjectPair{mover, other}, method, place);
+        });
     counters[MoverCounter::MOVERS_ANCHORED] += work.anchored;
     counters[MoverCounter::PAIRS_TOUCHED] += work.pairs_touched;
     counters[MoverCounter::PAIRS_SEARCHED] += work.pairs_searched;
   }
 
-  void search_all(LmdSet& lmds, WorkCounters& counters) {
-    const std::vector<NearPairs::Pair>& near = near_.within(reach_, *poses_);
-    for (const auto& [bound, pair] : near) {
-      MeshPair& meshes = meshes_of(pair);
-      const PlacedPair place = placed(meshes, pair);
-      meshes.shared().search(place.X_FM, found_, counters);
-      const auto number = static_cast<std::uint32_t>(pair.number(scene_.object_count()));
-      for (Lmd& lmd : found_) place.to_world(lmd, number);
-      lmds.insert(lmds.end(), found_.begin(), found_.end());
-    }
-    counters[MoverCounter::PAIRS_TOUCHED] += scene_.movers.size() * (scene_.object_count() - 1);
-    counters[MoverCounter::PAIRS_SEARCHED] += near.size();
-  }
-
-  PlacedPair placed(const MeshPair& meshes, const ObjectPair& pair) const {
-    return meshes.placed(scene_.pose(pair.other, *poses_), (*poses_)[pair.mover]);
+  PlacedPair placed(const MeshPair& meshes, const ObjectPair& pair, const Pose& X_WM) const {
+    return meshes.placed(scene_.pose(pair.other, X_WM), scene_.pose(pair.mover, X_WM));
   }
 
   MeshPair& meshes_of(const ObjectPair& pair) {
-    const std::shared_ptr<const Body>&mover = scene_.movers[pair.mover], &other = scene_.body(pair.other);
-    const std::pair key(mover.get(), other.get());
+    const std::pair key(scene_.body(pair.mover).get(), scene_.body(pair.other).get());
     const auto found = meshes_.find(key);
     if (found != meshes_.end()) return found->second;
-    return meshes_.try_emplace(key, Scene{mover, {other}, scene_.cutoff}, make_).first->second;
+    return meshes_.try_emplace(key, pair.scene_of(scene_), make_).first->second;
   }
 
-  const MoverScene scene_;
-  std::shared_ptr<const std::vector<Pose>> poses_;
+  const Scene scene_;
   MethodDescription description_;
   MeshPair::Make make_;
   NearPairs near_;
   std::optional<MoverGroup> group_;  ///< But of truth.
   double reach_ = 0.0;
   std::map<std::pair<const Body*, const Body*>, MeshPair> meshes_;  ///< For tracking, and of truth.
-  MoverContacts contacts_;
+  std::vector<Pose> poses_;
   LmdSet found_, tracked_;
 };
 
 }  // namespace
 
-bool pairs_have_numbers(const MoverScene& scene) {
+bool pairs_have_numbers(const Scene& scene) {
   return scene.object_count() <=
-         static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max()) / scene.movers.size();
+         static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max()) / scene.mover_count();
 }
 
-NearPairs::NearPairs(const MoverScene& scene) : scene_(scene) {
-  const std::size_t count = scene.object_count();
-  centres_.resize(count);
-  radii_.resize(count);
-  rounding_.resize(count);
-  for (std::size_t i = 0; i < count; ++i) radii_[i] = scene.body(i)->prepared<MeshBounds>().radius;
-}
-
-const std::vector<NearPairs::Pair>& NearPairs::within(double reach, const std::vector<Pose>& poses) {
+const std::vector<NearPairs::Pair>& NearPairs::within(double reach, const Pose& X_WM) {
   pairs_.clear();
-  for (std::size_t i = 0; i < centres_.size(); ++i) {
+  centres_.clear();
+  radii_.clear();
+  rounding_.clear();
+  for (std::size_t i = 0; i < scene_.object_count(); ++i) {
     const MeshBounds& bounds = scene_.body(i)->prepared<MeshBounds>();
-    const RigidTransform X_WB(scene_.pose(i, poses));
-    centres_[i] = X_WB.point(bounds.centre);
-    rounding_[i] = 4.0 * PLACING_ROUNDING * bounds.coordinates(X_WB);
+    const RigidTransform X_WB(scene_.pose(i, X_WM));
+    centres_.push_back(X_WB.point(bounds.centre));
+    radii_.push_back(bounds.radius);
+    rounding_.push_back(4.0 * PLACING_ROUNDING * bounds.coordinates(X_WB));
   }
-  for (std::uint32_t mover = 0; mover < scene_.movers.size(); ++mover)
+  for (std::uint32_t mover = 0; mover < scene_.mover_count(); ++mover)
     for (std::uint32_t other = mover + 1; other < centres_.size(); ++other) {
       const double between = (centres_[mover] - centres_[other]).norm() - radii_[mover] - radii_[other] -
                              rounding_[mover] - rounding_[other];
@@ -177,11 +175,12 @@ const std::vector<NearPairs::Pair>& NearPairs::within(double reach, const std::v
   return pairs_;
 }
 
-std::unique_ptr<Method> make_among_movers(const MoverScene& scene,
-                                          std::shared_ptr<const std::vector<Pose>> poses,
-                                          const MethodDescription& description, MeshPair::Make make) {
+std::unique_ptr<Method> make_among_movers(const Scene& scene, const MethodDescription& description,
+                                          MeshPair::Make make) {
   LMDBENCH_EXPECTS(pairs_have_numbers(scene), "more pairs than `Lmd::fixed_body` has numbers");
-  return std::make_unique<MoverMethod>(scene, std::move(poses), description, std::move(make));
+  LMDBENCH_EXPECTS(scene.mover_poses != nullptr && scene.mover_poses->size() == scene.movers.size(),
+                   "movers of which nobody says where they are");
+  return std::make_unique<MoverMethod>(scene, description, std::move(make));
 }
 
 MethodDescription among_movers(MethodDescription description) {

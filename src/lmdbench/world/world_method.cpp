@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/world/broad_phase.h>
 #include <lmdbench/world/mesh_pair.h>
+#include <lmdbench/world/mover_method.h>
 #include <lmdbench/world/world_method.h>
 
 #include <algorithm>
@@ -148,6 +149,7 @@ MethodDescription in_world(MethodDescription description) {
 
 std::unique_ptr<Method> make_in_world(const Scene& scene, const MethodDescription& description,
                                       const std::function<std::unique_ptr<Method>(const Scene&)>& make) {
+  if (scene.several_move()) return make_among_movers(scene, description, make);
   if (!scene.is_world()) return make_in_near_frame(scene, make);
   return std::make_unique<WorldMethod>(scene, description, make);
 }

@@ -12,7 +12,8 @@
 
 namespace lmdbench {
 
-/// What `make` makes of the scene; of a world (`Scene::is_world`) a method that makes its set of pairs of meshes:
+/// What `make` makes of the scene; where several meshes move a method among them (mover_method.h), of a world (`Scene::is_world`) one that
+/// makes its set of pairs of meshes:
 ///
 /// 1. a broad phase says which instances may be within reach (broad_phase.h);
 /// 2. each of them is asked in the frame of its mesh: the method that `make` made of the moving mesh and that one sees the relative pose
