@@ -14,8 +14,8 @@ MethodRecord record() {
   MethodRecord made;
   for (const std::int64_t tracked : {0, 2, 4, 0}) made.frames.emplace_back().tracked_count = tracked;
   for (const std::int64_t frame : {0, 2}) made.searches.emplace_back().frame = frame;
-  RepetitionTimes warm_up{{9, 9, 9, 9}, {}, {9, 9}, {9, 9}, {9, 9}};
-  RepetitionTimes measured{{1e-6, 2e-6, 4e-6, 1e-6}, {}, {1e-5, 3e-5}, {1e-5, UNSET}, {UNSET, UNSET}};
+  RepetitionTimes warm_up{{9, 9, 9, 9}, {}, {}, {9, 9}, {9, 9}, {9, 9}};
+  RepetitionTimes measured{{1e-6, 2e-6, 4e-6, 1e-6}, {}, {}, {1e-5, 3e-5}, {1e-5, UNSET}, {UNSET, UNSET}};
   made.repetitions = {warm_up, measured};
   return made;
 }

@@ -15,6 +15,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <cstdlib>
 #include <system_error>
 
@@ -137,7 +138,7 @@ std::filesystem::path default_mesh_folder(const std::filesystem::path& near) {
 }
 
 std::filesystem::path built_mesh_folder(const std::filesystem::path& folder) {
-  if (::access(folder.empty() ? "." : folder.c_str(), W_OK) == 0) return folder;
+  if (::access(folder.empty() ? "." : folder.c_str(), W_OK) == 0 || errno == ENOENT) return folder;
   const char* data = std::getenv("XDG_DATA_HOME");
   const char* home = std::getenv("HOME");
   const std::filesystem::path below = std::filesystem::path("lmdbench") / "meshes";
