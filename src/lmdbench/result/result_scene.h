@@ -45,7 +45,6 @@ inline constexpr std::size_t MOST_DRAWN = 24;
 /// come nearest to the tracks.
 std::vector<std::size_t> drawn_bodies(const Scene& scene, const std::vector<ResultTrack>& tracks);
 
-
 /// The method whose sets are the truth at a price that every frame can pay.
 std::unique_ptr<Method> exact_method(const Scene& scene);
 
