@@ -107,7 +107,8 @@ class RealResultTest(SharedScratch):
                 cls.committed("shapes", "--set", "/frames=20", "--set", '/methods=[{"name": "certified"}]',
                               "--set", "/force/aggregation=shared"),
                 cls.committed("deforming", "--set", "/frames=20"),
-                cls.committed("movers", "--set", "/frames=60", "--set", "/driver/repetitions=2")]
+                cls.committed("movers", "--set", "/frames=60", "--set", "/driver/repetitions=2",
+                              "--set", "/record/polylines/stride_frames=10")]
 
     def test_results_have_the_described_format(self):
         text = self.printed(check_format.main, self.hard, self.soft, self.both, *self.special())
