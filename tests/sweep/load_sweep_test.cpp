@@ -120,8 +120,6 @@ TEST_F(LoadSweep, SaysWhatIsWrongAndWhere) {
               HasSubstr("let the latency be at most search_every_frames"));
   EXPECT_THAT(refusal("{" + method + R"(, "set": {"/loop/kind": "closed"}})"),
               HasSubstr("sweep in an open loop"));
-  EXPECT_THAT(refusal("{" + method + R"(, "set": {"/force/aggregation": "shared"}})"),
-              ::testing::AllOf(HasSubstr("/force/aggregation"), HasSubstr("sweep with sum")));
   EXPECT_THAT(refusal("{" + method + R"(, "set": {"/force": [
       {"name": "a", "cutoff_m": 0.01, "maximum_force_n": 1}, {"name": "b", "cutoff_m": 0.02, "maximum_force_n": 1}]}})"),
               HasSubstr("a force profile a point"));

@@ -54,7 +54,7 @@ TEST_F(RunSweep, PutsErrorBesideTimeForEveryPoint) {
   const std::vector<double> recall = file.doubles("/points/recall");
   const std::vector<double> force = file.doubles("/points/force_error_rms_n");
   EXPECT_EQ(recall.at(2), 1.0) << "complete by construction";
-  EXPECT_EQ(force[2], 0.0);
+  EXPECT_LT(force[2], 1e-14) << "truth adds up the same LMDs, to rounding";
   EXPECT_LT(recall[1], recall[0]) << "a search every 40 frames leaves older sets than one every 5";
   EXPECT_GT(force[1], force[0]);
   for (const double share : file.doubles("/points/processor_share")) EXPECT_GT(share, 0.0);

@@ -142,9 +142,9 @@ void look_at_entries(SceneLook& look, const Experiment& experiment, const Prepar
 }
 
 /// Distances do not tell inside from outside.
-void look_inside(SceneLook& look, const PreparedRun& prepared) {
+void look_inside(SceneLook& look, const Experiment& experiment, const PreparedRun& prepared) {
   if (prepared.input.motion.movers) return;  // each of which would have to be looked at
-  if (prepared.scene().is_world()) return;   // where meshes may well be in each other
+  if (experiment.is_world()) return;         // where meshes may well be in each other
   SceneFrames bodies(prepared.scene(), prepared.input.motion);
   const std::size_t fixed_count = bodies.scene().fixed.size();
   std::vector<BoxedMesh> boxed;  // the moving mesh, then the fixed ones
@@ -256,7 +256,7 @@ SceneLook look_at(const Experiment& experiment, const PreparedRun& prepared,
   look_at_entries(look, experiment, prepared);
   // In a closed loop the path is what the hand means: it may well lie inside.
   if (!experiment.loop.closed) {
-    look_inside(look, prepared);
+    look_inside(look, experiment, prepared);
     look_at_path(look, prepared);
   }
   return look;
