@@ -193,25 +193,11 @@ class Barrier {
   double cutoff_;
 };
 
-using Functions = plugin::Functions<Barrier>;
-constexpr lmdbench_method METHOD = {
-    sizeof(lmdbench_method),
-    "barrier",
-    "1",
+constexpr lmdbench_method METHOD = plugin::Functions<Barrier>::described(
+    "barrier", "1",
     "all vertex-triangle and edge-edge pairs within the cutoff (incremental potential contact)",
-    LMDBENCH_PROMISE_APPROXIMATION,
-    0,
-    nullptr,
-    Functions::create,
-    Functions::search,
-    Functions::destroy,
-    nullptr};
-
-const lmdbench_method* get(std::uint32_t index) {
-  return index == 0 ? &METHOD : nullptr;
-}
+    LMDBENCH_PROMISE_APPROXIMATION);
 
 }  // namespace
 
-const lmdbench_method_entry_type lmdbench_method_entry = {
-    LMDBENCH_METHOD_ABI_MAJOR, LMDBENCH_METHOD_ABI_MINOR, sizeof(lmdbench_method_entry_type), get};
+const lmdbench_method_entry_type lmdbench_method_entry = plugin::entry_of<METHOD>();

@@ -125,25 +125,10 @@ class Vertices {
   double cutoff_;
 };
 
-using Functions = plugin::Functions<Vertices>;
-constexpr lmdbench_method METHOD = {
-    sizeof(lmdbench_method),
-    "vertices",
-    "1",
-    "each vertex within the cutoff with the nearest point of the other surface, both ways",
-    LMDBENCH_PROMISE_APPROXIMATION,
-    0,
-    nullptr,
-    Functions::create,
-    Functions::search,
-    Functions::destroy,
-    nullptr};
-
-const lmdbench_method* get(std::uint32_t index) {
-  return index == 0 ? &METHOD : nullptr;
-}
+constexpr lmdbench_method METHOD = plugin::Functions<Vertices>::described(
+    "vertices", "1", "each vertex within the cutoff with the nearest point of the other surface, both ways",
+    LMDBENCH_PROMISE_APPROXIMATION);
 
 }  // namespace
 
-const lmdbench_method_entry_type lmdbench_method_entry = {
-    LMDBENCH_METHOD_ABI_MAJOR, LMDBENCH_METHOD_ABI_MINOR, sizeof(lmdbench_method_entry_type), get};
+const lmdbench_method_entry_type lmdbench_method_entry = plugin::entry_of<METHOD>();

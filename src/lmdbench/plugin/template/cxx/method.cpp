@@ -68,24 +68,10 @@ class Method {
   double cutoff_;
 };
 
-using Functions = plugin::Functions<Method>;
-const lmdbench_method METHOD = {sizeof(lmdbench_method),
-                                "METHOD_NAME",
-                                "0.1",
-                                "each vertex of the moving mesh with the nearest vertex of the fixed one",
-                                LMDBENCH_PROMISE_APPROXIMATION,
-                                0,
-                                nullptr,
-                                Functions::create,
-                                Functions::search,
-                                Functions::destroy,
-                                nullptr};
-
-const lmdbench_method* get(uint32_t index) {
-  return index == 0 ? &METHOD : nullptr;
-}
+constexpr lmdbench_method METHOD = plugin::Functions<Method>::described(
+    "METHOD_NAME", "0.1", "each vertex of the moving mesh with the nearest vertex of the fixed one",
+    LMDBENCH_PROMISE_APPROXIMATION);
 
 }  // namespace
 
-const lmdbench_method_entry_type lmdbench_method_entry = {
-    LMDBENCH_METHOD_ABI_MAJOR, LMDBENCH_METHOD_ABI_MINOR, sizeof(lmdbench_method_entry_type), get};
+const lmdbench_method_entry_type lmdbench_method_entry = plugin::entry_of<METHOD>();

@@ -49,6 +49,20 @@ struct Functions {
     }
   }
   static void destroy(void* instance) { delete static_cast<Instance*>(instance); }
+
+  /// Without options, extensions and memory of earlier frames.
+  static constexpr lmdbench_method described(const char* name, const char* version, const char* text,
+                                             int32_t promise) {
+    return {
+        sizeof(lmdbench_method), name, version, text, promise, 0, nullptr, create, search, destroy, nullptr};
+  }
 };
+
+/// The entry of a plugin of one method.
+template <const lmdbench_method& METHOD>
+constexpr lmdbench_method_entry_type entry_of() {
+  return {LMDBENCH_METHOD_ABI_MAJOR, LMDBENCH_METHOD_ABI_MINOR, sizeof(lmdbench_method_entry_type),
+          [](uint32_t index) -> const lmdbench_method* { return index == 0 ? &METHOD : nullptr; }};
+}
 
 }  // namespace plugin
