@@ -3,8 +3,8 @@
 #include <lmdbench/base/statistics.h>
 #include <lmdbench/catalogue/shapes.h>
 #include <lmdbench/catalogue/sleeve.h>
-#include <lmdbench/mesh/flatten.h>
 #include <lmdbench/methods/registry.h>
+#include <lmdbench/shape/flatten.h>
 
 #include <fmt/core.h>
 #include <nlohmann/json.hpp>

@@ -3,7 +3,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Where flat meets tilted: force and torque of a box that is tilted slowly over a table, from 1e-2 to 1e-12 rad, with exact
 coordinates and with coordinates rounded to single precision. One LMD at every tilt: its distance is continuous, its point goes
-from the corner over the edge to the middle of the face, and the torque with it (src/lmdbench/lmd/DEFINITION.md).
+from the corner over the edge to the middle of the face, and the torque with it (src/lmdbench/decision/DEFINITION.md).
 
     python3 scripts/figures/tilt.py [--program build/release/lmdbench] [--out results/figures]
 

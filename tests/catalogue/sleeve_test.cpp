@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/catalogue/shapes.h>
 #include <lmdbench/catalogue/sleeve.h>
-#include <lmdbench/mesh/flat_regions.h>
-#include <lmdbench/mesh/planar_tolerance.h>
 #include <lmdbench/mesh/surface.h>
 #include <lmdbench/mesh/validity.h>
+#include <lmdbench/shape/flat_regions.h>
+#include <lmdbench/shape/planar_tolerance.h>
 
 #include <gtest/gtest.h>
 #include <support/signed_volume.h>

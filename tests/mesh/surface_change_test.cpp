@@ -3,8 +3,8 @@
 #include <lmdbench/catalogue/deformation.h>
 #include <lmdbench/catalogue/shapes.h>
 #include <lmdbench/mesh/flaws.h>
-#include <lmdbench/mesh/shape_complex.h>
 #include <lmdbench/mesh/surface_change.h>
+#include <lmdbench/shape/shape_complex.h>
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include <lmdbench/lmd/contact_tolerance.h>
+#include <lmdbench/decision/contact_tolerance.h>
 #include <lmdbench/methods/registry.h>
 #include <lmdbench/snch/minimum_distance.h>
 

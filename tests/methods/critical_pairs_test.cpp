@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/critical/merges.h>
 #include <lmdbench/lmd/critical_pair.h>
-#include <lmdbench/lmd/merges.h>
 #include <lmdbench/lmd/method_description.h>
 #include <lmdbench/methods/registry.h>
 

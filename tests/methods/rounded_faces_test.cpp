@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include <lmdbench/mesh/flatten.h>
 #include <lmdbench/methods/registry.h>
+#include <lmdbench/shape/flatten.h>
 
 #include <gtest/gtest.h>
 #include <support/rounded.h>

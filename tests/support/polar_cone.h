@@ -9,7 +9,7 @@
 #include <algorithm>
 #include <vector>
 
-/// Outward polar cones as lmd/DEFINITION.md states them, by the corners of the incident triangles: what caps and decisions are held to.
+/// Outward polar cones as decision/DEFINITION.md states them, by the corners of the incident triangles: what caps and decisions are held to.
 namespace lmdbench::testing {
 
 /// @param p_S        point on the feature, mesh frame

@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <lmdbench/lmd/decide.h>
-#include <lmdbench/lmd/join_contacts.h>
-#include <lmdbench/mesh/shape_complex.h>
+#include <lmdbench/decision/decide.h>
+#include <lmdbench/decision/join_contacts.h>
+#include <lmdbench/shape/shape_complex.h>
 
 #include <support/scenes.h>
 

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/catalogue/shapes.h>
 #include <lmdbench/catalogue/sleeve.h>
-#include <lmdbench/mesh/flatten.h>
+#include <lmdbench/shape/flatten.h>
 #include <lmdbench/snch/minimum_distance.h>
 
 #include <fmt/format.h>

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/catalogue/shapes.h>
-#include <lmdbench/mesh/flatten.h>
+#include <lmdbench/shape/flatten.h>
 
 #include <study/completeness/hostile_meshes.h>
 #include <support/parts/chances.h>

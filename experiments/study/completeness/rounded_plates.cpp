@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/catalogue/shapes.h>
 #include <lmdbench/geometry/convex_polygon.h>
-#include <lmdbench/mesh/flatten.h>
 #include <lmdbench/methods/registry.h>
 #include <lmdbench/motion/tum_file.h>
+#include <lmdbench/shape/flatten.h>
 
 #include <fmt/format.h>
 #include <study/completeness/rounded_plates.h>

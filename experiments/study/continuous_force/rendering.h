@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <lmdbench/critical/merges.h>
 #include <lmdbench/force/contact_finder.h>
 #include <lmdbench/geometry/pose.h>
-#include <lmdbench/lmd/merges.h>
 #include <lmdbench/lmd/method.h>
 #include <lmdbench/lmd/scene.h>
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include <lmdbench/lmd/polar_condition.h>
+#include <lmdbench/decision/polar_condition.h>
 #include <lmdbench/methods/certified/hierarchy/wide_hierarchy.h>
 #include <lmdbench/methods/registry.h>
 #include <lmdbench/snch/minimum_distance.h>

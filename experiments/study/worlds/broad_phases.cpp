@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/catalogue/shapes.h>
 #include <lmdbench/mesh/surface.h>
+#include <lmdbench/scene/broad_phase.h>
+#include <lmdbench/scene/scatter.h>
 #include <lmdbench/snch/minimum_distance.h>
-#include <lmdbench/world/broad_phase.h>
-#include <lmdbench/world/scatter.h>
 
 #include <fcl/broadphase/broadphase_dynamic_AABB_tree.h>
 #include <fcl/geometry/shape/box.h>

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/methods/registry.h>
-#include <lmdbench/world/mover_group.h>
+#include <lmdbench/scene/mover_group.h>
 
 #include <fmt/format.h>
 #include <study/worlds/completeness.h>

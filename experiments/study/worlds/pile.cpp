@@ -3,7 +3,7 @@
 #include <lmdbench/catalogue/shapes.h>
 #include <lmdbench/mesh/surface.h>
 #include <lmdbench/methods/registry.h>
-#include <lmdbench/world/scatter.h>
+#include <lmdbench/scene/scatter.h>
 
 #include <study/worlds/heap.h>
 #include <study/worlds/pile.h>

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <lmdbench/world/mover_group.h>
+#include <lmdbench/scene/mover_group.h>
 
 #include <cstddef>
 #include <cstdint>

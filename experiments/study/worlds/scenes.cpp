@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/catalogue/shapes.h>
 #include <lmdbench/mesh/surface.h>
-#include <lmdbench/world/mesh_bounds.h>
-#include <lmdbench/world/scatter.h>
+#include <lmdbench/scene/mesh_bounds.h>
+#include <lmdbench/scene/scatter.h>
 
 #include <study/worlds/scenes.h>
 #include <support/random.h>

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/base/error.h>
 #include <lmdbench/catalogue/shapes.h>
-#include <lmdbench/mesh/flatten.h>
+#include <lmdbench/shape/flatten.h>
 #include <lmdbench/snch/minimum_distance.h>
 
 #include <support/parts/chances.h>

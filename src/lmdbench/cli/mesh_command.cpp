@@ -6,10 +6,10 @@
 #include <lmdbench/catalogue/build_mesh.h>
 #include <lmdbench/catalogue/manifest.h>
 #include <lmdbench/cli/commands.h>
-#include <lmdbench/mesh/flatten.h>
 #include <lmdbench/mesh/self_intersections.h>
 #include <lmdbench/mesh/surface.h>
 #include <lmdbench/mesh/validity.h>
+#include <lmdbench/shape/flatten.h>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>

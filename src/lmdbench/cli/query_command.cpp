@@ -5,7 +5,6 @@
 #include <lmdbench/catalogue/manifest.h>
 #include <lmdbench/cli/commands.h>
 #include <lmdbench/geometry/tolerance.h>
-#include <lmdbench/mesh/flatten.h>
 #include <lmdbench/mesh/length_unit.h>
 #include <lmdbench/mesh/orientation_choice.h>
 #include <lmdbench/mesh/placement.h>
@@ -14,6 +13,7 @@
 #include <lmdbench/methods/query.h>
 #include <lmdbench/methods/registry.h>
 #include <lmdbench/motion/tum_file.h>
+#include <lmdbench/shape/flatten.h>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>

@@ -14,9 +14,9 @@
 #include <lmdbench/geometry/pose.h>
 #include <lmdbench/mesh/orientation_choice.h>
 #include <lmdbench/mesh/placement.h>
-#include <lmdbench/mesh/planar_tolerance.h>
 #include <lmdbench/motion/interpolate.h>
 #include <lmdbench/motion/sway.h>
+#include <lmdbench/shape/planar_tolerance.h>
 
 #include <nlohmann/json.hpp>
 

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <lmdbench/world/scatter.h>
+#include <lmdbench/scene/scatter.h>
 
 #include <nlohmann/json_fwd.hpp>
 

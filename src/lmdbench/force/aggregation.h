@@ -2,12 +2,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <lmdbench/critical/merges.h>
+#include <lmdbench/critical/surface_samples.h>
 #include <lmdbench/force/force_law.h>
 #include <lmdbench/geometry/types.h>
 #include <lmdbench/lmd/critical_pair.h>
 #include <lmdbench/lmd/lmd.h>
-#include <lmdbench/lmd/merges.h>
-#include <lmdbench/lmd/surface_samples.h>
 
 #include <span>
 #include <string>

@@ -3,9 +3,9 @@
 #include <lmdbench/base/contract.h>
 #include <lmdbench/force/contact_finder.h>
 #include <lmdbench/mesh/triangle_mesh.h>
-#include <lmdbench/world/mesh_bounds.h>
-#include <lmdbench/world/mesh_pair.h>
-#include <lmdbench/world/mover_method.h>
+#include <lmdbench/scene/mesh_bounds.h>
+#include <lmdbench/scene/mesh_pair.h>
+#include <lmdbench/scene/mover_method.h>
 
 #include <algorithm>
 #include <map>

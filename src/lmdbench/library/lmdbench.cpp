@@ -6,13 +6,13 @@
 #include <lmdbench/geometry/tolerance.h>
 #include <lmdbench/lmd/scene.h>
 #include <lmdbench/lmdbench.h>
-#include <lmdbench/mesh/flatten.h>
 #include <lmdbench/mesh/placement.h>
 #include <lmdbench/mesh/surface.h>
 #include <lmdbench/mesh/validity.h>
 #include <lmdbench/methods/query.h>
 #include <lmdbench/methods/registry.h>
 #include <lmdbench/motion/tum_file.h>
+#include <lmdbench/shape/flatten.h>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>

@@ -27,11 +27,4 @@ void sort_critical(CriticalSet& set) {
       set, [](const CriticalPair& a, const CriticalPair& b) { return lmd_less(a.pair, b.pair); });
 }
 
-void finish_critical(const Scene& scene, std::vector<Intersection>& intersections, CriticalSet& set) {
-  LmdSet touching;
-  append_contacts(scene, intersections, touching);
-  for (const Lmd& lmd : touching) set.push_back({lmd, 1, true, true, true});
-  sort_critical(set);
-}
-
 }  // namespace lmdbench

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <lmdbench/lmd/intersections.h>
 #include <lmdbench/lmd/lmd.h>
 
 #include <vector>
@@ -33,8 +32,5 @@ LmdSet minima_of(const CriticalSet& set);
 int sum_of_indices(const CriticalSet& set);
 
 void sort_critical(CriticalSet& set);
-
-/// Appends what intersects (append_contacts), as minima of index 1, and sorts the whole.
-void finish_critical(const Scene& scene, std::vector<Intersection>& intersections, CriticalSet& set);
 
 }  // namespace lmdbench

@@ -25,7 +25,7 @@ inline constexpr double FAR_AWAY = 16.0;
 /// which moves the moving mesh as a whole by 1e-16 C and turns nothing.
 class NearFrame {
  public:
-  /// @pre no fixed mesh has a frame of its own (world/world_method.h makes a scene of each pair)
+  /// @pre no fixed mesh has a frame of its own (scene/world_method.h makes a scene of each pair)
   explicit NearFrame(const Scene& scene);
 
   /// False when no mesh is far from its frame's origin: then the scene is the one that was given.

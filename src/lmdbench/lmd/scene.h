@@ -60,7 +60,7 @@ struct Scene {
     return object == held ? X_WM : (*mover_poses)[object];
   }
 
-  /// Whether some fixed mesh is not in the world frame: then poses are composed for each of them (world/world_method.h), and
+  /// Whether some fixed mesh is not in the world frame: then poses are composed for each of them (scene/world_method.h), and
   /// whoever reads vertices has to place them.
   bool is_world() const {
     return std::any_of(fixed.begin(), fixed.end(), [](const FixedBody& body) { return body.is_placed(); });

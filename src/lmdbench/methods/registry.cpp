@@ -6,7 +6,7 @@
 #include <lmdbench/lmd/near_frame.h>
 #include <lmdbench/lmd/remade_method.h>
 #include <lmdbench/methods/registry.h>
-#include <lmdbench/world/world_method.h>
+#include <lmdbench/scene/world_method.h>
 
 #include <fmt/format.h>
 

@@ -58,7 +58,7 @@ std::unique_ptr<Method> make_method(std::string_view name, const Scene& scene,
                                     const nlohmann::json& options = nlohmann::json::object());
 
 /// What makes a method on two meshes that are neither placed nor far from their origins, for those who place meshes themselves
-/// (world/mover_group.h). Options are checked once.
+/// (scene/mover_group.h). Options are checked once.
 /// @throws UsageError as make_method; what it returns InputError
 std::function<std::unique_ptr<Method>(const Scene&)> method_maker(
     std::string_view name, const nlohmann::json& options = nlohmann::json::object());

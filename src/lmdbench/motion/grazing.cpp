@@ -5,7 +5,7 @@
 #include <lmdbench/base/statistics.h>
 #include <lmdbench/motion/grazing.h>
 #include <lmdbench/motion/interpolate.h>
-#include <lmdbench/world/broad_phase.h>
+#include <lmdbench/scene/broad_phase.h>
 
 #include <fmt/format.h>
 

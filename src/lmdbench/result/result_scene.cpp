@@ -7,7 +7,7 @@
 #include <lmdbench/result/result_scene.h>
 #include <lmdbench/run/prepare.h>
 #include <lmdbench/run/prepare_movers.h>
-#include <lmdbench/world/broad_phase.h>
+#include <lmdbench/scene/broad_phase.h>
 
 #include <algorithm>
 #include <filesystem>

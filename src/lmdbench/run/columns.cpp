@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/methods/registry.h>
 #include <lmdbench/run/columns.h>
-#include <lmdbench/world/mover_method.h>
-#include <lmdbench/world/world_method.h>
+#include <lmdbench/scene/mover_method.h>
+#include <lmdbench/scene/world_method.h>
 
 #include <fmt/format.h>
 

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/run/contact.h>
+#include <lmdbench/scene/broad_phase.h>
 #include <lmdbench/snch/minimum_distance.h>
-#include <lmdbench/world/broad_phase.h>
 
 #include <algorithm>
 #include <cstddef>

@@ -6,8 +6,8 @@
 #include <lmdbench/lmd/scene.h>
 #include <lmdbench/mesh/triangle_mesh.h>
 #include <lmdbench/run/scene_frames.h>
-#include <lmdbench/world/broad_phase.h>
-#include <lmdbench/world/mover_method.h>
+#include <lmdbench/scene/broad_phase.h>
+#include <lmdbench/scene/mover_method.h>
 
 #include <algorithm>
 #include <cstdint>

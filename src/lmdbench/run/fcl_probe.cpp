@@ -6,8 +6,8 @@
 #include <lmdbench/run/contact.h>
 #include <lmdbench/run/fcl_probe.h>
 #include <lmdbench/run/nearest_judge.h>
+#include <lmdbench/scene/broad_phase.h>
 #include <lmdbench/snch/minimum_distance.h>
-#include <lmdbench/world/broad_phase.h>
 
 #include <fmt/format.h>
 

@@ -5,7 +5,7 @@
 #include <lmdbench/force/contact_finder.h>
 #include <lmdbench/phantom/virtual_phantom.h>
 #include <lmdbench/run/records.h>
-#include <lmdbench/world/mover_method.h>
+#include <lmdbench/scene/mover_method.h>
 
 #include <cstddef>
 #include <cstdint>

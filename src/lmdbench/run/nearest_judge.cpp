@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include <lmdbench/lmd/contact_tolerance.h>
-#include <lmdbench/lmd/polar_condition.h>
+#include <lmdbench/decision/contact_tolerance.h>
+#include <lmdbench/decision/polar_condition.h>
 #include <lmdbench/run/nearest_judge.h>
 
 #include <algorithm>

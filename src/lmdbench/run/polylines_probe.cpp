@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include <lmdbench/lmd/intersection_polylines.h>
+#include <lmdbench/decision/intersection_polylines.h>
 #include <lmdbench/methods/certified/intersection_tracer.h>
 #include <lmdbench/run/probed_track.h>
-#include <lmdbench/world/mesh_bounds.h>
-#include <lmdbench/world/mover_method.h>
+#include <lmdbench/scene/mesh_bounds.h>
+#include <lmdbench/scene/mover_method.h>
 
 #include <fmt/format.h>
 

@@ -4,12 +4,12 @@
 
 #include <lmdbench/experiment/experiment.h>
 #include <lmdbench/lmd/scene.h>
-#include <lmdbench/mesh/flatten.h>
 #include <lmdbench/mesh/validity.h>
 #include <lmdbench/motion/grazing.h>
 #include <lmdbench/result_file/provenance.h>
 #include <lmdbench/run/lockstep.h>
 #include <lmdbench/run/scene_frames.h>
+#include <lmdbench/shape/flatten.h>
 
 #include <cstdint>
 #include <filesystem>

@@ -7,8 +7,8 @@
 #include <lmdbench/run/load_body.h>
 #include <lmdbench/run/prepare_movers.h>
 #include <lmdbench/run/realtime_driver.h>
-#include <lmdbench/world/mesh_bounds.h>
-#include <lmdbench/world/mover_method.h>
+#include <lmdbench/scene/mesh_bounds.h>
+#include <lmdbench/scene/mover_method.h>
 
 #include <fmt/format.h>
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include <lmdbench/lmd/decide.h>
+#include <lmdbench/decision/decide.h>
 #include <lmdbench/mesh/surface.h>
 #include <lmdbench/methods/certified/certified.h>
 #include <lmdbench/methods/certified/filter.h>

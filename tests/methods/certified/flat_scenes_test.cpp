@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/catalogue/sleeve.h>
-#include <lmdbench/mesh/flat_regions.h>
-#include <lmdbench/mesh/flatten.h>
 #include <lmdbench/methods/certified/certified.h>
 #include <lmdbench/methods/registry.h>
+#include <lmdbench/shape/flat_regions.h>
+#include <lmdbench/shape/flatten.h>
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>

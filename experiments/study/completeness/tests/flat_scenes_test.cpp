@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include <lmdbench/mesh/flat_regions.h>
 #include <lmdbench/methods/registry.h>
+#include <lmdbench/shape/flat_regions.h>
 
 #include <gtest/gtest.h>
 #include <study/completeness/flat_scenes.h>

@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <lmdbench/lmd/contact.h>
-#include <lmdbench/lmd/intersection_polylines.h>
-#include <lmdbench/lmd/intersections.h>
+#include <lmdbench/decision/contact.h>
+#include <lmdbench/decision/intersection_polylines.h>
+#include <lmdbench/decision/intersections.h>
 #include <lmdbench/lmd/method.h>
 #include <lmdbench/lmd/scene.h>
 #include <lmdbench/methods/certified/coherence/coherence_policy.h>
@@ -27,9 +27,9 @@ const MethodDescription& certified_method();
 /// 1. *enumerate*: both meshes have a wide hierarchy over the features of their shapes (wide_hierarchy.h). Descending both
 ///    finds every pair of features that bounds cannot reject (wide_traversal.h); a closed-form test in double precision
 ///    rejects nearly all of those (filter.h).
-/// 2. *decide*: the definition is asked for what is left (lmd/decide.h), and for the corners of triangles that may touch
+/// 2. *decide*: the definition is asked for what is left (decision/decide.h), and for the corners of triangles that may touch
 ///    (touching_pairs.h), which also says what intersects;
-/// 3. *join*: what the pairs say of one place becomes one LMD (lmd/join_contacts.h).
+/// 3. *join*: what the pairs say of one place becomes one LMD (decision/join_contacts.h).
 ///
 /// `exhaustive` asks the same definition for every pair near enough and joins in the same way. So the two sets differ only
 /// where a bound is wrong: PROOF.md, bound by bound.

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include <lmdbench/lmd/pair_conditions.h>
+#include <lmdbench/decision/pair_conditions.h>
 #include <lmdbench/methods/certified/filter.h>
 
 #include <algorithm>

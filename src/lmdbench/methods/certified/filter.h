@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <lmdbench/lmd/decide.h>
+#include <lmdbench/decision/decide.h>
 #include <lmdbench/methods/certified/coherence/certificate.h>
 
 #include <cstdint>
@@ -21,7 +21,7 @@ struct PairAnswer {
   Certificate certificate;  ///< Of NO_LMD.
 };
 
-/// Rejects pairs of features by the conditions of the definition (lmd/pair_conditions.h), each with a margin above what the
+/// Rejects pairs of features by the conditions of the definition (decision/pair_conditions.h), each with a margin above what the
 /// definition grants it, and says how long that stands (PROOF.md, lemmas 9, 19 and 20): by how much the condition fails beyond
 /// the margin, and how fast that can change. Leaves to the definition the outer side, which the caps of the hierarchy have settled
 /// for nearly all, which part of a region a foot is in, features whose size is rounding, and what is parallel where it can be near.

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <lmdbench/lmd/intersection_polylines.h>
+#include <lmdbench/decision/intersection_polylines.h>
 #include <lmdbench/lmd/near_frame.h>
 #include <lmdbench/methods/certified/certified.h>
 

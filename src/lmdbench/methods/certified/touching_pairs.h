@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <lmdbench/lmd/decide.h>
-#include <lmdbench/lmd/intersection_polylines.h>
-#include <lmdbench/lmd/intersections.h>
+#include <lmdbench/decision/decide.h>
+#include <lmdbench/decision/intersection_polylines.h>
+#include <lmdbench/decision/intersections.h>
 #include <lmdbench/methods/certified/coherence/certificate.h>
 #include <lmdbench/methods/certified/hierarchy/wide_traversal.h>
 

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/base/contract.h>
+#include <lmdbench/decision/join_contacts.h>
 #include <lmdbench/geometry/triangle_distance.h>
-#include <lmdbench/lmd/join_contacts.h>
 #include <lmdbench/lmd/search_counters.h>
 #include <lmdbench/lmd/well_formed.h>
 #include <lmdbench/mesh/surface.h>

@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <lmdbench/lmd/contact.h>
-#include <lmdbench/lmd/decide.h>
-#include <lmdbench/lmd/intersections.h>
+#include <lmdbench/decision/contact.h>
+#include <lmdbench/decision/decide.h>
+#include <lmdbench/decision/intersections.h>
 #include <lmdbench/lmd/method.h>
 #include <lmdbench/lmd/scene.h>
 #include <lmdbench/methods/exhaustive/feature_grid.h>
@@ -16,7 +16,7 @@ namespace lmdbench {
 
 const MethodDescription& exhaustive_method();
 
-/// Ground truth (lmd/DEFINITION.md): the definition is asked for every pair of features of the shapes whose boxes come
+/// Ground truth (decision/DEFINITION.md): the definition is asked for every pair of features of the shapes whose boxes come
 /// within reach, every pair of triangles whose boxes overlap for a shared point. Slow and simple on purpose: no
 /// hierarchy, no cone and no filter, only a uniform grid that lists what is near a box.
 class Exhaustive : public Method {

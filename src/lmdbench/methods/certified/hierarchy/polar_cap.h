@@ -2,14 +2,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <lmdbench/mesh/shape_complex.h>
 #include <lmdbench/mesh/surface.h>
+#include <lmdbench/shape/shape_complex.h>
 
 #include <optional>
 
 namespace lmdbench {
 
-/// Circular cone around a feature's outward polar cone (lmd/DEFINITION.md): every direction in which an LMD
+/// Circular cone around a feature's outward polar cone (decision/DEFINITION.md): every direction in which an LMD
 /// may leave the feature lies inside. Half angle phi below 90 degrees, kept as cosine and sine; where no such
 /// cone exists the axis is zero, which means all directions.
 struct PolarCap {
@@ -21,7 +21,7 @@ struct PolarCap {
 };
 
 /// Angle [rad] by which the caps are wider than the polar cones (PROOF.md, lemma 3). It covers what the definition allows a direction to leave its
-/// cone by (lmd/decide.h): rounding over the distance, which is at least RELATIVE_TOUCH of the coordinates
+/// cone by (decision/decide.h): rounding over the distance, which is at least RELATIVE_TOUCH of the coordinates
 /// (128 * 2.2e-16 / 2e-8 = 1.5e-6), and rounding over the shortest wing that is not left out.
 inline constexpr double POLAR_SLACK = 2e-6;
 

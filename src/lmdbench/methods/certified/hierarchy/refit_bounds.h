@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <lmdbench/mesh/shape_complex.h>
 #include <lmdbench/methods/certified/hierarchy/wide_bounds.h>
 #include <lmdbench/methods/certified/hierarchy/wide_hierarchy.h>
 #include <lmdbench/methods/certified/hierarchy/wide_items.h>
+#include <lmdbench/shape/shape_complex.h>
 
 #include <array>
 #include <cstddef>

@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <lmdbench/mesh/signed_features.h>
 #include <lmdbench/methods/certified/hierarchy/polar_cap.h>
 #include <lmdbench/methods/certified/hierarchy/wide_hierarchy.h>
+#include <lmdbench/shape/signed_features.h>
 
 #include <optional>
 

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/base/parallel.h>
-#include <lmdbench/mesh/shape_complex.h>
 #include <lmdbench/mesh/surface.h>
 #include <lmdbench/methods/certified/hierarchy/single_precision.h>
 #include <lmdbench/methods/certified/hierarchy/wide_bounds.h>
@@ -10,6 +9,7 @@
 #include <lmdbench/methods/certified/hierarchy/wide_lane.h>
 #include <lmdbench/methods/certified/hierarchy/wide_partition.h>
 #include <lmdbench/methods/certified/hierarchy/wide_refit.h>
+#include <lmdbench/shape/shape_complex.h>
 
 #include <Eigen/Eigenvalues>
 

@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/base/parallel.h>
-#include <lmdbench/lmd/contact_tolerance.h>
-#include <lmdbench/mesh/shape_complex.h>
+#include <lmdbench/decision/contact_tolerance.h>
 #include <lmdbench/methods/certified/hierarchy/signed_hierarchy.h>
 #include <lmdbench/methods/certified/hierarchy/wide_items.h>
+#include <lmdbench/shape/shape_complex.h>
 
 #include <algorithm>
 #include <cmath>
@@ -40,7 +40,7 @@ std::optional<WideItem> make_wide_item(const Surface& surface, const ShapeComple
   item.carries_lmd = cap.has_value();
   if (!cap) return item;
   item.cap = *cap;
-  // Regions and chains count as parallel to others at a small tilt (lmd/contact_tolerance.h); the other mesh decides how small.
+  // Regions and chains count as parallel to others at a small tilt (decision/contact_tolerance.h); the other mesh decides how small.
   if (feature.kind != FeatureKind::VERTEX) item.cap = widened(item.cap, LARGEST_PARALLEL_TILT);
   return item;
 }

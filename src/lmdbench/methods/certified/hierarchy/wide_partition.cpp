@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/base/contract.h>
 #include <lmdbench/base/parallel.h>
-#include <lmdbench/mesh/shape_complex.h>
 #include <lmdbench/mesh/surface.h>
 #include <lmdbench/methods/certified/hierarchy/wide_partition.h>
+#include <lmdbench/shape/shape_complex.h>
 
 #include <Eigen/Core>
 

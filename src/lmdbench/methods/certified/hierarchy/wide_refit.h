@@ -3,12 +3,12 @@
 #pragma once
 
 #include <lmdbench/base/parallel.h>
-#include <lmdbench/mesh/shape_complex.h>
 #include <lmdbench/mesh/surface_change.h>
 #include <lmdbench/methods/certified/hierarchy/clear_vertex.h>
 #include <lmdbench/methods/certified/hierarchy/refit_bounds.h>
 #include <lmdbench/methods/certified/hierarchy/wide_hierarchy.h>
 #include <lmdbench/methods/certified/hierarchy/wide_items.h>
+#include <lmdbench/shape/shape_complex.h>
 
 #include <array>
 #include <cstdint>

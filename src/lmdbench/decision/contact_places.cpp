@@ -1,0 +1,142 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/decision/contact_places.h>
+#include <lmdbench/geometry/segment_distance.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+namespace lmdbench {
+
+namespace {
+
+/// Sine of the largest angle between planes of one contact that rounding of heights explains: far below an angle between faces.
+constexpr double LARGEST_TURN = 1e-3;
+/// Polygons of more pieces get a grid of them.
+constexpr std::size_t PIECES_WITHOUT_GRID = 8;
+
+}  // namespace
+
+Eigen::AlignedBox3d ContactPlaces::box_of(const Contact& contact, double reach) const {
+  Eigen::AlignedBox3d box;
+  if (contact.dimension == 0) {
+    box.extend(contact.point_fixed);
+  } else if (contact.dimension == 1) {
+    for (const Vec3& end : contact.ends_fixed) box.extend(end);
+  } else {
+    const PlanarFrame& frame = set_.frames[contact.frame];
+    const Vec3 n = frame.u.cross(frame.v), lift = n.dot(contact.point_fixed - frame.origin) * n;
+    for (const ConvexPolygon& piece : set_.pieces_of(contact))
+      for (const Vec2& corner : piece.corners) box.extend(Vec3(frame.lifted(corner) + lift));
+  }
+  const Vec3 margin = Vec3::Constant(reach);
+  return {box.min() - margin, box.max() + margin};
+}
+
+Vec3 ContactPlaces::nearest_place(const Contact& contact, const Vec3& q) const {
+  if (contact.dimension == 0) return contact.point_fixed;
+  if (contact.dimension == 1)
+    return point_segment_distance(q, {contact.ends_fixed[0], contact.ends_fixed[1]}).point;
+  const PlanarFrame& frame = set_.frames[contact.frame];
+  const Vec2 x = frame.flat(q);
+  Vec2 nearest = x;
+  double least = std::numeric_limits<double>::infinity();
+  for (const ConvexPolygon& polygon : set_.pieces_of(contact)) {
+    if (polygon.holds(x, 0.0)) return q;
+    for (std::size_t k = 0; k < polygon.corners.size(); ++k) {
+      const Vec2 &from = polygon.corners[k], side = polygon.corners[(k + 1) % polygon.corners.size()] - from;
+      const Vec2 on_side = from + std::clamp((x - from).dot(side) / side.squaredNorm(), 0.0, 1.0) * side;
+      if ((on_side - x).norm() >= least) continue;
+      least = (on_side - x).norm();
+      nearest = on_side;
+    }
+  }
+  return q + frame.lifted(nearest) - frame.lifted(x);
+}
+
+double ContactPlaces::granted(const Contact& a, const Contact& b, double way) const {
+  const int extended = (a.dimension > 0) + (b.dimension > 0);
+  return (1.0 + extended) * tolerance_.known + tolerance_.rounding + fall_of_farther(a, b, way);
+}
+
+double ContactPlaces::fall_of_farther(const Contact& a, const Contact& b, double way) const {
+  return (a.distance < b.distance ? b : a).fall * way;
+}
+
+bool ContactPlaces::have_one_direction(const Contact& a, const Contact& b, double way) const {
+  const double apart = (a.direction - b.direction).norm(), farther = std::max(a.distance, b.distance);
+  // Vectors to the origin of points of a convex set whose lengths differ by `fall` differ by at most sqrt(4 * length * fall).
+  const double rounded = 8.0 * tolerance_.rounding / std::max(farther, tolerance_.rounding);
+  if (apart <= 2.0 * tolerance_.largest_tilt + a.direction_error + b.direction_error +
+                   std::min(std::sqrt(rounded), LARGEST_TURN))
+    return true;
+  const double fall = fall_of_farther(a, b, way);
+  return fall > tolerance_.rounding &&
+         (a.distance * a.direction - b.distance * b.direction).squaredNorm() <= 4.0 * farther * fall;
+}
+
+/// Whether a piece of a polygon that may come within reach of a box fits.
+template <class Fits>
+bool ContactPlaces::any_piece_near(const Contact& contact, const Box2& box, double reach, Fits&& fits) {
+  const auto pieces = set_.pieces_of(contact);
+  if (pieces.size() <= PIECES_WITHOUT_GRID) return std::ranges::any_of(pieces, fits);
+  // Asked for by each corner and chain of a large contact.
+  if (grids_.size() < set_.frames.size()) grids_.resize(set_.frames.size());
+  std::optional<BoxGrid>& grid = grids_[contact.frame];
+  if (!grid) {
+    std::vector<Box2> boxes;
+    for (const ConvexPolygon& piece : pieces) boxes.push_back(piece.box());
+    grid.emplace(boxes);
+  }
+  return !grid->for_each_near(box, reach,
+                              [&](std::int32_t i) { return !fits(pieces[static_cast<std::size_t>(i)]); });
+}
+
+bool ContactPlaces::meet(const Contact& a, const Contact& b) {
+  if (a.dimension < b.dimension) return meet(b, a);
+  const double reach = tolerance_.known;
+  if (a.dimension == 0)
+    return (a.point_moving - b.point_moving).norm() <= reach &&
+           (a.point_fixed - b.point_fixed).norm() <= reach;
+  if (a.dimension == 1) {
+    const auto are_near = [&](const std::array<Vec3, 2>& own, const std::array<Vec3, 2>& ends,
+                              const Vec3& point) {
+      const Segment segment{own[0], own[1]};
+      return b.dimension == 0
+                 ? (point_segment_distance(point, segment).point - point).norm() <= reach
+                 : segment_distance(segment, {ends[0], ends[1]}).squared_distance <= reach * reach;
+    };
+    return are_near(a.ends_moving, b.ends_moving, b.point_moving) &&
+           are_near(a.ends_fixed, b.ends_fixed, b.point_fixed);
+  }
+  const PlanarFrame& frame = set_.frames[a.frame];
+  const auto touches = [&](const ConvexPolygon& other) {
+    return any_piece_near(a, other.box(), reach,
+                          [&](const ConvexPolygon& piece) { return piece.touches(other, reach); });
+  };
+  const auto holds = [&](const Vec2& x) {
+    Box2 box;
+    box.add(x);
+    return any_piece_near(a, box, reach, [&](const ConvexPolygon& piece) { return piece.holds(x, reach); });
+  };
+  const auto meets = [&](const Vec3& point, const std::array<Vec3, 2>& ends, const Vec2& shift) {
+    if (b.dimension == 0) return holds(frame.flat(point));
+    if (b.dimension == 1) {
+      const Vec2 begin = frame.flat(ends[0]), end = frame.flat(ends[1]);
+      return holds(begin) || touches(ConvexPolygon({begin, end}));
+    }
+    const PlanarFrame& other = set_.frames[b.frame];
+    return std::ranges::any_of(set_.pieces_of(b), [&](ConvexPolygon piece) {
+      for (Vec2& corner : piece.corners) corner = frame.flat(other.lifted(corner)) + shift;
+      return touches(piece);
+    });
+  };
+  // Along the normal of `a` both sides of a contact in one direction lie over each other.
+  const Vec2 apart = frame.flat(b.point_moving) - frame.flat(b.point_fixed);
+  return meets(b.point_fixed, b.ends_fixed, Vec2::Zero()) &&
+         (apart.norm() <= reach || meets(b.point_moving, b.ends_moving, apart));
+}
+
+}  // namespace lmdbench

@@ -1,0 +1,143 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/decision/drop_intersecting.h>
+
+#include <algorithm>
+#include <functional>
+#include <numeric>
+#include <utility>
+#include <vector>
+
+namespace lmdbench {
+
+namespace {
+
+/// How far what two triangles share reaches from its centroid: a polygon's measure is an area and says little.
+double crossing_reach(const ShapePair& pair, const Intersection& crossing) {
+  const Triangle t = pair.fixed.surface.mesh.triangle(crossing.triangle_fixed);
+  return std::max((t[1] - t[0]).norm(), (t[2] - t[0]).norm());
+}
+
+/// Whether two triangles have no more than rounding of each other on the inner side.
+bool only_touch(const ShapePair& pair, const Intersection& crossing) {
+  const auto is_above = [&](const ShapeSide& side, std::int32_t triangle, const ShapeSide& other,
+                            std::int32_t base) {
+    const std::int32_t region = other.shape.region_of(base);
+    if (region < 0) return false;
+    const Plane plane = other.plane(region);
+    return std::ranges::all_of(
+        side.surface.mesh.triangles[static_cast<std::size_t>(triangle)],
+        [&](std::int32_t v) { return plane.height(side.vertex(v)) >= -2.0 * pair.tolerance.rounding; });
+  };
+  return is_above(pair.moving, crossing.triangle_moving, pair.fixed, crossing.triangle_fixed) ||
+         is_above(pair.fixed, crossing.triangle_fixed, pair.moving, crossing.triangle_moving);
+}
+
+}  // namespace
+
+TouchingContacts::TouchingContacts(const ShapePair& pair, const ContactPlaces& places,
+                                   std::span<const Contact> contacts)
+    : pair_(pair) {
+  for (const Contact& contact : contacts)
+    if (contact.least_gap <= pair.tolerance.rounding)
+      entries_.push_back(
+          {{contact.moving, contact.fixed}, places.box_of(contact, pair.tolerance.known), &contact});
+  std::ranges::sort(entries_, {}, &Entry::features);
+}
+
+std::array<const TouchingContacts::Features*, 3> TouchingContacts::star_of(const ShapeSide& side,
+                                                                           std::int32_t triangle,
+                                                                           FeaturesAt& known) {
+  std::array<const Features*, 3> star{};
+  for (std::size_t corner = 0; corner < 3; ++corner) {
+    const std::int32_t v = side.surface.mesh.triangles[static_cast<std::size_t>(triangle)][corner];
+    const auto [place, is_new] = known.try_emplace(v);
+    Features& features = place->second;
+    star[corner] = &features;
+    if (!is_new) continue;
+    features.push_back({FeatureKind::VERTEX, v});
+    for (const std::int32_t t : side.surface.adjacency.vertex_triangles[v]) {
+      if (const std::int32_t region = side.shape.region_of(t); region >= 0)
+        features.push_back({FeatureKind::FACE, region});
+      for (const std::int32_t e : side.surface.adjacency.triangle_edges[static_cast<std::size_t>(t)]) {
+        const auto& ends = side.surface.adjacency.edges[static_cast<std::size_t>(e)];
+        const std::int32_t chain = side.shape.chain_of(e);
+        if (chain >= 0 && (ends[0] == v || ends[1] == v)) features.push_back({FeatureKind::EDGE, chain});
+      }
+    }
+    std::ranges::sort(features, std::greater());
+    features.erase(std::unique(features.begin(), features.end()), features.end());
+  }
+  return star;
+}
+
+bool TouchingContacts::for_each_at(const Intersection& crossing,
+                                   const std::function<bool(const Contact&)>& visit) {
+  const auto of_moving = star_of(pair_.moving, crossing.triangle_moving, at_moving_);
+  const auto of_fixed = star_of(pair_.fixed, crossing.triangle_fixed, at_fixed_);
+  const double reach = crossing.dimension == 1   ? 0.5 * crossing.measure
+                       : crossing.dimension == 2 ? crossing_reach(pair_, crossing)
+                                                 : 0.0;
+  const auto goes_on = [&](const Entry& entry) {
+    const Vec3 margin = Vec3::Constant(reach);
+    const Eigen::AlignedBox3d box(entry.box_W.min() - margin, entry.box_W.max() + margin);
+    return !box.contains(crossing.point) || visit(*entry.contact);
+  };
+  const auto size_of = [](const auto& star) {
+    return std::accumulate(star.begin(), star.end(), std::size_t{0},
+                           [](std::size_t sum, const Features* features) { return sum + features->size(); });
+  };
+  // Beside hubs it is cheaper to ask every contact.
+  if (size_of(of_moving) * size_of(of_fixed) > entries_.size()) {
+    const auto holds = [](const auto& star, const FeatureId& feature) {
+      return std::ranges::any_of(star, [&](const Features* features) {
+        return std::ranges::binary_search(*features, feature, std::greater());
+      });
+    };
+    return std::ranges::all_of(entries_, [&](const Entry& entry) {
+      return !holds(of_moving, entry.features.first) || !holds(of_fixed, entry.features.second) ||
+             goes_on(entry);
+    });
+  }
+  for (const Features* features_moving : of_moving)
+    for (const FeatureId& f : *features_moving)
+      for (const Features* features_fixed : of_fixed)
+        for (const FeatureId& g : *features_fixed)
+          for (const Entry& entry : std::ranges::equal_range(entries_, std::pair(f, g), {}, &Entry::features))
+            if (!goes_on(entry)) return false;
+  return true;
+}
+
+std::vector<Intersection> take_touching(const ShapePair& pair, std::int32_t fixed_body,
+                                        const ContactPlaces& places, std::span<const Contact> contacts,
+                                        std::vector<Intersection>& intersections) {
+  std::vector<Intersection> taken;
+  if (intersections.empty()) return taken;
+  TouchingContacts near(pair, places, contacts);
+  if (near.empty()) return taken;
+  std::erase_if(intersections, [&](const Intersection& crossing) {
+    const bool touches =
+        crossing.fixed_body == fixed_body && only_touch(pair, crossing) && near.are_at(crossing);
+    if (touches) taken.push_back(crossing);
+    return touches;
+  });
+  return taken;
+}
+
+void drop_intersecting(const ShapePair& pair, std::int32_t fixed_body, const ContactPlaces& places,
+                       std::span<const Intersection> intersections, std::vector<Contact>& contacts) {
+  if (intersections.empty()) return;
+  TouchingContacts near(pair, places, contacts);
+  std::vector<bool> intersects(contacts.size());
+  for (const Intersection& crossing : intersections) {
+    if (crossing.fixed_body != fixed_body) continue;
+    near.for_each_at(crossing, [&](const Contact& contact) {
+      intersects[static_cast<std::size_t>(&contact - contacts.data())] = true;
+      return true;
+    });
+  }
+  std::size_t i = 0;
+  std::erase_if(contacts, [&](const Contact&) { return intersects[i++]; });
+}
+
+}  // namespace lmdbench

@@ -1,0 +1,64 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <lmdbench/decision/contact_places.h>
+#include <lmdbench/decision/intersections.h>
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <unordered_map>
+#include <utility>
+#include <vector>
+
+namespace lmdbench {
+
+/// Contacts no farther than rounding, looked up where triangles of their features intersect.
+class TouchingContacts {
+ public:
+  /// @param contacts  must outlive this
+  TouchingContacts(const ShapePair& pair, const ContactPlaces& places, std::span<const Contact> contacts);
+
+  /// Calls visit(contact) for each that is where two triangles of its features intersect, until it returns false.
+  /// @return whether visit never returned false
+  bool for_each_at(const Intersection& crossing, const std::function<bool(const Contact&)>& visit);
+  bool are_at(const Intersection& crossing) {
+    return !for_each_at(crossing, [](const Contact&) { return false; });
+  }
+
+  bool empty() const { return entries_.empty(); }
+
+ private:
+  struct Entry {
+    std::pair<FeatureId, FeatureId> features;  ///< Of the moving, the fixed mesh.
+    Eigen::AlignedBox3d box_W;
+    const Contact* contact;
+  };
+  using Features = std::vector<FeatureId>;
+  /// What has a corner at a vertex, faces first; of the vertices that were asked for.
+  using FeaturesAt = std::unordered_map<std::int32_t, Features>;
+  /// At each corner of a triangle.
+  static std::array<const Features*, 3> star_of(const ShapeSide& side, std::int32_t triangle,
+                                                FeaturesAt& known);
+
+  const ShapePair& pair_;
+  std::vector<Entry> entries_;  ///< By features.
+  FeaturesAt at_moving_, at_fixed_;
+};
+
+/// Takes the pairs of triangles out that share no more than rounding makes of two that touch, where a contact is: a part at
+/// rest keeps the contacts of its faces, with their directions, whichever way rounding turns.
+/// @param intersections  of all fixed bodies
+/// @return what was taken out, all of one fixed body
+std::vector<Intersection> take_touching(const ShapePair& pair, std::int32_t fixed_body,
+                                        const ContactPlaces& places, std::span<const Contact> contacts,
+                                        std::vector<Intersection>& intersections);
+
+/// Drops contacts nearer than rounding whose triangles intersect: they are reported as what intersects (intersections.h).
+/// @param intersections  of all fixed bodies
+void drop_intersecting(const ShapePair& pair, std::int32_t fixed_body, const ContactPlaces& places,
+                       std::span<const Intersection> intersections, std::vector<Contact>& contacts);
+
+}  // namespace lmdbench

@@ -1,0 +1,572 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/decision/covered_contacts.h>
+#include <lmdbench/decision/drop_intersecting.h>
+#include <lmdbench/decision/join_contacts.h>
+#include <lmdbench/decision/overlap.h>
+#include <lmdbench/decision/represent_contacts.h>
+#include <lmdbench/geometry/segment_distance.h>
+
+#include <Eigen/Core>
+#include <boost/pending/disjoint_sets.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <iterator>
+#include <limits>
+#include <memory_resource>
+#include <numeric>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+namespace lmdbench {
+
+namespace {
+
+/// Pairs of features that a contact lies on, beyond which it is not looked for in buckets: hubs of fans.
+constexpr std::size_t MOST_CARRIER_PAIRS = 256;
+/// Tolerances from a face beyond which a point leaves a gap in it (parts_over_region) of more than two.
+constexpr double BESIDE = 8.0;
+/// Faces whose normals differ by more are of no one contact, far above what the tolerance and rounding make of a plane (largest_tilt, LARGEST_TURN).
+constexpr double LARGEST_ANGLE = 0.01;
+
+bool contact_less(const Contact& a, const Contact& b) {
+  if (a.distance != b.distance) return a.distance < b.distance;
+  if (name_of(a) != name_of(b)) return name_of(a) < name_of(b);
+  if (a.dimension != b.dimension) return a.dimension > b.dimension;
+  if (a.index != b.index) return std::abs(a.index) > std::abs(b.index);
+  const auto place = [](const Contact& c) {
+    return std::tuple(c.point_moving[0], c.point_moving[1], c.point_moving[2]);
+  };
+  return place(a) < place(b);
+}
+
+/// A contact and one feature of either mesh that it lies on.
+struct OnCarriers {
+  std::int32_t moving, fixed;
+  std::size_t contact;
+  auto operator<=>(const OnCarriers&) const = default;
+};
+
+bool intersect(std::span<const std::int32_t> a, std::span<const std::int32_t> b) {
+  auto x = a.begin(), y = b.begin();
+  while (x != a.end() && y != b.end()) {
+    if (*x == *y) return true;
+    if (*x < *y)
+      ++x;
+    else
+      ++y;
+  }
+  return false;
+}
+
+using Rows = std::pmr::vector<std::pair<std::size_t, std::size_t>>;
+/// Carriers of contacts, row after row in the order in which they were asked for.
+struct Carriers {
+  std::vector<std::int32_t> items;
+  Rows rows;  ///< First and count, a contact.
+};
+constexpr std::size_t NOT_KNOWN = std::numeric_limits<std::size_t>::max();
+
+/// Contacts of two meshes on their way to LMDs, or with `signs` to critical pairs.
+class Joining {
+ public:
+  struct Signs {
+    const SignedFeatures &moving, &fixed;
+    CriticalSet& critical;
+  };
+
+  Joining(const ShapePair& pair, std::int32_t body, ContactSet& set, LmdSet* lmds, const Signs* signs)
+      : pair_(pair),
+        tolerance_(pair.tolerance),
+        body_(body),
+        contacts_(set.contacts),
+        places_(pair, set, memory_),
+        lmds_(lmds),
+        signs_(signs) {}
+
+  void run(std::vector<Intersection>& intersections) {
+    const std::vector<Intersection> touching = take_touching(pair_, body_, places_, contacts_, intersections);
+    drop_intersecting(pair_, body_, places_, intersections, contacts_);
+    std::vector<Contact> covered;
+    if (signs_ == nullptr) covered = take_covered(pair_, contacts_);
+    join_all();
+    if (!covered.empty() && !covers_are_alone()) {
+      for (Contact& contact : contacts_) contact.covers = contact.covers_point = false;
+      contacts_.insert(contacts_.end(), covered.begin(), covered.end());
+      join_all();
+    }
+    report_all();
+    if (touching.empty()) return;
+    // What touches without an LMD intersects after all.
+    std::vector<Contact> reported;
+    for (const std::size_t i : reported_) reported.push_back(contacts_[i]);
+    TouchingContacts near(pair_, places_, reported);
+    std::ranges::copy_if(touching, std::back_inserter(intersections),
+                         [&](const Intersection& crossing) { return !near.are_at(crossing); });
+  }
+
+ private:
+  void join_all() {
+    sort_contacts();
+    // The same pair of features may have been asked for twice.
+    contacts_.erase(std::unique(contacts_.begin(), contacts_.end(),
+                                [](const Contact& a, const Contact& b) {
+                                  return a.dimension == b.dimension && name_of(a) == name_of(b) &&
+                                         a.distance == b.distance && a.is_minimum == b.is_minimum &&
+                                         a.point_moving == b.point_moving;
+                                }),
+                    contacts_.end());
+    find_ties();
+    if (ties_.empty()) return;
+    ranks_.assign(contacts_.size(), 0);
+    parents_.resize(contacts_.size());
+    std::iota(parents_.begin(), parents_.end(), std::size_t{0});
+    sets_ = {ranks_.data(), parents_.data()};
+    plane_of_.resize(contacts_.size());
+    for (std::size_t i = 0; i < contacts_.size(); ++i) {
+      const Contact& contact = contacts_[i];
+      const bool has_plane =
+          contact.moving.kind == FeatureKind::FACE || contact.fixed.kind == FeatureKind::FACE;
+      plane_of_[i] = has_plane && contact.dimension > 0 ? i : NOT_KNOWN;
+    }
+    for (Carriers* carriers : {&carriers_moving_, &carriers_fixed_}) {
+      carriers->items.clear();
+      carriers->rows.assign(contacts_.size(), {NOT_KNOWN, 0});
+    }
+    if (signs_ == nullptr) {
+      join_ties();
+    } else {
+      join_signed_ties();
+    }
+  }
+
+  /// Whether what is about as far away as a polygon that covers others is of its LMD, and nothing else is.
+  bool covers_are_alone() {
+    const auto root_of = [&](std::size_t i) { return ties_.empty() ? i : sets_.find_set(i); };
+    std::pmr::vector<std::size_t> sizes(contacts_.size(), 0, &memory_);
+    for (std::size_t i = 0; i < contacts_.size(); ++i) ++sizes[root_of(i)];
+    for (std::size_t i = 0; i < contacts_.size(); ++i) {
+      if (!contacts_[i].covers) continue;
+      const double spread = covered_spread(tolerance_, contacts_[i]);
+      const auto is_near = [&](std::size_t k) {
+        return std::abs(contacts_[k].distance - contacts_[i].distance) <= spread;
+      };
+      std::size_t begin = i, end = i + 1;
+      while (begin > 0 && is_near(begin - 1)) --begin;
+      while (end < contacts_.size() && is_near(end)) ++end;
+      for (std::size_t k = begin; k < end; ++k)
+        if (root_of(k) != root_of(i)) return false;
+      if (sizes[root_of(i)] != end - begin) return false;
+    }
+    return true;
+  }
+
+  /// Contacts are large: they move once, and nearly always their distances say which comes first.
+  void sort_contacts() {
+    struct Key {
+      double distance;
+      const Contact* contact;
+    };
+    std::pmr::vector<Key> order(&memory_);
+    order.reserve(contacts_.size());
+    for (const Contact& contact : contacts_) order.push_back({contact.distance, &contact});
+    std::ranges::sort(order, [](const Key& a, const Key& b) {
+      return a.distance != b.distance ? a.distance < b.distance : contact_less(*a.contact, *b.contact);
+    });
+    std::pmr::vector<Contact> sorted(&memory_);
+    sorted.reserve(order.size());
+    for (const Key& key : order) sorted.push_back(*key.contact);
+    std::ranges::copy(sorted, contacts_.begin());
+  }
+
+  // --- which contacts may be one
+
+  /// Contacts of which another one has the same distance: next to none but in flat contact.
+  void find_ties() {
+    ties_.clear();
+    // The lower end of what is the same as some farther contact.
+    double lowest = std::numeric_limits<double>::infinity();
+    for (std::size_t i = contacts_.size(); i-- > 0;) {
+      const double own = contacts_[i].distance - tolerance_.widest_tie(contacts_[i].distance);
+      if (lowest <= contacts_[i].distance || (i > 0 && own <= contacts_[i - 1].distance)) ties_.push_back(i);
+      lowest = std::min(lowest, own);
+    }
+    std::ranges::reverse(ties_);
+  }
+
+  /// What a contact lies on, looked up when it is first asked for. Valid until the next contact is.
+  std::span<const std::int32_t> carriers(std::size_t i, bool of_moving) {
+    Carriers& own = of_moving ? carriers_moving_ : carriers_fixed_;
+    auto& [first, count] = own.rows[i];
+    if (first == NOT_KNOWN) {
+      first = own.items.size();
+      const ShapeSide& side = of_moving ? pair_.moving : pair_.fixed;
+      side.shape.append_carriers(side.surface, of_moving ? contacts_[i].moving : contacts_[i].fixed,
+                                 own.items);
+      count = own.items.size() - first;
+    }
+    return std::span(own.items).subspan(first, count);
+  }
+
+  bool lie_on_one_pair(std::size_t i, std::size_t j) {
+    const auto share_one = [&](bool of_moving) {
+      carriers(i, of_moving);
+      const auto of_j = carriers(j, of_moving);
+      return intersect(carriers(i, of_moving), of_j);
+    };
+    return share_one(true) && share_one(false);
+  }
+
+  /// Whether two regions or chains are the same or their closures share a corner.
+  static bool are_neighbours(const ShapeSide& side, const FeatureId& a, const FeatureId& b) {
+    const auto corners_of = [&](const FeatureId& feature) {
+      const std::int32_t lead = feature.kind == FeatureKind::FACE ? side.shape.lead_of_region(feature.index)
+                                                                  : side.shape.lead_of_chain(feature.index);
+      std::vector<std::int32_t> corners;
+      side.shape.append_corners(side.surface, {feature.kind, lead}, corners);
+      std::ranges::sort(corners);
+      return corners;
+    };
+    return a == b || intersect(corners_of(a), corners_of(b));
+  }
+
+  // --- joining
+
+  void join_ties() {
+    join_what_meets();
+    const auto root_of = [&](std::size_t i) { return sets_.find_set(i); };
+    if (std::ranges::adjacent_find(ties_, std::ranges::not_equal_to(), root_of) != ties_.end())
+      join_over_level_ways();
+  }
+
+  /// First the minima alone, so that they become the same LMDs as without the other critical pairs. Of these those that lie on an
+  /// extended LMD are of it, and a lowest pair in the place of an LMD is it, under another name at the pose at which indices are taken.
+  /// A saddle beside an LMD of points stays what it is, however near: it tells which minima meet there.
+  void join_signed_ties() {
+    const std::pmr::vector<std::size_t> all = ties_;
+    std::erase_if(ties_, [&](std::size_t i) { return !contacts_[i].is_minimum; });
+    join_ties();
+    has_minimum_.resize(contacts_.size());
+    is_extended_.resize(contacts_.size());
+    for (std::size_t i = 0; i < contacts_.size(); ++i) {
+      if (!contacts_[i].is_minimum) continue;
+      has_minimum_[sets_.find_set(i)] = true;
+      if (contacts_[i].dimension > 0) is_extended_[sets_.find_set(i)] = true;
+    }
+    ties_ = all;
+    join_ties();
+  }
+
+  void join(std::size_t i, std::size_t j) {
+    const std::size_t a = sets_.find_set(i), b = sets_.find_set(j);
+    // Next to touch a contact whose direction is not known may lie on faces that stand at an angle: it is of one of them.
+    const std::size_t of_a = plane_of_[a], of_b = plane_of_[b];
+    if (of_a != NOT_KNOWN && of_b != NOT_KNOWN &&
+        (contacts_[of_a].direction - contacts_[of_b].direction).norm() > LARGEST_ANGLE)
+      return;
+    link(a, b);
+    if (sets_.find_set(a) == sets_.find_set(b))
+      plane_of_[sets_.find_set(a)] = of_a != NOT_KNOWN ? of_a : of_b;
+  }
+
+  void link(std::size_t a, std::size_t b) {
+    if (has_minimum_.empty()) return sets_.link(a, b);
+    if (has_minimum_[a] == has_minimum_[b]) return;
+    const std::size_t minimum = has_minimum_[a] ? a : b, other = minimum == a ? b : a;
+    if (!is_extended_[minimum] && !contacts_[other].is_basin) return;
+    const bool is_extended = is_extended_[minimum];
+    sets_.link(a, b);
+    const std::size_t both = sets_.find_set(a);
+    has_minimum_[both] = true;
+    is_extended_[both] = is_extended;
+  }
+
+  /// Joins contacts whose places meet: sweeps over their boxes along x.
+  void join_what_meets() {
+    struct Entry {
+      Eigen::AlignedBox3d box;
+      std::size_t contact;
+    };
+    std::pmr::vector<Entry> entries(&memory_), open(&memory_);
+    entries.reserve(ties_.size());
+    for (const std::size_t i : ties_) entries.push_back({places_.box_of(contacts_[i], tolerance_.known), i});
+    std::ranges::sort(entries, [](const Entry& a, const Entry& b) {
+      return std::pair(a.box.min().x(), a.contact) < std::pair(b.box.min().x(), b.contact);
+    });
+    for (const Entry& entry : entries) {
+      const std::size_t i = entry.contact;
+      const Contact& a = contacts_[i];
+      std::erase_if(open, [&](const Entry& o) { return o.box.max().x() < entry.box.min().x(); });
+      for (const Entry& o : open) {
+        if (!o.box.intersects(entry.box) || sets_.find_set(i) == sets_.find_set(o.contact)) continue;
+        const Contact& b = contacts_[o.contact];
+        if (std::abs(a.distance - b.distance) <= places_.granted(a, b) && are_one_place(o.contact, i))
+          join(o.contact, i);
+      }
+      open.push_back(entry);
+    }
+  }
+
+  bool are_one_place(std::size_t i, std::size_t j) {
+    const Contact &a = contacts_[i], &b = contacts_[j];
+    const bool both_extended = a.dimension > 0 && b.dimension > 0;
+    // The parts of what one pair of features shares are known to be apart.
+    if (both_extended && name_of(a) == name_of(b)) return false;
+    return places_.have_one_direction(a, b) && places_.meet(a, b) &&
+           (lie_on_one_pair(i, j) || (both_extended && are_neighbours(pair_.moving, a.moving, b.moving) &&
+                                      are_neighbours(pair_.fixed, a.fixed, b.fixed)));
+  }
+
+  /// Joins points and segments apart from each other between which the distance stays the same: next to touch, where the ends of
+  /// one chain over another one may both seem to be minima.
+  void join_over_level_ways() {
+    std::pmr::vector<OnCarriers> entries(&memory_), parts(&memory_);
+    for (const std::size_t i : ties_) {
+      if (contacts_[i].dimension == 2) {
+        parts.push_back({contacts_[i].moving.index, contacts_[i].fixed.index, i});
+        continue;
+      }
+      const auto of_moving = carriers(i, true), of_fixed = carriers(i, false);
+      if (of_moving.size() * of_fixed.size() > MOST_CARRIER_PAIRS) continue;
+      for (const std::int32_t f : of_moving)
+        for (const std::int32_t g : of_fixed) entries.push_back({f, g, i});
+    }
+    std::ranges::sort(entries);
+    std::ranges::sort(parts);
+    const auto carriers_of = [](const OnCarriers& entry) { return std::pair(entry.moving, entry.fixed); };
+    const auto distance_of = [&](const OnCarriers& entry) { return contacts_[entry.contact].distance; };
+    for (std::size_t begin = 0; begin < entries.size();) {
+      std::size_t end = begin;
+      while (end < entries.size() && entries[end].moving == entries[begin].moving &&
+             entries[end].fixed == entries[begin].fixed)
+        ++end;
+      // Not std::ranges::equal_range, which clang 14 cannot read.
+      const auto first = std::ranges::lower_bound(parts, carriers_of(entries[begin]), {}, carriers_of);
+      const auto last = std::ranges::upper_bound(parts, carriers_of(entries[begin]), {}, carriers_of);
+      // What is clearly farther is looked at by itself.
+      for (std::size_t at = begin; at < end;) {
+        std::size_t next = at + 1;
+        while (next < end && distance_of(entries[next]) - distance_of(entries[next - 1]) <=
+                                 tolerance_.widest_tie(distance_of(entries[next])))
+          ++next;
+        join_in_bucket(std::span(entries).subspan(at, next - at), std::span(first, last));
+        at = next;
+      }
+      begin = end;
+    }
+  }
+
+  /// Of contacts on one pair of features nearly all are one already, those of a face that lies on another one by the thousand.
+  /// Those that belong to parts of what a pair of regions shares are apart as the parts are.
+  /// @param parts  polygons of that pair
+  void join_in_bucket(std::span<const OnCarriers> bucket, std::span<const OnCarriers> parts) {
+    std::pmr::vector<std::size_t> roots(&memory_), roots_of_parts(&memory_);
+    roots.reserve(bucket.size());
+    for (const OnCarriers& entry : bucket) roots.push_back(sets_.find_set(entry.contact));
+    if (std::ranges::count(roots, roots.front()) == std::ssize(roots)) return;
+    for (const OnCarriers& part : parts) roots_of_parts.push_back(sets_.find_set(part.contact));
+    std::ranges::sort(roots_of_parts);
+    std::vector<bool> is_of_part;
+    for (const std::size_t root : roots)
+      is_of_part.push_back(std::ranges::binary_search(roots_of_parts, root));
+    if (std::ranges::find(is_of_part, false) == is_of_part.end()) return;
+    const auto try_way = [&](std::size_t k, std::size_t m) {
+      const std::size_t i = bucket[k].contact, j = bucket[m].contact;
+      if (sets_.find_set(i) == sets_.find_set(j) || (is_of_part[k] && is_of_part[m])) return;
+      if (is_level_way(bucket.front(), contacts_[i], contacts_[j])) join(i, j);
+    };
+    if (const auto order = order_along_line(bucket); !order.empty()) {
+      // The teeth of combs that cross: the way between two places leads over those between them.
+      for (std::size_t k = 1; k < order.size(); ++k) try_way(order[k - 1], order[k]);
+      return;
+    }
+    for (std::size_t k = 0; k < bucket.size(); ++k) {
+      if (is_of_part[k]) continue;
+      for (std::size_t m = 0; m < bucket.size(); ++m)
+        if (roots[k] != roots[m]) try_way(k, m);
+    }
+  }
+
+  /// Contacts of one bucket whose places lie on one line on either mesh, at one distance, in their order along it; else nothing.
+  std::pmr::vector<std::size_t> order_along_line(std::span<const OnCarriers> bucket) {
+    using Vec6 = Eigen::Matrix<double, 6, 1>;
+    std::pmr::vector<std::size_t> order(&memory_);
+    if (contacts_[bucket.back().contact].distance - contacts_[bucket.front().contact].distance >
+        tolerance_.known)
+      return order;
+    const auto ends = [&](const OnCarriers& entry) {
+      const Contact& c = contacts_[entry.contact];
+      return c.dimension == 0 ? std::array{(Vec6() << c.point_moving, c.point_fixed).finished(),
+                                           (Vec6() << c.point_moving, c.point_fixed).finished()}
+                              : std::array{(Vec6() << c.ends_moving[0], c.ends_fixed[0]).finished(),
+                                           (Vec6() << c.ends_moving[1], c.ends_fixed[1]).finished()};
+    };
+    const Vec6 origin = ends(bucket.front())[0];
+    const auto from_origin = [&](const OnCarriers& entry) {
+      const auto [begin, end] = ends(entry);
+      return std::max((begin - origin).squaredNorm(), (end - origin).squaredNorm());
+    };
+    const auto far_ends = ends(*std::ranges::max_element(bucket, {}, from_origin));
+    Vec6 along = far_ends[0] - origin;
+    if (along.squaredNorm() < (far_ends[1] - origin).squaredNorm()) along = far_ends[1] - origin;
+    along.normalize();
+    std::pmr::vector<double> places(&memory_);
+    for (const OnCarriers& entry : bucket) {
+      const auto both = ends(entry);
+      for (const Vec6& end : both)
+        if ((end - origin - (end - origin).dot(along) * along).norm() > tolerance_.known) return order;
+      places.push_back(0.5 * (both[0] + both[1] - 2.0 * origin).dot(along));
+    }
+    order.resize(bucket.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::ranges::sort(order, {}, [&](std::size_t k) { return std::pair(places[k], k); });
+    return order;
+  }
+
+  bool is_level_way(const OnCarriers& on, const Contact& a, const Contact& b) const {
+    if (a.dimension > 0 && b.dimension > 0 && name_of(a) == name_of(b)) return false;
+    const auto nearest = [](const Contact& contact, const std::array<Vec3, 2>& ends, const Vec3& point,
+                            const Vec3& to) {
+      return contact.dimension == 0 ? point : point_segment_distance(to, {ends[0], ends[1]}).point;
+    };
+    const Vec3 p_a = nearest(a, a.ends_moving, a.point_moving, b.point_moving);
+    const Vec3 q_a = nearest(a, a.ends_fixed, a.point_fixed, b.point_fixed);
+    const Vec3 p_b = nearest(b, b.ends_moving, b.point_moving, p_a);
+    const Vec3 q_b = nearest(b, b.ends_fixed, b.point_fixed, q_a);
+    const double way = (p_a - p_b).norm() + (q_a - q_b).norm();
+    // All along it nothing is nearer to first order: it is square to the direction.
+    const Contact& farther = a.distance < b.distance ? b : a;
+    const auto is_square = [&](const Vec3& step) {
+      return std::abs(step.dot(farther.direction)) <=
+             tolerance_.known + (2.0 * tolerance_.largest_tilt + farther.direction_error) * step.norm();
+    };
+    return is_square(p_b - p_a) && is_square(q_b - q_a) &&
+           std::abs(a.distance - b.distance) <= places_.granted(a, b, way) &&
+           places_.have_one_direction(a, b, way) && !is_beside(pair_.moving, on.moving, 0.5 * (p_a + p_b)) &&
+           !is_beside(pair_.fixed, on.fixed, 0.5 * (q_a + q_b)) &&
+           holds_segment(pair_.moving, on.moving, p_a, p_b) && holds_segment(pair_.fixed, on.fixed, q_a, q_b);
+  }
+
+  /// Whether a point is so far beside a carrier that no segment through it stays there. Between places of a long outline nearly
+  /// always the middle is, which is sooner told than a segment.
+  bool is_beside(const ShapeSide& side, std::int32_t carrier, const Vec3& p) const {
+    const RegionShape* shape = carrier < 0 ? nullptr : side.shape.shapes.of_region(carrier);
+    return shape != nullptr && shape->clearly_holds(shape->frame.flat(side.point_to_surface(p)),
+                                                    BESIDE * tolerance_.known) == false;
+  }
+
+  /// Whether a segment between two points of a carrier stays on it, to the tolerance.
+  bool holds_segment(const ShapeSide& side, std::int32_t carrier, const Vec3& begin, const Vec3& end) const {
+    if ((end - begin).norm() <= tolerance_.known) return true;
+    // Triangles, chains and convex faces are convex.
+    const RegionShape* shape = carrier < 0 ? nullptr : side.shape.shapes.of_region(carrier);
+    if (shape == nullptr || shape->pieces.size() == 1) return true;
+    const auto parts = parts_over_region(side.point_to_surface(begin), side.point_to_surface(end), side,
+                                         carrier, tolerance_.known);
+    double covered = 0.0;
+    for (const SegmentPart& part : parts) covered += part.end - part.begin;
+    return (1.0 - covered) * (end - begin).norm() <= 2.0 * tolerance_.known;
+  }
+
+  // --- what is reported
+
+  void report_all() {
+    if (ties_.empty()) {
+      for (std::size_t i = 0; i < contacts_.size(); ++i)
+        if (contacts_[i].dimension > 0)
+          report_set({&i, 1});
+        else if (contacts_[i].is_minimum || contacts_[i].index != 0)
+          report(contacts_[i], contacts_[i], {&i, 1}, contacts_[i].is_minimum);
+      return;
+    }
+    std::pmr::vector<std::size_t> order(contacts_.size(), &memory_);
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    sets_.compress_sets(order.begin(), order.end());
+    std::ranges::sort(order, {}, [&](std::size_t i) { return std::pair(parents_[i], i); });
+    for (std::size_t begin = 0; begin < order.size();) {
+      std::size_t end = begin;
+      while (end < order.size() && parents_[order[end]] == parents_[order[begin]]) ++end;
+      report_set(std::span(order).subspan(begin, end - begin));
+      begin = end;
+    }
+  }
+
+  /// @param set  indices of contacts of one LMD, nearest first
+  void report_set(std::span<const std::size_t> set) {
+    ContactPointers minima(&memory_);
+    bool has_points = false;
+    for (const std::size_t i : set) {
+      if (!contacts_[i].is_minimum) continue;
+      minima.push_back(&contacts_[i]);
+      has_points = has_points || contacts_[i].dimension == 0 || contacts_[i].covers_point;
+    }
+    if (has_points) {
+      const Representative whole = represent_contacts(pair_, places_, minima);
+      report(whole.contact(), *whole.namesake, set, true);
+    } else if (sum_of(set) != 0) {  // Rule S: no minimum.
+      report(contacts_[set.front()], contacts_[set.front()], set, false);
+    }
+  }
+
+  int sum_of(std::span<const std::size_t> set) const {
+    int sum = 0;
+    for (const std::size_t i : set) sum += contacts_[i].index;
+    return sum;
+  }
+
+  void report(const Contact& contact, const Contact& namesake, std::span<const std::size_t> set,
+              bool is_minimum) {
+    if (contact.distance > tolerance_.cutoff) return;
+    if (contact.distance <= tolerance_.known) reported_.insert(reported_.end(), set.begin(), set.end());
+    const Lmd lmd = make_lmd(pair_, places_, contact, namesake, body_);
+    if (signs_ == nullptr) return lmds_->push_back(lmd);
+    const bool has_index = std::ranges::all_of(set, [&](std::size_t i) {
+      return signs_->moving.has_index(contacts_[i].moving) && signs_->fixed.has_index(contacts_[i].fixed);
+    });
+    const int index = has_index ? sum_of(set) : 1;
+    const bool is_basin =
+        has_index
+            ? index > 0 && std::ranges::any_of(set, [&](std::size_t i) { return contacts_[i].is_basin; })
+            : is_minimum;
+    signs_->critical.push_back({lmd, index, is_minimum, has_index, is_basin});
+  }
+
+  const ShapePair& pair_;
+  const ContactTolerance& tolerance_;
+  std::int32_t body_;
+  std::vector<Contact>& contacts_;
+  /// Where a few hundred contacts find room without an allocation.
+  std::array<std::byte, 1 << 15> room_;
+  std::pmr::monotonic_buffer_resource memory_{room_.data(), room_.size()};
+  ContactPlaces places_;
+  LmdSet* lmds_;
+  const Signs* signs_;
+  /// Of the roots, while critical pairs that are no minima are joined.
+  std::vector<bool> has_minimum_, is_extended_;
+  std::pmr::vector<std::size_t> ties_{&memory_}, ranks_{&memory_}, parents_{&memory_};
+  /// Of the roots: an extended contact that has its direction from a plane, or NOT_KNOWN.
+  std::pmr::vector<std::size_t> plane_of_{&memory_};
+  std::pmr::vector<std::size_t> reported_{&memory_};  ///< Contacts of LMDs no farther than the tolerance.
+  boost::disjoint_sets<std::size_t*, std::size_t*> sets_{nullptr, nullptr};
+  Carriers carriers_moving_{{}, Rows(&memory_)}, carriers_fixed_{{}, Rows(&memory_)};
+};
+
+}  // namespace
+
+void join_contacts(const ShapePair& pair, std::int32_t fixed_body, ContactSet& contacts,
+                   std::vector<Intersection>& intersections, LmdSet& lmds) {
+  Joining(pair, fixed_body, contacts, &lmds, nullptr).run(intersections);
+}
+
+void join_critical(const ShapePair& pair, const SignedFeatures& moving, const SignedFeatures& fixed,
+                   std::int32_t fixed_body, ContactSet& contacts, std::vector<Intersection>& intersections,
+                   CriticalSet& critical) {
+  const Joining::Signs signs{moving, fixed, critical};
+  Joining(pair, fixed_body, contacts, nullptr, &signs).run(intersections);
+}
+
+}  // namespace lmdbench

@@ -1,0 +1,109 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/decision/polar_condition.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+namespace lmdbench {
+
+namespace {
+
+bool admits_wing(const Vec3& u, const Vec3& wing, const PolarSlack& slack) {
+  const double along = u.dot(wing);
+  return slack.sine >= 0.0 && along <= slack.length ? true : along <= slack.length + slack.sine * wing.norm();
+}
+
+/// Corners of more wings are taken with the direction that they have: every two wings give a direction to try.
+constexpr std::size_t MOST_WINGS = 64;
+/// The corner of two slacks is at most this many times as far as either, for planes at 30 degrees and more.
+constexpr double CORNER_OF_SLACKS = 4.0;
+/// Sine of the angle between two planes below which they have no direction in common.
+constexpr double PARALLEL = 1e-9;
+
+/// Appends unit normals of the planes that bound the polar cone of a corner or chain, world.
+void append_bounds(const ShapeSide& side, const FeatureId& feature, std::vector<Vec3>& bounds) {
+  const auto add = [&](const Vec3& wing) {
+    if (wing.squaredNorm() > 0.0) bounds.push_back(side.direction(wing).normalized());
+    return bounds.size() <= MOST_WINGS;
+  };
+  if (feature.kind == FeatureKind::EDGE) {
+    const auto& ends = side.shape.ends_of_chain(feature.index);
+    add(side.vertex_S(ends[1]) - side.vertex_S(ends[0]));
+  }
+  side.shape.for_each_wing(side.surface, feature, add);
+}
+
+/// `admits` for a direction that of a chain is square to it up to `tilt`.
+bool admits_about(const ShapeSide& side, const FeatureId& feature, const Vec3& u_W, const PolarSlack& slack,
+                  double tilt) {
+  if (feature.kind == FeatureKind::EDGE) {
+    const auto& ends = side.shape.ends_of_chain(feature.index);
+    const Vec3 along = side.direction(side.vertex_S(ends[1]) - side.vertex_S(ends[0]));
+    if (!(std::abs(u_W.dot(along)) <= slack.length + tilt * along.norm())) return false;
+  }
+  return admits(side, feature, u_W, slack);
+}
+
+bool admits_strictly(const ShapeSide& side, const FeatureId& feature, const Vec3& u_W, double sine) {
+  return !leads_down(side, feature, u_W, {-std::numeric_limits<double>::min(), -sine});
+}
+
+}  // namespace
+
+bool is_outer(const Surface& surface, const FeatureId& feature, const Vec3& u_S) {
+  return u_S.dot(surface.pseudo_normal(feature)) > 0.0 || !surface.has_outer_side(feature);
+}
+
+std::optional<KnownDirection> common_direction(const ShapeSide& moving, const FeatureId& f,
+                                               const ShapeSide& fixed, const FeatureId& g, const Vec3& u_W,
+                                               double error, const PolarSlack& slack, double tilt) {
+  std::vector<Vec3> bounds;
+  append_bounds(moving, f, bounds);
+  append_bounds(fixed, g, bounds);
+  if (bounds.size() > MOST_WINGS) return KnownDirection{u_W, error};
+  // What is in both cones is bounded by one or two of the planes. Of that the direction nearest to u lies in one or two, too.
+  std::vector<Vec3> admitted;
+  const auto consider = [&](const Vec3& x) {
+    const double length = x.norm();
+    if (length > PARALLEL && admits_about(moving, f, x / length, slack, tilt) &&
+        admits_about(fixed, g, -x / length, slack, tilt))
+      admitted.push_back(x / length);
+  };
+  consider(u_W);
+  for (std::size_t i = 0; i < bounds.size(); ++i) {
+    consider(u_W - u_W.dot(bounds[i]) * bounds[i]);
+    for (std::size_t k = 0; k < i; ++k) {
+      const Vec3 both = bounds[i].cross(bounds[k]);
+      consider(both);
+      consider(-both);
+    }
+  }
+  if (admitted.empty()) return std::nullopt;
+  const auto off_u = [&](const Vec3& x) { return (x - u_W).squaredNorm(); };
+  KnownDirection known{*std::ranges::min_element(admitted, {}, off_u), 0.0};
+  // Two conditions that hold to the error each may hold together at some more.
+  if (error < 1.0 && (known.u - u_W).norm() > CORNER_OF_SLACKS * error) return std::nullopt;
+  for (const Vec3& x : admitted) known.error = std::max(known.error, (x - known.u).norm());
+  if (error < 1.0) known.error = std::min(known.error, error);
+  known.is_strict = admits_strictly(moving, f, known.u, error) && admits_strictly(fixed, g, -known.u, error);
+  return known;
+}
+
+bool admits(const ShapeSide& side, const FeatureId& feature, const Vec3& u_W, const PolarSlack& slack) {
+  const FeatureId of_mesh = feature.kind == FeatureKind::EDGE
+                                ? FeatureId{FeatureKind::EDGE, side.shape.lead_of_chain(feature.index)}
+                                : feature;
+  return !leads_down(side, feature, u_W, slack) &&
+         is_outer(side.surface, of_mesh, side.direction_to_surface(u_W));
+}
+
+bool leads_down(const ShapeSide& side, const FeatureId& feature, const Vec3& u_W, const PolarSlack& slack) {
+  const Vec3 u_S = side.direction_to_surface(u_W);
+  return !side.shape.for_each_wing(side.surface, feature,
+                                   [&](const Vec3& wing) { return admits_wing(u_S, wing, slack); });
+}
+
+}  // namespace lmdbench

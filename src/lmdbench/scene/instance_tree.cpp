@@ -1,0 +1,113 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/scene/instance_tree.h>
+
+#include <boost/geometry/algorithms/distance.hpp>
+#include <boost/geometry/geometries/box.hpp>
+#include <boost/geometry/geometries/point.hpp>
+#include <boost/geometry/index/rtree.hpp>
+#include <boost/geometry/strategies/strategies.hpp>
+#include <boost/iterator/function_output_iterator.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace lmdbench {
+
+namespace {
+
+namespace bg = boost::geometry;
+using FloatPoint = bg::model::point<float, 3, bg::cs::cartesian>;
+using FloatBox = bg::model::box<FloatPoint>;
+using Entry = std::pair<FloatBox, std::uint32_t>;
+
+/// An instance has one box.
+struct SameInstance {
+  bool operator()(const Entry& a, const Entry& b) const { return a.second == b.second; }
+};
+
+/// The next number of single precision that is not above x, or not below it.
+float rounded_outwards(double x, bool down) {
+  const auto near = static_cast<float>(x);
+  if (down ? static_cast<double>(near) <= x : static_cast<double>(near) >= x) return near;
+  const float end = std::numeric_limits<float>::infinity();
+  return std::nextafter(near, down ? -end : end);
+}
+
+FloatBox grown(const Eigen::AlignedBox3d& box) {
+  const auto point = [](const Eigen::Vector3d& p, bool down) {
+    return FloatPoint(rounded_outwards(p.x(), down), rounded_outwards(p.y(), down),
+                      rounded_outwards(p.z(), down));
+  };
+  return {point(box.min(), true), point(box.max(), false)};
+}
+
+double distance_of(const FloatPoint& p, const FloatBox& box) {
+  const auto along = [](double x, double low, double high) { return std::max({0.0, low - x, x - high}); };
+  return std::hypot(along(p.get<0>(), box.min_corner().get<0>(), box.max_corner().get<0>()),
+                    along(p.get<1>(), box.min_corner().get<1>(), box.max_corner().get<1>()),
+                    along(p.get<2>(), box.min_corner().get<2>(), box.max_corner().get<2>()));
+}
+
+/// Boost orders by squared distances in single precision, which are off by a few roundings of the coordinates, as is the point: what
+/// follows may be nearer by that. Relative to the distance and to the coordinates.
+constexpr double ORDER_ROUNDING = 1e-6;
+
+}  // namespace
+
+class InstanceTree::Tree {
+ public:
+  explicit Tree(const std::vector<Entry>& entries) : entries_(entries.begin(), entries.end()) {}
+  // How nodes are split matters only for what is moved: packing does not ask. (GCC 12 takes the R*-tree's insertion for a write beyond its
+  // nodes.)
+  bg::index::rtree<Entry, bg::index::quadratic<8>, bg::index::indexable<Entry>, SameInstance> entries_;
+};
+
+InstanceTree::InstanceTree(std::span<const Eigen::AlignedBox3d> boxes) {
+  std::vector<Entry> entries;
+  entries.reserve(boxes.size());
+  for (std::size_t i = 0; i < boxes.size(); ++i)
+    entries.emplace_back(grown(boxes[i]), static_cast<std::uint32_t>(i));
+  tree_ = std::make_unique<Tree>(entries);
+}
+
+InstanceTree::~InstanceTree() = default;
+InstanceTree::InstanceTree(InstanceTree&& other) noexcept = default;
+InstanceTree& InstanceTree::operator=(InstanceTree&& other) noexcept = default;
+
+void InstanceTree::move(std::uint32_t instance, const Eigen::AlignedBox3d& from,
+                        const Eigen::AlignedBox3d& to) {
+  tree_->entries_.remove(Entry(grown(from), instance));
+  tree_->entries_.insert(Entry(grown(to), instance));
+}
+
+void InstanceTree::touching(const Eigen::AlignedBox3d& box, std::vector<std::uint32_t>& instances) const {
+  instances.clear();
+  const FloatBox asked = grown(box);
+  tree_->entries_.query(
+      bg::index::intersects(asked),
+      boost::make_function_output_iterator([&](const Entry& entry) { instances.push_back(entry.second); }));
+  std::sort(instances.begin(), instances.end());
+}
+
+void InstanceTree::by_distance(const Eigen::Vector3d& point,
+                               const std::function<bool(std::uint32_t instance, double bound)>& visit) const {
+  const FloatPoint asked(static_cast<float>(point.x()), static_cast<float>(point.y()),
+                         static_cast<float>(point.z()));
+  const auto all = static_cast<unsigned>(tree_->entries_.size());
+  if (all == 0) return;
+  for (auto found = tree_->entries_.qbegin(bg::index::nearest(asked, all)); found != tree_->entries_.qend();
+       ++found) {
+    const double distance = distance_of(asked, found->first);
+    const double bound = distance - ORDER_ROUNDING * (distance + point.cwiseAbs().maxCoeff());
+    if (!visit(found->second, std::max(0.0, bound))) return;
+  }
+}
+
+std::size_t InstanceTree::size() const {
+  return tree_->entries_.size();
+}
+
+}  // namespace lmdbench

@@ -1,0 +1,282 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/geometry/tolerance.h>
+#include <lmdbench/mesh/surface.h>
+#include <lmdbench/shape/flatten.h>
+#include <lmdbench/shape/planar_faces.h>
+
+#include <Eigen/SVD>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <numeric>
+#include <optional>
+#include <vector>
+
+namespace lmdbench {
+
+namespace {
+
+/// Roundings of a double at the largest coordinate within which a plane is flat already.
+constexpr double FLAT_ULPS = 16.0;
+/// Neighbouring triangles within this many tolerances of one plane tell how many are within one by chance.
+constexpr double BAND = 10.0;
+/// Faces of a size count where there are more than this many times as many as chance gives.
+constexpr double EVIDENCE = 4.0;
+/// Places round a face of four where chance may add a fifth vertex.
+constexpr double PLACES = 8.0;
+/// Triangles lower than this many tolerances have no plane to speak of.
+constexpr double LEAST_ALTITUDE = 16.0;
+/// Planes at a smaller angle (a sine) are one where their points agree.
+constexpr double SAME_PLANE_SINE = 1e-3;
+
+/// A plane that vertices are to lie in.
+struct Constraint {
+  Plane plane;
+  std::vector<std::int32_t> vertices;
+  bool stands = true;
+  bool was_joined = false;  ///< Of several faces.
+};
+
+/// How many pairs of neighbouring triangles are within 1 and how many within BAND tolerances of one plane.
+struct Coplanarity {
+  std::size_t pairs = 0, in_band = 0;
+  /// Chance of a pair to be within one tolerance, taking heights near 0 as evenly spread.
+  double chance() const {
+    return pairs == 0 ? 0.0 : static_cast<double>(in_band) / (BAND - 1.0) / static_cast<double>(pairs);
+  }
+};
+
+Coplanarity coplanarity(const Surface& surface, double tolerance) {
+  Coplanarity result;
+  for (std::int32_t e = 0; e < surface.adjacency.edge_count(); ++e) {
+    const auto edge = static_cast<std::size_t>(e);
+    if (surface.edge_is_boundary[edge] || surface.edge_is_non_manifold[edge]) continue;
+    const auto triangles = surface.adjacency.edge_triangles[e];
+    const Vec3& p = surface.mesh.vertices[static_cast<std::size_t>(surface.adjacency.edges[edge][0])];
+    const Vec3& q = surface.mesh.vertices[static_cast<std::size_t>(surface.adjacency.edges[edge][1])];
+    // The far corners of both triangles, against the plane of the other.
+    double least = std::numeric_limits<double>::infinity(), height = 0.0;
+    std::array<Vec3, 2> apex{p, p};
+    for (const std::size_t k : {0u, 1u})
+      for (const std::int32_t corner : surface.mesh.triangles[static_cast<std::size_t>(triangles[k])])
+        if (corner != surface.adjacency.edges[edge][0] && corner != surface.adjacency.edges[edge][1])
+          apex[k] = surface.mesh.vertices[static_cast<std::size_t>(corner)];
+    const Vec3 along = (q - p).stableNormalized();
+    std::array<double, 2> altitude{};
+    for (const std::size_t k : {0u, 1u}) {
+      altitude[k] = ((apex[k] - p) - along.dot(apex[k] - p) * along).norm();
+      least = std::min(least, altitude[k]);
+    }
+    if (!(least > LEAST_ALTITUDE * tolerance)) continue;
+    for (const std::size_t k : {0u, 1u}) {
+      const Vec3& normal = surface.face_normals[static_cast<std::size_t>(triangles[1 - k])];
+      // A rounded plane is off by the more the farther the corner is.
+      const double widened = 1.0 + altitude[k] / altitude[1 - k];
+      height = std::max(height, std::abs(normal.dot(apex[k] - p)) / widened);
+    }
+    ++result.pairs;
+    if (height > tolerance && height <= BAND * tolerance) ++result.in_band;
+  }
+  return result;
+}
+
+/// Faces of four and more vertices that chance does not explain.
+std::vector<Constraint> find_constraints(const Surface& surface, double tolerance) {
+  std::vector<PlanarFace> faces = planar_faces(surface, tolerance);
+  std::map<std::size_t, std::size_t> count_of_spare;  // faces with that many vertices more than three
+  for (const PlanarFace& face : faces)
+    if (face.vertices.size() > 3) ++count_of_spare[face.vertices.size() - 3];
+  const Coplanarity pairs = coplanarity(surface, tolerance);
+  const double one_spare = pairs.chance() * static_cast<double>(pairs.pairs);
+  const auto by_chance = [&](std::size_t spare) {
+    return one_spare * std::pow(std::min(1.0, PLACES * pairs.chance()), static_cast<double>(spare - 1));
+  };
+  std::vector<Constraint> constraints;
+  for (PlanarFace& face : faces) {
+    if (face.vertices.size() <= 3) continue;
+    const std::size_t spare = face.vertices.size() - 3;
+    if (!(static_cast<double>(count_of_spare[spare]) > EVIDENCE * by_chance(spare))) continue;
+    constraints.push_back({face.plane, std::move(face.vertices), true});
+  }
+  return constraints;
+}
+
+/// Planes through each vertex, ascending.
+std::vector<std::vector<std::size_t>> planes_of_vertices(const TriangleMesh& mesh,
+                                                         const std::vector<Constraint>& constraints) {
+  std::vector<std::vector<std::size_t>> planes(mesh.vertices.size());
+  for (std::size_t c = 0; c < constraints.size(); ++c)
+    if (constraints[c].stands)
+      for (const std::int32_t v : constraints[c].vertices) planes[static_cast<std::size_t>(v)].push_back(c);
+  return planes;
+}
+
+/// Joins faces that meet in a vertex and lie in one plane: two planes a rounding apart share no sensible
+/// line.
+class CoplanarJoining {
+ public:
+  CoplanarJoining(const TriangleMesh& mesh, std::vector<Constraint>& constraints, double tolerance)
+      : mesh_(mesh), constraints_(constraints), tolerance_(tolerance), into_(constraints.size()) {
+    std::iota(into_.begin(), into_.end(), std::size_t{0});
+  }
+
+  void run() {
+    for (const auto& at_vertex : planes_of_vertices(mesh_, constraints_))
+      for (std::size_t i = 0; i < at_vertex.size(); ++i)
+        for (std::size_t j = i + 1; j < at_vertex.size(); ++j)
+          try_to_join(root(at_vertex[i]), root(at_vertex[j]));
+    for (Constraint& constraint : constraints_) {
+      if (constraint.was_joined) constraint.plane = plane_of(constraint.vertices, constraint.plane.normal);
+      std::sort(constraint.vertices.begin(), constraint.vertices.end());
+      constraint.vertices.erase(std::unique(constraint.vertices.begin(), constraint.vertices.end()),
+                                constraint.vertices.end());
+    }
+  }
+
+ private:
+  /// A face with fewer than this part of the other one's vertices has to fit into the other's plane as it is: to fit both anew for
+  /// each of the thousands of pieces of a plate takes the square of their number.
+  static constexpr std::size_t SMALL_PART = 8;
+
+  std::size_t root(std::size_t c) {
+    while (into_[c] != c) c = into_[c] = into_[into_[c]];
+    return c;
+  }
+
+  void try_to_join(std::size_t a, std::size_t b) {
+    if (a == b) return;
+    Constraint& first = constraints_[std::min(a, b)];
+    Constraint& second = constraints_[std::max(a, b)];
+    if (first.plane.normal.cross(second.plane.normal).norm() > SAME_PLANE_SINE ||
+        !(first.plane.normal.dot(second.plane.normal) > 0.0))
+      return;
+    const bool first_is_large = first.vertices.size() >= second.vertices.size();
+    const Constraint &large = first_is_large ? first : second, &small = first_is_large ? second : first;
+    Plane plane = large.plane;
+    if (SMALL_PART * small.vertices.size() > large.vertices.size()) {
+      std::vector<std::int32_t> both = large.vertices;
+      both.insert(both.end(), small.vertices.begin(), small.vertices.end());
+      plane = plane_of(both, first.plane.normal);
+      if (!all_near(both, plane)) return;
+    } else if (!all_near(small.vertices, plane)) {
+      return;
+    }
+    if (!first_is_large) first.vertices.swap(second.vertices);
+    first.vertices.insert(first.vertices.end(), second.vertices.begin(), second.vertices.end());
+    first.plane = plane;
+    first.was_joined = true;
+    second = Constraint{second.plane, {}, false};
+    into_[std::max(a, b)] = std::min(a, b);
+  }
+
+  Plane plane_of(const std::vector<std::int32_t>& vertices, const Vec3& towards) const {
+    std::vector<Vec3> points;
+    for (const std::int32_t v : vertices) points.push_back(mesh_.vertices[static_cast<std::size_t>(v)]);
+    return fit_plane(points, towards).plane;
+  }
+  bool all_near(const std::vector<std::int32_t>& vertices, const Plane& plane) const {
+    return std::ranges::all_of(vertices, [&](std::int32_t v) {
+      return std::abs(plane.height(mesh_.vertices[static_cast<std::size_t>(v)])) <= tolerance_;
+    });
+  }
+
+  const TriangleMesh& mesh_;
+  std::vector<Constraint>& constraints_;
+  double tolerance_;
+  std::vector<std::size_t> into_;
+};
+
+/// The nearest point that lies in all planes; nothing where they share none.
+std::optional<Vec3> put_into(const Vec3& p, const std::vector<std::size_t>& planes,
+                             const std::vector<Constraint>& constraints, double flat) {
+  Vec3 moved = p;
+  if (planes.size() == 1) {
+    const Plane& plane = constraints[planes[0]].plane;
+    for (int step = 0; step < 2; ++step) moved -= plane.height(moved) * plane.normal;
+    return moved;
+  }
+  Eigen::MatrixXd normals(planes.size(), 3);
+  for (std::size_t i = 0; i < planes.size(); ++i)
+    normals.row(static_cast<Eigen::Index>(i)) = constraints[planes[i]].plane.normal.transpose();
+  // Thin: a full U would be square in the planes, of which the hub of a fan may have thousands.
+  Eigen::JacobiSVD<Eigen::MatrixXd> solver(normals, Eigen::ComputeThinU | Eigen::ComputeThinV);
+  solver.setThreshold(1e-6);
+  Eigen::VectorXd heights(planes.size());
+  // The second step takes what the first left by rounding.
+  for (int step = 0; step < 3; ++step) {
+    for (std::size_t i = 0; i < planes.size(); ++i)
+      heights[static_cast<Eigen::Index>(i)] = constraints[planes[i]].plane.height(moved);
+    if (step == 2) break;
+    moved -= solver.solve(heights);
+  }
+  if (!(heights.cwiseAbs().maxCoeff() <= flat)) return std::nullopt;
+  return moved;
+}
+
+}  // namespace
+
+FlatteningReport flatten(TriangleMesh& mesh, const PlanarTolerance& choice) {
+  FlatteningReport report;
+  report.tolerance = choice.length(mesh);
+  if (!(report.tolerance > 0.0)) return report;
+  const double flat = FLAT_ULPS * std::numeric_limits<double>::epsilon() * largest_coordinate(mesh.vertices);
+  if (report.tolerance <= flat) return report;
+  std::vector<Constraint> constraints = find_constraints(build_surface(mesh), report.tolerance);
+  CoplanarJoining(mesh, constraints, report.tolerance).run();
+
+  std::vector<Vec3> moved;
+  for (bool settled = false; !settled;) {
+    settled = true;
+    moved = mesh.vertices;
+    const auto planes = planes_of_vertices(mesh, constraints);
+    for (std::size_t v = 0; v < moved.size(); ++v) {
+      const Vec3& p = mesh.vertices[v];
+      // Another vertex may have given up one of the planes just now: the next round sees to it.
+      if (planes[v].empty() || std::any_of(planes[v].begin(), planes[v].end(),
+                                           [&](std::size_t c) { return !constraints[c].stands; }))
+        continue;
+      const std::optional<Vec3> target = put_into(p, planes[v], constraints, flat);
+      if (target && (*target - p).norm() <= LARGEST_MOVE * report.tolerance) {
+        moved[v] = *target;
+        continue;
+      }
+      const std::size_t weakest =
+          *std::min_element(planes[v].begin(), planes[v].end(), [&](std::size_t a, std::size_t b) {
+            return constraints[a].vertices.size() < constraints[b].vertices.size();
+          });
+      constraints[weakest].stands = false;
+      settled = false;
+    }
+  }
+  for (std::size_t v = 0; v < moved.size(); ++v)
+    report.largest_move = std::max(report.largest_move, (moved[v] - mesh.vertices[v]).norm());
+  if (report.largest_move <= flat) {
+    report.largest_move = 0.0;
+    return report;
+  }
+  report.planes = std::count_if(constraints.begin(), constraints.end(),
+                                [](const Constraint& constraint) { return constraint.stands; });
+  for (std::size_t v = 0; v < moved.size(); ++v)
+    if (moved[v] != mesh.vertices[v]) ++report.moved_vertices;
+  mesh.vertices = std::move(moved);
+  mesh.planar_tolerance = report.tolerance;
+  return report;
+}
+
+std::string to_text(const FlatteningReport& report) {
+  if (!(report.tolerance > 0.0)) return "taken as they are (planar tolerance 0)";
+  if (report.moved_vertices == 0)
+    return fmt::format("no vertex had to be put back into a plane (tolerance {:.3g})", report.tolerance);
+  // A vertex on two or three planes goes farther than it is from each of them.
+  return fmt::format(
+      "{} vertices put back into {} planes that they were within {:.3g} of; the farthest moved by {:.3g} "
+      "(allowed: {:.3g})",
+      report.moved_vertices, report.planes, report.tolerance, report.largest_move,
+      LARGEST_MOVE * report.tolerance);
+}
+
+}  // namespace lmdbench

@@ -1,0 +1,288 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/base/contract.h>
+#include <lmdbench/shape/polygon_sweep.h>
+
+#include <boost/pending/disjoint_sets.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <iterator>
+#include <limits>
+#include <utility>
+#include <vector>
+
+namespace lmdbench {
+
+namespace {
+
+/// Slopes that differ by less than this are one line: the angle at which a piece may be bent inwards.
+constexpr double SLOPE_ROUNDING = 1e-9;
+/// How far apart the ends of a piece and its continuation may be, in tolerances.
+constexpr double CONTINUATION = 4.0;
+
+/// A side that is not level, from its lower to its upper end.
+struct Climb {
+  Vec2 low, high;
+  int winding;        ///< What is right of it is wound round so much more often than what is left.
+  std::size_t owner;  ///< Which polygon.
+  double slope;
+
+  Climb(const PolygonSide& side, std::size_t of)
+      : low(side.from), high(side.to), winding(side.from[1] < side.to[1] ? -1 : 1), owner(of) {
+    if (winding > 0) std::swap(low, high);
+    slope = (high[0] - low[0]) / (high[1] - low[1]);
+  }
+  double x_at(double y) const { return low[0] + slope * (y - low[1]); }
+};
+
+/// A side that meets a row, and where at its middle.
+struct Active {
+  const Climb* climb;
+  double x;
+};
+
+/// Corners of a convex piece from the bottom; the last of each side is at the top.
+struct Outline {
+  std::vector<Vec2> left, right;
+};
+
+/// A convex piece that may still grow upwards.
+struct OpenPiece {
+  static constexpr std::size_t NONE = std::numeric_limits<std::size_t>::max();
+
+  const Climb *left, *right;  ///< Between which it is at the top.
+  double left_slope, right_slope;
+  double left_x, right_x;  ///< At the top.
+  std::size_t part = 0;
+  std::size_t outline = NONE;  ///< NONE once it has grown.
+};
+
+class Sweep {
+ public:
+  Sweep(std::array<std::span<const PolygonSide>, 2> polygons, double tolerance)
+      : owners_(polygons[1].empty() ? 1 : 2), tolerance_(tolerance) {
+    LMDBENCH_EXPECTS(tolerance >= 0.0, "a tolerance that is negative or not a number");
+    heights_.reserve(2 * (polygons[0].size() + polygons[1].size()));
+    climbs_.reserve(polygons[0].size() + polygons[1].size());
+    for (std::size_t owner = 0; owner < owners_; ++owner)
+      for (const PolygonSide& side : polygons[owner]) {
+        heights_.push_back(side.from[1]);
+        heights_.push_back(side.to[1]);
+        if (std::abs(side.from[1] - side.to[1]) > tolerance) climbs_.emplace_back(side, owner);
+      }
+    std::stable_sort(climbs_.begin(), climbs_.end(),
+                     [](const Climb& a, const Climb& b) { return a.low[1] < b.low[1]; });
+    if (owners_ == 2) add_crossings();
+    std::sort(heights_.begin(), heights_.end());
+  }
+
+  /// The pieces with the parts that they are of, part by part.
+  std::vector<SharedPart> run() {
+    std::size_t next = 0;
+    std::vector<Active> active;
+    for (std::size_t i = 0; i + 1 < heights_.size();) {
+      // The next height that is not level with this one.
+      std::size_t j = i + 1;
+      while (j < heights_.size() && heights_[j] - heights_[i] <= tolerance_) ++j;
+      if (j == heights_.size()) break;
+      const double bottom = heights_[i], top = heights_[j];
+      for (; next < climbs_.size() && climbs_[next].low[1] <= bottom + tolerance_; ++next)
+        active.push_back({&climbs_[next], 0.0});
+      std::erase_if(active, [&](const Active& side) { return side.climb->high[1] <= bottom + tolerance_; });
+      row(active, bottom, top);
+      i = j;
+    }
+    for (const OpenPiece& piece : open_) close(piece);
+    return grouped();
+  }
+
+ private:
+  /// Heights at which a side of one polygon crosses a side of the other.
+  void add_crossings() {
+    std::array<std::vector<const Climb*>, 2> active;
+    for (const Climb& climb : climbs_) {
+      std::vector<const Climb*>& others = active[1 - climb.owner];
+      std::erase_if(others, [&](const Climb* other) { return other->high[1] <= climb.low[1]; });
+      for (const Climb* other : others) {
+        const double bottom = climb.low[1], top = std::min(climb.high[1], other->high[1]);
+        const double at_bottom = climb.low[0] - other->x_at(bottom),
+                     at_top = climb.x_at(top) - other->x_at(top);
+        if ((at_bottom < 0.0 && at_top > 0.0) || (at_bottom > 0.0 && at_top < 0.0))
+          heights_.push_back(bottom + at_bottom / (at_bottom - at_top) * (top - bottom));
+      }
+      active[climb.owner].push_back(&climb);
+    }
+  }
+
+  void row(std::vector<Active>& active, double bottom, double top) {
+    const double middle = 0.5 * (bottom + top);
+    // Nearly sorted: the order of the row below.
+    for (std::size_t k = 0; k < active.size(); ++k) {
+      const Active climb{active[k].climb, active[k].climb->x_at(middle)};
+      std::size_t at = k;
+      for (; at > 0 && active[at - 1].x > climb.x; --at) active[at] = active[at - 1];
+      active[at] = climb;
+    }
+    before_.swap(open_);
+    open_.clear();
+    first_before_ = 0;
+    std::array<int, 2> winding{0, owners_ == 1 ? 1 : 0};
+    const Climb* left = nullptr;
+    for (const auto& [climb, x] : active) {
+      const bool was_inside = winding[0] > 0 && winding[1] > 0;
+      winding[climb->owner] += climb->winding;
+      const bool is_inside = winding[0] > 0 && winding[1] > 0;
+      if (!was_inside && is_inside) left = climb;
+      if (was_inside && !is_inside) trapezoid(*left, *climb, bottom, top);
+    }
+    for (const OpenPiece& piece : before_) close(piece);
+    before_.clear();
+  }
+
+  /// Where two sides are at a height. A side that is all but level is known badly there: where the two seem to have crossed, the
+  /// steeper one says where.
+  static std::pair<double, double> ends_at(const Climb& left, const Climb& right, double y) {
+    const double from = left.x_at(y), to = right.x_at(y);
+    if (from <= to) return {from, to};
+    const double x = std::abs(left.slope) < std::abs(right.slope) ? from : to;
+    return {x, x};
+  }
+
+  void trapezoid(const Climb& left, const Climb& right, double bottom, double top) {
+    const auto [bottom_from, bottom_to] = ends_at(left, right, bottom);
+    const auto [top_from, top_to] = ends_at(left, right, top);
+    const Vec2 left_bottom(bottom_from, bottom), left_top(top_from, top);
+    const Vec2 right_bottom(bottom_to, bottom), right_top(top_to, top);
+    if (owners_ == 2 && right_bottom[0] - left_bottom[0] <= tolerance_ &&
+        right_top[0] - left_top[0] <= tolerance_)
+      return;
+    const double gap = CONTINUATION * tolerance_;
+    const bool meets_neighbour = !open_.empty() && (left_bottom[0] - last_right_bottom_ <= gap ||
+                                                    left_top[0] - open_.back().right_x <= gap);
+    last_right_bottom_ = right_bottom[0];
+    while (first_before_ < before_.size() && before_[first_before_].right_x < left_bottom[0] - gap)
+      ++first_before_;
+    OpenPiece piece{&left, &right, left.slope, right.slope, left_top[0], right_top[0]};
+    OpenPiece* below = first_before_ < before_.size() ? &before_[first_before_] : nullptr;
+    if (below != nullptr && below->left == &left && below->right == &right &&
+        below->outline != OpenPiece::NONE) {
+      // Between the same sides as in the row below: what it meets there has met it there.
+      piece.part = below->part;
+      take_outline(piece, *below);
+      outlines_[piece.outline].left.back() = left_top;
+      outlines_[piece.outline].right.back() = right_top;
+    } else {
+      grow_or_begin(piece, left_bottom, right_bottom, left_top, right_top);
+    }
+    if (meets_neighbour) meetings_.emplace_back(piece.part, open_.back().part);
+    open_.push_back(piece);
+  }
+
+  /// A piece goes on from the one below where the two together are convex.
+  void grow_or_begin(OpenPiece& piece, const Vec2& left_bottom, const Vec2& right_bottom,
+                     const Vec2& left_top, const Vec2& right_top) {
+    const double gap = CONTINUATION * tolerance_;
+    const double left_slope = piece.left_slope, right_slope = piece.right_slope;
+    piece.part = part_count_++;
+    for (std::size_t k = first_before_; k < before_.size() && before_[k].left_x <= right_bottom[0] + gap;
+         ++k) {
+      OpenPiece& below = before_[k];
+      meetings_.emplace_back(piece.part, below.part);
+      const bool goes_on = piece.outline == OpenPiece::NONE && below.outline != OpenPiece::NONE &&
+                           std::abs(below.left_x - left_bottom[0]) <= gap &&
+                           std::abs(below.right_x - right_bottom[0]) <= gap &&
+                           left_slope >= below.left_slope - SLOPE_ROUNDING * (1.0 + std::abs(left_slope)) &&
+                           right_slope <= below.right_slope + SLOPE_ROUNDING * (1.0 + std::abs(right_slope));
+      if (!goes_on) continue;
+      take_outline(piece, below);
+      extend(outlines_[piece.outline].left, piece.left_slope, left_top, left_slope);
+      extend(outlines_[piece.outline].right, piece.right_slope, right_top, right_slope);
+    }
+    if (piece.outline != OpenPiece::NONE) return;
+    piece.outline = outlines_.size();
+    outlines_.push_back({{left_bottom, left_top}, {right_bottom, right_top}});
+  }
+
+  static void take_outline(OpenPiece& piece, OpenPiece& below) {
+    piece.outline = std::exchange(below.outline, OpenPiece::NONE);
+    piece.left_slope = below.left_slope;
+    piece.right_slope = below.right_slope;
+  }
+
+  static void extend(std::vector<Vec2>& chain, double& slope, const Vec2& top, double next_slope) {
+    if (std::abs(next_slope - slope) <= SLOPE_ROUNDING * (1.0 + std::abs(slope))) {
+      chain.back() = top;
+      return;
+    }
+    chain.push_back(top);
+    slope = next_slope;
+  }
+
+  void close(const OpenPiece& piece) {
+    if (piece.outline == OpenPiece::NONE) return;
+    const auto& [left, right] = outlines_[piece.outline];
+    ConvexPolygon polygon;
+    polygon.corners.reserve(left.size() + right.size());
+    const auto add = [&](const Vec2& x) {
+      if (polygon.corners.empty() || (polygon.corners.back() - x).norm() > tolerance_)
+        polygon.corners.push_back(x);
+    };
+    std::for_each(right.begin(), right.end(), add);
+    std::for_each(left.rbegin(), left.rend(), add);
+    while (polygon.corners.size() > 1 &&
+           (polygon.corners.back() - polygon.corners.front()).norm() <= tolerance_)
+      polygon.corners.pop_back();
+    if (polygon.corners.size() < 3) return;
+    pieces_.push_back(std::move(polygon));
+    part_of_piece_.push_back(piece.part);
+  }
+
+  std::vector<SharedPart> grouped() {
+    std::vector<SharedPart> result;
+    boost::disjoint_sets_with_storage<> parts(part_count_);
+    for (const auto& [one, other] : meetings_) parts.union_set(one, other);
+    std::vector<std::size_t> place(part_count_, part_count_);
+    for (std::size_t i = 0; i < pieces_.size(); ++i) {
+      std::size_t& at = place[parts.find_set(part_of_piece_[i])];
+      if (at == part_count_) {
+        at = result.size();
+        result.emplace_back();
+      }
+      result[at].push_back(std::move(pieces_[i]));
+    }
+    return result;
+  }
+
+  std::size_t owners_;
+  double tolerance_;
+  std::vector<double> heights_;
+  std::vector<Climb> climbs_;
+  std::vector<Outline> outlines_;
+  std::vector<OpenPiece> open_, before_;  ///< Of this row and the one below, from left to right.
+  std::size_t first_before_ = 0;          ///< The first of before_ that is not left of the row so far.
+  double last_right_bottom_ = 0.0;        ///< Of the last trapezoid of the row.
+  std::vector<ConvexPolygon> pieces_;
+  std::vector<std::size_t> part_of_piece_;
+  std::size_t part_count_ = 0;                                 ///< One a trapezoid, until they are joined.
+  std::vector<std::pair<std::size_t, std::size_t>> meetings_;  ///< Of parts.
+};
+
+}  // namespace
+
+std::vector<ConvexPolygon> convex_pieces(std::span<const PolygonSide> sides, double tolerance) {
+  std::vector<ConvexPolygon> pieces;
+  for (SharedPart& part : Sweep({sides, {}}, tolerance).run())
+    std::ranges::move(part, std::back_inserter(pieces));
+  return pieces;
+}
+
+std::vector<SharedPart> shared_parts(std::span<const PolygonSide> a, std::span<const PolygonSide> b,
+                                     double tolerance) {
+  if (a.empty() || b.empty()) return {};
+  return Sweep({a, b}, tolerance).run();
+}
+
+}  // namespace lmdbench

@@ -1,0 +1,55 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <lmdbench/geometry/convex_polygon.h>
+#include <lmdbench/mesh/box_grid.h>
+#include <lmdbench/mesh/csr_rows.h>
+#include <lmdbench/shape/flat_regions.h>
+#include <lmdbench/shape/polygon_sweep.h>
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace lmdbench {
+
+/// A flat region without its tessellation: a polygon, with holes where it has them, as convex pieces; and
+/// where its triangles lie. All in the plane's own frame.
+struct RegionShape {
+  PlanarFrame frame{Vec3::Zero(), Vec3::UnitZ()};  ///< In the region's plane, seen against its
+                                                   ///< normal; frame S.
+  std::vector<PolygonSide> sides;                  ///< Of the border.
+  std::vector<ConvexPolygon> pieces;               ///< Side by side; together they are the region.
+  BoxGrid piece_grid;                              ///< Of the pieces' boxes.
+  BoxGrid side_grid;                               ///< Of the sides' boxes.
+  std::vector<std::int32_t> corners;  ///< Vertices where straight edges of its border end, ascending.
+  std::vector<Vec2> hull;             ///< Convex hull of the corners, counter-clockwise.
+  BoxGrid triangle_grid;  ///< Of the triangles' boxes, in the order of FlatRegions::region_triangles.
+  /// Chains or corners lie inside it (a fin that stands on it, a slit), or parts of it lie on each other.
+  bool has_features_inside = false;
+
+  /// Whether a point of the plane is inside by more than `reach`, away from every chain and corner: true, or outside by more: false.
+  /// Nothing where that takes a look at the triangles: near the border, and where pieces meet.
+  /// @param reach  at least what rounding does to the pieces, FLATNESS of the mesh's largest coordinate [m]
+  std::optional<bool> clearly_holds(const Vec2& x, double reach) const;
+  /// Whether all points of a segment are inside by more than `reach`, where that is easily told.
+  bool clearly_holds_segment(const Vec2& a, const Vec2& b, double reach) const;
+};
+
+/// Shapes of the regions of more than one triangle, each a pass over its triangles and a sweep over its
+/// border: n log n of them.
+struct RegionShapes {
+  std::vector<RegionShape> shapes;
+  std::vector<std::int32_t> shape_of_region;  ///< #R; -1 for a region of one triangle.
+
+  const RegionShape* of_region(std::int32_t region) const {
+    const std::int32_t shape = shape_of_region[static_cast<std::size_t>(region)];
+    return shape < 0 ? nullptr : &shapes[static_cast<std::size_t>(shape)];
+  }
+};
+
+RegionShapes region_shapes(const Surface& surface, const FlatRegions& regions);
+
+}  // namespace lmdbench

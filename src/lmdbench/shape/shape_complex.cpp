@@ -1,0 +1,316 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/base/parallel.h>
+#include <lmdbench/geometry/point_triangle.h>
+#include <lmdbench/geometry/tolerance.h>
+#include <lmdbench/mesh/surface.h>
+#include <lmdbench/mesh/triangle_normal.h>
+#include <lmdbench/shape/planar_faces.h>
+#include <lmdbench/shape/shape_complex.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace lmdbench {
+
+namespace {
+
+/// Angles of a region at a corner add up to this less than 180 degrees at the most where its chains there run on in one
+/// line.
+constexpr double ANGLE_ROUNDING = 1e-6;
+
+/// A mesh that deforms may grow by this factor before its triangles are looked at again for being regions by themselves.
+constexpr double ROOM_TO_GROW = 4.0;
+/// Tolerances within which nothing may begin to grow there: the growth itself asks for one.
+constexpr double LONE_MARGIN = 2.0;
+/// Triangles that one task looks at.
+constexpr std::size_t FACES_A_LOOK = 4096;
+
+}  // namespace
+
+ShapeComplex ShapeComplex::of(const Surface& surface) {
+  ShapeComplex shape;
+  shape.regions = FlatRegions::of(surface);
+  shape.shapes = region_shapes(surface, shape.regions);
+  const auto vertex_count = static_cast<std::int32_t>(surface.mesh.vertices.size());
+  const auto chain_count = static_cast<std::int32_t>(shape.regions.straight_edges.size());
+  shape.is_joined = !shape.shapes.shapes.empty() ||
+                    std::ranges::any_of(shape.regions.straight_of_edge, [&](std::int32_t c) {
+                      return c >= 0 && shape.regions.edges_of_straight[c].size() > 1;
+                    });
+  if (!shape.is_joined) return shape;
+  shape.corner_row_.assign(static_cast<std::size_t>(vertex_count), -1);
+  shape.chain_row_.assign(static_cast<std::size_t>(chain_count), -1);
+  const auto end_row = [&](std::int32_t& row) {
+    row = static_cast<std::int32_t>(shape.wing_starts_.size()) - 1;
+    shape.wing_starts_.push_back(static_cast<std::int32_t>(shape.wings_.size()));
+  };
+  for (std::int32_t v = 0; v < vertex_count; ++v) {
+    if (!shape.is_corner(v) || shape.is_plain(surface, v)) continue;
+    shape.append_corner_wings(surface, v);
+    end_row(shape.corner_row_[static_cast<std::size_t>(v)]);
+  }
+  for (std::int32_t c = 0; c < chain_count; ++c) {
+    if (shape.is_plain_chain(surface, c)) continue;
+    shape.append_chain_wings(surface, c);
+    end_row(shape.chain_row_[static_cast<std::size_t>(c)]);
+  }
+  return shape;
+}
+
+void ShapeComplex::follow(const Surface& surface, const SurfaceChange& change) {
+  if (keeps_features(surface, change)) {
+    for (const std::int32_t face : change.faces) {
+      const auto t = static_cast<std::size_t>(face);
+      regions.planes[static_cast<std::size_t>(region_of(face))] = {
+          surface.mesh.vertices[static_cast<std::size_t>(surface.mesh.triangles[t][0])],
+          surface.face_normals[t]};
+    }
+    return;
+  }
+  if (!change.moved.empty()) {
+    const std::uint32_t times = times_made_anew_ + 1;
+    *this = of(surface);
+    times_made_anew_ = times;
+  }
+  find_lone_triangles(surface);
+}
+
+void ShapeComplex::find_lone_triangles(const Surface& surface) {
+  lone_up_to_ = ROOM_TO_GROW * regions.extent;
+  is_lone_.assign(surface.mesh.triangles.size(), false);
+  some_not_lone_ = false;
+  for (std::size_t t = 0; t < is_lone_.size(); ++t) {
+    is_lone_[t] = !regions.decides_region[t] &&
+                  !may_join_neighbour(surface, static_cast<std::int32_t>(t), lone_tolerance());
+    // A triangle without area is in no region whatever the extent.
+    some_not_lone_ = some_not_lone_ || (!is_lone_[t] && !surface.face_normals[t].isZero(0.0));
+  }
+}
+
+/// Whether a shape that is made anew would have the same features, their planes aside. The regions of several triangles are functions
+/// of the triangles that had a say in them (FlatRegions::decides_region) and of the mesh's extent; a triangle over whose edges
+/// no region can begin to grow, from either side, is one by itself and takes part in no chain of several edges and in no
+/// vertex inside a region, because it is not so low that its edges are in one line.
+bool ShapeComplex::keeps_features(const Surface& surface, const SurfaceChange& change) {
+  if (is_lone_.empty() || change.lost_area > 0 || change.regained_area) return false;
+  const double extent = largest_coordinate(surface.mesh.vertices);
+  if (extent > lone_up_to_ || (some_not_lone_ && extent != regions.extent)) return false;
+  std::atomic<bool> all_alone = true;
+  parallel_ranges(change.faces.size(), FACES_A_LOOK, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end && all_alone; ++i)
+      if (!is_lone_[static_cast<std::size_t>(change.faces[i])] ||
+          may_join_neighbour(surface, change.faces[i], lone_tolerance(), &change))
+        all_alone = false;
+  });
+  if (!all_alone) return false;
+  // Wings that are kept are those beside regions and chains of several faces and edges.
+  const auto is_kept = [](const std::vector<std::int32_t>& rows, std::int32_t i) {
+    return !rows.empty() && i >= 0 && rows[static_cast<std::size_t>(i)] >= 0;
+  };
+  for (const std::int32_t vertex : change.vertices)
+    if (is_kept(corner_row_, vertex)) return false;
+  for (const std::int32_t edge : change.edges)
+    if (is_kept(chain_row_, chain_of(edge))) return false;
+  regions.extent = extent;
+  return true;
+}
+
+double ShapeComplex::lone_tolerance() const {
+  return LONE_MARGIN * FLATNESS * lone_up_to_;
+}
+
+bool ShapeComplex::is_plain(const Surface& surface, std::int32_t vertex) const {
+  return std::ranges::all_of(surface.adjacency.vertex_triangles[vertex], [&](std::int32_t t) {
+    const std::int32_t region = region_of(t);
+    return region >= 0 && shapes.of_region(region) == nullptr &&
+           std::ranges::all_of(surface.adjacency.triangle_edges[static_cast<std::size_t>(t)],
+                               [&](std::int32_t e) {
+                                 const std::int32_t chain = chain_of(e);
+                                 return chain >= 0 && regions.edges_of_straight[chain].size() == 1;
+                               });
+  });
+}
+
+bool ShapeComplex::is_plain_chain(const Surface& surface, std::int32_t chain) const {
+  return regions.edges_of_straight[chain].size() == 1 &&
+         std::ranges::all_of(surface.adjacency.edge_triangles[lead_of_chain(chain)], [&](std::int32_t t) {
+           const std::int32_t region = region_of(t);
+           return region < 0 || shapes.of_region(region) == nullptr;
+         });
+}
+
+void ShapeComplex::append_corner_wings(const Surface& surface, std::int32_t vertex) {
+  const auto position = [&](std::int32_t v) -> const Vec3& {
+    return surface.mesh.vertices[static_cast<std::size_t>(v)];
+  };
+  const Vec3& p = position(vertex);
+  // The other ends of chains, and of the sides of triangles without area.
+  std::vector<std::int32_t> ends;
+  for (const std::int32_t t : surface.adjacency.vertex_triangles[vertex]) {
+    for (const std::int32_t e : surface.adjacency.triangle_edges[static_cast<std::size_t>(t)]) {
+      const auto& own = surface.adjacency.edges[static_cast<std::size_t>(e)];
+      if (own[0] != vertex && own[1] != vertex) continue;
+      const std::int32_t chain = chain_of(e);
+      const auto& whole = chain >= 0 ? ends_of_chain(chain) : own;
+      const bool at_end = whole[0] == vertex || whole[1] == vertex;
+      const auto& from_to = at_end ? whole : own;
+      if (chain >= 0 || region_of(t) < 0) ends.push_back(from_to[0] == vertex ? from_to[1] : from_to[0]);
+    }
+    if (region_of(t) < 0)
+      for (const std::int32_t corner : surface.mesh.triangles[static_cast<std::size_t>(t)])
+        ends.push_back(corner);
+  }
+  std::ranges::sort(ends);
+  ends.erase(std::unique(ends.begin(), ends.end()), ends.end());
+  double shortest = std::numeric_limits<double>::infinity();
+  for (const std::int32_t end : ends) {
+    const Vec3 wing = position(end) - p;
+    const double length = wing.norm();
+    if (!(length > 0.0)) continue;
+    shortest = std::min(shortest, length);
+    wings_.push_back(wing);
+  }
+  // Regions of 180 degrees and more: without a wing inside, the corner of a notch would have a cone.
+  std::vector<std::pair<std::int32_t, std::int32_t>> of_regions;  // region, triangle
+  for (const std::int32_t t : surface.adjacency.vertex_triangles[vertex])
+    if (region_of(t) >= 0 && shapes.of_region(region_of(t)) != nullptr)
+      of_regions.emplace_back(region_of(t), t);
+  std::ranges::sort(of_regions);
+  for (std::size_t next = 0; next < of_regions.size();) {
+    const std::int32_t region = of_regions[next].first;
+    double angle = 0.0;
+    std::vector<std::int32_t> inside;
+    for (; next < of_regions.size() && of_regions[next].first == region; ++next) {
+      const std::int32_t t = of_regions[next].second;
+      const auto& corners = surface.mesh.triangles[static_cast<std::size_t>(t)];
+      const std::array<double, 3> angles = corner_angles(surface.mesh.triangle(t));
+      for (std::size_t k = 0; k < 3; ++k)
+        if (corners[k] == vertex) angle += angles[k];
+      for (const std::int32_t e : surface.adjacency.triangle_edges[static_cast<std::size_t>(t)]) {
+        const auto& own = surface.adjacency.edges[static_cast<std::size_t>(e)];
+        if (chain_of(e) < 0 && (own[0] == vertex || own[1] == vertex))
+          inside.push_back(own[0] == vertex ? own[1] : own[0]);
+      }
+    }
+    if (angle < std::numbers::pi - ANGLE_ROUNDING) continue;
+    std::ranges::sort(inside);
+    inside.erase(std::unique(inside.begin(), inside.end()), inside.end());
+    for (const std::int32_t v : inside) {
+      const Vec3 wing = position(v) - p;
+      wings_.push_back(std::min(1.0, shortest / wing.norm()) * wing);
+    }
+  }
+}
+
+void ShapeComplex::append_chain_wings(const Surface& surface, std::int32_t chain) {
+  const auto position = [&](std::int32_t v) -> const Vec3& {
+    return surface.mesh.vertices[static_cast<std::size_t>(v)];
+  };
+  const auto& ends = ends_of_chain(chain);
+  const Vec3& p = position(ends[0]);
+  const Vec3 along = (position(ends[1]) - p).normalized();
+  const std::int32_t edge = lead_of_chain(chain);
+  const auto& edge_ends = surface.adjacency.edges[static_cast<std::size_t>(edge)];
+  for (const std::int32_t t : surface.adjacency.edge_triangles[edge]) {
+    const std::int32_t region = region_of(t);
+    const RegionShape* shape = region >= 0 ? shapes.of_region(region) : nullptr;
+    for (const std::int32_t corner : surface.mesh.triangles[static_cast<std::size_t>(t)]) {
+      if (corner == edge_ends[0] || corner == edge_ends[1]) continue;
+      const Vec3 to_corner = position(corner) - p;
+      const Vec3 across = to_corner - to_corner.dot(along) * along;
+      if (shape == nullptr) {
+        wings_.push_back(across);
+        continue;
+      }
+      // Of the region's plane, not the triangle's, which a small triangle knows badly.
+      const Vec3& n = regions.planes[static_cast<std::size_t>(region)].normal;
+      Vec3 inwards = n.cross(along).normalized();
+      if (inwards.dot(across) < 0.0) inwards = -inwards;
+      const Vec2 axis(shape->frame.u.dot(inwards), shape->frame.v.dot(inwards));
+      const double depth = axis.dot(farthest_along(shape->hull, axis) - shape->frame.flat(p));
+      wings_.push_back(std::max(across.norm(), depth) * inwards);
+    }
+  }
+}
+
+void ShapeComplex::append_carriers(const Surface& surface, const FeatureId& feature,
+                                   std::vector<std::int32_t>& carriers) const {
+  if (feature.kind == FeatureKind::FACE) {
+    carriers.push_back(feature.index);
+    return;
+  }
+  const std::size_t first = carriers.size();
+  const FeatureId of_mesh = feature.kind == FeatureKind::EDGE
+                                ? FeatureId{FeatureKind::EDGE, lead_of_chain(feature.index)}
+                                : feature;
+  for (const std::int32_t t : surface.incident_triangles(of_mesh))
+    carriers.push_back(region_of(t) >= 0 ? region_of(t) : -1 - t);
+  const auto begin = carriers.begin() + static_cast<std::ptrdiff_t>(first);
+  std::sort(begin, carriers.end());
+  carriers.erase(std::unique(begin, carriers.end()), carriers.end());
+}
+
+bool ShapeComplex::is_lead(const FeatureId& feature) const {
+  switch (feature.kind) {
+    case FeatureKind::VERTEX:
+      return is_corner(feature.index);
+    case FeatureKind::EDGE:
+      return chain_of(feature.index) >= 0 && lead_of_chain(chain_of(feature.index)) == feature.index;
+    case FeatureKind::FACE:
+      break;
+  }
+  return region_of(feature.index) < 0 || lead_of_region(region_of(feature.index)) == feature.index;
+}
+
+bool ShapeComplex::is_lead_of_several(const FeatureId& feature) const {
+  if (feature.kind == FeatureKind::VERTEX) return false;
+  if (feature.kind == FeatureKind::EDGE) {
+    const std::int32_t chain = chain_of(feature.index);
+    return chain >= 0 && regions.edges_of_straight[chain].size() > 1;
+  }
+  const std::int32_t region = region_of(feature.index);
+  return region >= 0 && shapes.of_region(region) != nullptr;
+}
+
+void ShapeComplex::append_corners(const Surface& surface, const FeatureId& lead,
+                                  std::vector<std::int32_t>& corners) const {
+  if (!is_lead_of_several(lead)) {
+    const FeatureCorners own(surface, lead);
+    corners.insert(corners.end(), own.view().begin(), own.view().end());
+  } else if (lead.kind == FeatureKind::EDGE) {
+    const auto& ends = ends_of_chain(chain_of(lead.index));
+    corners.insert(corners.end(), ends.begin(), ends.end());
+  } else {
+    const auto& own = shapes.of_region(region_of(lead.index))->corners;
+    corners.insert(corners.end(), own.begin(), own.end());
+  }
+}
+
+std::int32_t ShapeComplex::face_at(const Surface& surface, std::int32_t region, const Vec3& p_S) const {
+  const RegionShape* shape = shapes.of_region(region);
+  if (shape == nullptr) return lead_of_region(region);
+  const double reach = NAMING_TOLERANCE * regions.extent;
+  const Plane& plane = regions.planes[static_cast<std::size_t>(region)];
+  const Vec3 p = p_S - plane.height(p_S) * plane.normal;
+  Box2 box;
+  box.add(shape->frame.flat(p));
+  std::int32_t first = -1;
+  for_each_face_near(region, box, reach, [&](std::int32_t t) {
+    if ((first < 0 || t < first) &&
+        (point_triangle_distance(p, surface.mesh.triangle(t)).point - p).norm() <= reach)
+      first = t;
+    return true;
+  });
+  return first >= 0 ? first : lead_of_region(region);
+}
+
+std::size_t ShapeComplex::bytes() const {
+  return (corner_row_.capacity() + chain_row_.capacity() + wing_starts_.capacity()) * sizeof(std::int32_t) +
+         wings_.capacity() * sizeof(Vec3);
+}
+
+}  // namespace lmdbench

@@ -1,0 +1,154 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/base/error.h>
+#include <lmdbench/catalogue/shapes.h>
+#include <lmdbench/mesh/surface.h>
+#include <lmdbench/shape/flatten.h>
+#include <lmdbench/shape/planar_faces.h>
+
+#include <gtest/gtest.h>
+#include <support/rounded.h>
+
+#include <algorithm>
+#include <cmath>
+#include <regex>
+#include <string>
+
+namespace lmdbench {
+namespace {
+
+using testing::rounded_to_floats;
+using testing::turned;
+
+TEST(PlanarTolerance, TellsFloatsAndTheirDecimalsFromDoubles) {
+  EXPECT_TRUE(is_single_precision(0.5));
+  EXPECT_TRUE(is_single_precision(static_cast<double>(0.1F)));
+  EXPECT_TRUE(is_single_precision(0.1));          // shortest decimal of 0.1F
+  EXPECT_TRUE(is_single_precision(0.123456791));  // nine digits of 0.12345679F
+  EXPECT_FALSE(is_single_precision(0.1 + 1e-12));
+  EXPECT_FALSE(is_single_precision(std::sqrt(2.0)));
+  EXPECT_FALSE(is_single_precision(1e300));
+}
+
+TEST(PlanarTolerance, IsAFewUlpsOfAFloatAtTheExtent) {
+  TriangleMesh mesh = make_box(Vec3(3.0, 1.0, 1.0));
+  EXPECT_EQ(single_precision_tolerance(mesh), SINGLE_PRECISION_ULPS * 0x1p-23);  // 1.5 m
+  mesh.vertices[0].x() += 1e-13;
+  EXPECT_EQ(single_precision_tolerance(mesh), 0.0);
+}
+
+TEST(PlanarTolerance, IsReadFromText) {
+  using Kind = PlanarTolerance::Kind;
+  EXPECT_EQ(parse_planar_tolerance("auto", "", "").kind, Kind::AUTO);
+  EXPECT_EQ(parse_planar_tolerance("off", "", ""), (PlanarTolerance{Kind::LENGTH, 0.0}));
+  EXPECT_EQ(parse_planar_tolerance("0", "", ""), (PlanarTolerance{Kind::LENGTH, 0.0}));
+  EXPECT_EQ(parse_planar_tolerance("1e-6", "", ""), (PlanarTolerance{Kind::LENGTH, 1e-6}));
+  EXPECT_EQ(parse_planar_tolerance("0.5%", "", ""), (PlanarTolerance{Kind::DIAGONAL, 0.005}));
+  for (const char* wrong : {"", "%", "-1", "1e-6m", "nan", "inf", "on"})
+    EXPECT_THROW(parse_planar_tolerance(wrong, "file", "/place"), UsageError) << wrong;
+}
+
+/// Largest distance of a face's vertices from its plane.
+double unevenness(const TriangleMesh& mesh, const PlanarFace& face) {
+  double result = 0.0;
+  for (const std::int32_t v : face.vertices)
+    result = std::max(result, std::abs(face.plane.height(mesh.vertices[static_cast<std::size_t>(v)])));
+  return result;
+}
+
+TEST(Flatten, PutsARoundedBoxBackIntoSixPlanes) {
+  for (std::uint64_t seed = 0; seed < 20; ++seed) {
+    const TriangleMesh exact = turned(make_box(Vec3(1.0, 0.7, 0.2), 6), seed);
+    TriangleMesh mesh = rounded_to_floats(exact);
+    const TriangleMesh before = mesh;
+    const FlatteningReport report = flatten(mesh);
+    EXPECT_EQ(report.planes, 6) << "seed " << seed;
+    EXPECT_GT(report.moved_vertices, 200) << "seed " << seed;
+    EXPECT_EQ(mesh.planar_tolerance, report.tolerance);
+    double largest = 0.0, from_exact = 0.0;
+    for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
+      largest = std::max(largest, (mesh.vertices[v] - before.vertices[v]).norm());
+      from_exact = std::max(from_exact, (mesh.vertices[v] - exact.vertices[v]).norm());
+    }
+    EXPECT_EQ(largest, report.largest_move);
+    EXPECT_LT(largest, 2e-7) << "seed " << seed;
+    EXPECT_LT(from_exact, 2e-7) << "seed " << seed;
+    const auto faces = planar_faces(build_surface(mesh), 1e-15);
+    ASSERT_EQ(faces.size(), 6u) << "seed " << seed;
+    for (const PlanarFace& face : faces) {
+      EXPECT_EQ(face.triangles.size(), 72u);
+      EXPECT_LT(unevenness(mesh, face), 1e-15) << "seed " << seed;
+    }
+  }
+}
+
+/// A corner of three planes goes farther than it is from each of them: what is said is what moved, and what may.
+TEST(Flatten, SaysHowFarTheFarthestMovedAndMight) {
+  const std::regex sentence(
+      R"((\d+) vertices put back into (\d+) planes that they were within (\S+) of; the farthest moved by (\S+) \(allowed: (\S+)\))");
+  for (std::uint64_t seed = 0; seed < 20; ++seed) {
+    TriangleMesh mesh = rounded_to_floats(turned(make_l_block(0.8), seed));
+    const FlatteningReport report = flatten(mesh);
+    const std::string text = to_text(report);
+    std::smatch said;
+    ASSERT_TRUE(std::regex_match(text, said, sentence)) << text;
+    EXPECT_EQ(std::stoll(said[1]), report.moved_vertices);
+    EXPECT_EQ(std::stoll(said[2]), report.planes);
+    EXPECT_NEAR(std::stod(said[3]), report.tolerance, 0.01 * report.tolerance);
+    EXPECT_NEAR(std::stod(said[4]), report.largest_move, 0.01 * report.largest_move);
+    EXPECT_LE(std::stod(said[4]), std::stod(said[5])) << text;
+    EXPECT_GT(std::stod(said[5]), 1.01 * std::stod(said[3])) << "what a corner of two planes may move";
+  }
+}
+
+TEST(Flatten, SaysWhereNothingMoved) {
+  TriangleMesh floats = make_box(Vec3(1.0, 0.5, 0.25), 4);
+  EXPECT_EQ(to_text(flatten(floats)).find("no vertex had to be put back into a plane (tolerance "), 0u);
+  TriangleMesh doubles = turned(make_box(Vec3(1.0, 0.5, 0.25), 4), 1);
+  EXPECT_EQ(to_text(flatten(doubles)), "taken as they are (planar tolerance 0)");
+}
+
+TEST(Flatten, PutsTwelveTrianglesBackToo) {
+  TriangleMesh mesh = rounded_to_floats(turned(make_box(Vec3(1.0, 0.7, 0.2)), 3));
+  EXPECT_EQ(flatten(mesh).planes, 6);
+  EXPECT_EQ(planar_faces(build_surface(mesh), 1e-15).size(), 6u);
+}
+
+TEST(Flatten, LeavesCurvedShapesAlone) {
+  for (TriangleMesh mesh : {make_blob(0.5, 0.1, 5), make_unequal(0.5, 24, 30.0), make_sphere(0.5, 5)}) {
+    mesh = rounded_to_floats(turned(std::move(mesh), 5));
+    const TriangleMesh before = mesh;
+    const FlatteningReport report = flatten(mesh);
+    EXPECT_GT(report.tolerance, 0.0);
+    EXPECT_EQ(report.moved_vertices, 0);
+    EXPECT_EQ(mesh.vertices, before.vertices);
+    EXPECT_EQ(mesh.planar_tolerance, 0.0);
+  }
+}
+
+TEST(Flatten, LeavesFlatFloatsAndDoublesAlone) {
+  TriangleMesh axis_aligned = make_box(Vec3(1.0, 0.5, 0.25), 4);
+  EXPECT_GT(flatten(axis_aligned).tolerance, 0.0);
+  EXPECT_EQ(axis_aligned.planar_tolerance, 0.0);
+  TriangleMesh doubles = turned(make_box(Vec3(1.0, 0.5, 0.25), 4), 1);
+  const TriangleMesh before = doubles;
+  EXPECT_EQ(flatten(doubles).tolerance, 0.0);
+  EXPECT_EQ(doubles.vertices, before.vertices);
+}
+
+TEST(Flatten, TakesTheUsersTolerance) {
+  using Kind = PlanarTolerance::Kind;
+  TriangleMesh rough = make_box(Vec3(1.0, 1.0, 1.0), 4);
+  for (std::size_t v = 0; v < rough.vertices.size(); ++v)
+    rough.vertices[v] +=
+        1e-5 * Vec3(std::sin(17.0 * static_cast<double>(v)), std::cos(5.0 * static_cast<double>(v)),
+                    std::sin(3.0 * static_cast<double>(v)));
+  TriangleMesh off = rough, by_length = rough, by_share = rough;
+  EXPECT_EQ(flatten(off, {Kind::LENGTH, 0.0}).moved_vertices, 0);
+  EXPECT_EQ(flatten(by_length, {Kind::LENGTH, 5e-5}).planes, 6);
+  EXPECT_NEAR(flatten(by_share, {Kind::DIAGONAL, 3e-5}).tolerance, 3e-5 * std::sqrt(3.0), 1e-8);
+  EXPECT_EQ(planar_faces(build_surface(by_length), 1e-14).size(), 6u);
+}
+
+}  // namespace
+}  // namespace lmdbench

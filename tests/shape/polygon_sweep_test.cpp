@@ -1,0 +1,127 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/catalogue/shapes.h>
+#include <lmdbench/shape/polygon_sweep.h>
+#include <lmdbench/shape/region_shape.h>
+
+#include <gtest/gtest.h>
+#include <support/rounded.h>
+
+#include <cmath>
+#include <numbers>
+
+namespace lmdbench {
+namespace {
+
+std::vector<PolygonSide> loop(const std::vector<Vec2>& corners) {
+  std::vector<PolygonSide> sides;
+  for (std::size_t k = 0; k < corners.size(); ++k)
+    sides.push_back({corners[k], corners[(k + 1) % corners.size()]});
+  return sides;
+}
+
+double area_of(const std::vector<ConvexPolygon>& pieces) {
+  double area = 0.0;
+  for (const ConvexPolygon& piece : pieces) area += piece.measure().area;
+  return area;
+}
+
+/// No corner turns right by more than rounding.
+void expect_convex(const std::vector<ConvexPolygon>& pieces) {
+  for (const ConvexPolygon& piece : pieces) {
+    const std::size_t n = piece.corners.size();
+    ASSERT_GE(n, 3u);
+    for (std::size_t k = 0; k < n; ++k) {
+      const Vec2 a = piece.corners[(k + 1) % n] - piece.corners[k];
+      const Vec2 b = piece.corners[(k + 2) % n] - piece.corners[(k + 1) % n];
+      EXPECT_GE(cross(a, b), -1e-8 * a.norm() * b.norm());
+    }
+  }
+}
+
+std::vector<Vec2> circle(double radius, int count, double turn) {
+  std::vector<Vec2> corners;
+  for (int k = 0; k < count; ++k) {
+    const double angle = turn + 2.0 * std::numbers::pi * k / count;
+    corners.push_back(radius * Vec2(std::cos(angle), std::sin(angle)));
+  }
+  return corners;
+}
+
+TEST(ConvexPieces, AConvexPolygonIsOnePiece) {
+  for (const double turn : {0.0, 0.3, 1.1}) {
+    for (const int count : {3, 4, 7, 64}) {
+      const auto corners = circle(2.0, count, turn);
+      const auto pieces = convex_pieces(loop(corners), 1e-14);
+      ASSERT_EQ(pieces.size(), 1u) << count << " corners turned by " << turn;
+      EXPECT_EQ(pieces[0].corners.size(), static_cast<std::size_t>(count));
+      EXPECT_NEAR(area_of(pieces), ConvexPolygon(corners).measure().area, 1e-12);
+    }
+  }
+}
+
+TEST(ConvexPieces, AHoleIsLeftOut) {
+  for (const double turn : {0.0, 0.2, 0.7}) {
+    std::vector<PolygonSide> sides = loop(circle(2.0, 40, turn));
+    std::vector<Vec2> hole = circle(1.0, 20, 2.0 * turn);
+    std::reverse(hole.begin(), hole.end());
+    const auto inner = loop(hole);
+    sides.insert(sides.end(), inner.begin(), inner.end());
+    const auto pieces = convex_pieces(sides, 1e-14);
+    expect_convex(pieces);
+    EXPECT_NEAR(area_of(pieces),
+                ConvexPolygon(circle(2.0, 40, 0.0)).measure().area -
+                    ConvexPolygon(circle(1.0, 20, 0.0)).measure().area,
+                1e-12);
+    // A point of the hole is in none of them.
+    for (const ConvexPolygon& piece : pieces)
+      EXPECT_FALSE(piece.part_of(Vec2(-0.1, 0.05), Vec2(0.1, 0.0)).end > 0.0);
+  }
+}
+
+TEST(ConvexPieces, AStarAndTwoIslands) {
+  std::vector<Vec2> star;
+  for (int k = 0; k < 24; ++k)
+    star.push_back(circle(k % 2 == 0 ? 2.0 : 1.2, 24, 0.1)[static_cast<std::size_t>(k)]);
+  std::vector<PolygonSide> sides = loop(star);
+  const double one = area_of(convex_pieces(sides, 1e-14));
+  EXPECT_NEAR(one, 12.0 * 2.0 * 1.2 * std::sin(std::numbers::pi / 12.0), 1e-12);
+  for (const PolygonSide& side : loop(star))
+    sides.push_back({side.from + Vec2(5.0, 0.3), side.to + Vec2(5.0, 0.3)});
+  const auto pieces = convex_pieces(sides, 1e-14);
+  expect_convex(pieces);
+  EXPECT_NEAR(area_of(pieces), 2.0 * one, 1e-12);
+}
+
+TEST(RegionShape, OutlinesAreTheTrianglesTogether) {
+  for (TriangleMesh mesh : {make_box(Vec3(1.0, 0.6, 0.3), 5), make_l_block(1.0), make_patch(1.0, 6, 0.0)}) {
+    const Surface surface = build_surface(testing::turned(std::move(mesh), 9));
+    const FlatRegions regions = FlatRegions::of(surface);
+    const RegionShapes shapes = region_shapes(surface, regions);
+    for (std::int32_t region = 0; region < regions.region_count(); ++region) {
+      const RegionShape* shape = shapes.of_region(region);
+      ASSERT_NE(shape, nullptr);
+      expect_convex(shape->pieces);
+      double area = 0.0;
+      for (const std::int32_t t : regions.region_triangles[region]) {
+        const Triangle corners = surface.mesh.triangle(t);
+        area += 0.5 * (corners[1] - corners[0]).cross(corners[2] - corners[0]).norm();
+        // The grid finds every triangle at its own middle.
+        const Vec2 middle = shape->frame.flat((corners[0] + corners[1] + corners[2]) / 3.0);
+        int found = 0;
+        Box2 box;
+        box.add(middle);
+        shape->triangle_grid.for_each_near(box, 0.0, [&](std::int32_t k) {
+          found += regions.region_triangles[region][static_cast<std::size_t>(k)] == t ? 1 : 0;
+          return true;
+        });
+        EXPECT_EQ(found, 1);
+      }
+      EXPECT_NEAR(area_of(shape->pieces), area, 1e-13);
+      EXPECT_LE(shape->pieces.size(), 3u);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace lmdbench
