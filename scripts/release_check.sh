@@ -1,0 +1,108 @@
+#!/usr/bin/env bash
+# SPDX-FileCopyrightText: The lmdbench authors
+# SPDX-License-Identifier: BSD-3-Clause
+# Everything that the project says of itself, at the commit that is checked out, part by part. Stopped and started again it goes on
+# with what is missing. Leaves results/release/COMMIT/PART.txt (what the part printed) and page.md: verdict, time and last line of
+# each. Exit code 1 where a part failed or is missing.
+#   scripts/release_check.sh            every part: two nights on two cores
+#   scripts/release_check.sh PART...    only these; those that are done are done again
+#   scripts/release_check.sh --list     the parts
+#   LMDBENCH_POSES=N                    poses of each study and judge (1000000)
+#   LMDBENCH_SEED=N                     their seed (the day, such as 20261124)
+set -uo pipefail
+# shellcheck source=scripts/lib.sh
+source "$(dirname "${BASH_SOURCE[0]}")/lib.sh"
+cd "$ROOT" || exit 1
+
+PARTS=(setup lint reproduce test develop heavy asan-ubsan tsan smallest packages cluster mutants completeness hostile parts solids
+  shapes metamorphic rest fuzz-readers fuzz-lmd regression reference)
+POSES="${LMDBENCH_POSES:-1000000}"
+SEED="${LMDBENCH_SEED:-$(date +%Y%m%d)}"
+
+# in_fresh_clone COMMAND: what a newcomer does, whose folder holds what is committed and nothing else.
+in_fresh_clone() {
+  local clone status=0
+  clone="$(mktemp -d)"
+  git clone --quiet "$ROOT" "$clone/lmdbench" && git -C "$clone/lmdbench" checkout --quiet --detach "$COMMIT" &&
+    (cd "$clone/lmdbench" && "$@" </dev/null) || status=$?
+  rm -rf "$clone"
+  return "$status"
+}
+# of_each N: poses of each of N kinds that make POSES together.
+of_each() { echo $(((POSES + $1 - 1) / $1)); }
+study() { build_preset release >&2 && build/release/lmdbench-study "$@" --seed "$SEED"; }
+generated_parts() { study parts --generator "$1" --poses "$(of_each 20)"; }
+
+part() {
+  case $1 in
+  setup) scripts/setup.sh ;;
+  lint) scripts/lint.sh ;;
+  reproduce) in_fresh_clone ./scripts/reproduce.sh ;;
+  test) in_fresh_clone ./scripts/test.sh ;;
+  develop) build_preset develop && ctest --preset develop --label-exclude heavy --parallel "$JOBS" --no-tests=error ;;
+  heavy) build_preset release && ctest --preset release --label-regex heavy --parallel "$JOBS" --no-tests=error ;;
+  asan-ubsan | tsan) scripts/sanitizer_tests.sh "$1" ;;
+  smallest) python3 scripts/smallest_build.py ;;
+  packages) scripts/package.sh --check ;;
+  cluster) scripts/cluster_test.sh ;;
+  mutants) scripts/mutants.sh ;;
+  completeness) study completeness --poses 1000 ;;
+  hostile) study hostile --poses "$((POSES / 2))" --frames "$((POSES / 2))" ;;
+  parts) generated_parts parts ;;
+  solids | shapes) generated_parts "$1" ;;
+  metamorphic) study metamorphic --poses "$(of_each 35)" ;;
+  rest) build_preset release >&2 && build/release/lmdbench-judge rest --poses "$(of_each 35)" --seed "$SEED" ;;
+  # Six hours of processor time in all, two of them for what all methods hang on.
+  fuzz-readers) scripts/fuzz.sh 20 off ply obj import tum experiment path manifest sweep journal result triangle ;;
+  fuzz-lmd) scripts/fuzz.sh 120 lmd ;;
+  regression)
+    local before
+    before="$(git describe --tags --abbrev=0 --match 'v*' HEAD^ 2>/dev/null)" || before=""
+    [[ -n $before ]] || { say "there is no release before this one" && return 0; }
+    scripts/ci_regression.sh "$before"
+    ;;
+  reference) scripts/reference.sh && python3 scripts/reference_ages.py ;;
+  esac
+}
+
+if [[ ${1:-} == --list ]]; then
+  printf '%s\n' "${PARTS[@]}"
+  exit 0
+fi
+chosen=("$@")
+(($# > 0)) || chosen=("${PARTS[@]}")
+for name in "${chosen[@]}"; do
+  [[ " ${PARTS[*]} " == *" $name "* ]] || die 2 "there is no part '$name' (remedy: scripts/release_check.sh --list)"
+done
+[[ -z "$(git status --porcelain)" ]] ||
+  die 2 "the tree differs from its commit (remedy: commit or stash; 'git status' shows what)"
+COMMIT="$(git rev-parse --short HEAD)"
+OUT="$ROOT/results/release/$COMMIT"
+mkdir -p "$OUT"
+
+for name in "${chosen[@]}"; do
+  (($# == 0)) && [[ -s $OUT/$name.verdict ]] && continue
+  say "== $name"
+  started=$EPOCHREALTIME status=0
+  (part "$name") >"$OUT/$name.txt" 2>&1 || status=$?
+  printf '%s|%s\n' "$status" "$(seconds_since "$started")" >"$OUT/$name.verdict"
+  say "   exit code $status, $(seconds_since "$started")"
+done
+
+failed=0
+{
+  # shellcheck disable=SC2016  # code spans, no commands
+  printf '# lmdbench at %s\n\nMade by `scripts/release_check.sh`, %s poses a study, seed %s, on %s with %s cores.\n\n' "$COMMIT" "$POSES" "$SEED" \
+    "$(sed -n 's/^model name[[:space:]]*: //p' /proc/cpuinfo | head -n 1)" "$JOBS"
+  printf '| part | verdict | time | last line |\n|---|---|---|---|\n'
+  for name in "${PARTS[@]}"; do
+    status=missing time=""
+    [[ ! -s $OUT/$name.verdict ]] || IFS='|' read -r status time <"$OUT/$name.verdict"
+    case $status in 0) verdict="passed" ;; missing) verdict="not run" ;; *) verdict="FAILED ($status)" ;; esac
+    [[ $status == 0 ]] || failed=1
+    last="$(grep -v '^[[:space:]]*$' "$OUT/$name.txt" 2>/dev/null | tail -n 1 | tr '|' '/' | cut -c1-120)"
+    printf '| %s | %s | %s | %s |\n' "$name" "$verdict" "$time" "$last"
+  done
+} >"$OUT/page.md"
+cat "$OUT/page.md"
+exit "$failed"
