@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -217,17 +218,39 @@ std::optional<Vec3> put_into(const Vec3& p, const std::vector<std::size_t>& plan
   return moved;
 }
 
-}  // namespace
+/// A mesh counted in an order that its coordinates alone decide.
+struct OrderedMesh {
+  TriangleMesh mesh;
+  std::vector<std::int32_t> vertices;  ///< Of the mesh that it was made of, in this order.
+};
 
-FlatteningReport flatten(TriangleMesh& mesh, const PlanarTolerance& choice) {
-  FlatteningReport report;
-  report.tolerance = choice.length(mesh);
-  if (!(report.tolerance > 0.0)) return report;
-  const double flat = FLAT_ULPS * std::numeric_limits<double>::epsilon() * largest_coordinate(mesh.vertices);
-  if (report.tolerance <= flat) return report;
-  std::vector<Constraint> constraints = find_constraints(build_surface(mesh), report.tolerance);
-  CoplanarJoining(mesh, constraints, report.tolerance).run();
+OrderedMesh in_order_of_coordinates(const TriangleMesh& mesh) {
+  OrderedMesh ordered;
+  ordered.vertices.resize(mesh.vertices.size());
+  std::iota(ordered.vertices.begin(), ordered.vertices.end(), 0);
+  const auto point = [&](std::int32_t v) {
+    const Vec3& p = mesh.vertices[static_cast<std::size_t>(v)];
+    return std::array{p.x(), p.y(), p.z()};
+  };
+  std::ranges::stable_sort(ordered.vertices, {}, point);
+  std::vector<std::int32_t> place(mesh.vertices.size());
+  for (std::size_t i = 0; i < place.size(); ++i) {
+    const auto v = static_cast<std::size_t>(ordered.vertices[i]);
+    place[v] = static_cast<std::int32_t>(i);
+    ordered.mesh.vertices.push_back(mesh.vertices[v]);
+  }
+  for (auto triangle : mesh.triangles) {
+    for (std::int32_t& corner : triangle) corner = place[static_cast<std::size_t>(corner)];
+    std::ranges::rotate(triangle, std::ranges::min_element(triangle));
+    ordered.mesh.triangles.push_back(triangle);
+  }
+  std::ranges::sort(ordered.mesh.triangles);
+  return ordered;
+}
 
+/// Puts vertices into the planes that hold them. A plane that would pull one too far is given up, and all begins again.
+std::vector<Vec3> put_back(const TriangleMesh& mesh, std::vector<Constraint>& constraints, double tolerance,
+                           double flat) {
   std::vector<Vec3> moved;
   for (bool settled = false; !settled;) {
     settled = true;
@@ -240,7 +263,7 @@ FlatteningReport flatten(TriangleMesh& mesh, const PlanarTolerance& choice) {
                                            [&](std::size_t c) { return !constraints[c].stands; }))
         continue;
       const std::optional<Vec3> target = put_into(p, planes[v], constraints, flat);
-      if (target && (*target - p).norm() <= LARGEST_MOVE * report.tolerance) {
+      if (target && (*target - p).norm() <= LARGEST_MOVE * tolerance) {
         moved[v] = *target;
         continue;
       }
@@ -252,17 +275,35 @@ FlatteningReport flatten(TriangleMesh& mesh, const PlanarTolerance& choice) {
       settled = false;
     }
   }
-  for (std::size_t v = 0; v < moved.size(); ++v)
-    report.largest_move = std::max(report.largest_move, (moved[v] - mesh.vertices[v]).norm());
+  return moved;
+}
+
+}  // namespace
+
+FlatteningReport flatten(TriangleMesh& mesh, const PlanarTolerance& choice) {
+  FlatteningReport report;
+  report.tolerance = choice.length(mesh);
+  if (!(report.tolerance > 0.0)) return report;
+  const double flat = FLAT_ULPS * std::numeric_limits<double>::epsilon() * largest_coordinate(mesh.vertices);
+  if (report.tolerance <= flat) return report;
+  // Faces grow, join and are given up in an order: it is that of coordinates, not of the file.
+  const OrderedMesh ordered = in_order_of_coordinates(mesh);
+  std::vector<Constraint> constraints = find_constraints(build_surface(ordered.mesh), report.tolerance);
+  CoplanarJoining(ordered.mesh, constraints, report.tolerance).run();
+  const std::vector<Vec3> moved = put_back(ordered.mesh, constraints, report.tolerance, flat);
+  for (std::size_t i = 0; i < moved.size(); ++i)
+    report.largest_move = std::max(report.largest_move, (moved[i] - ordered.mesh.vertices[i]).norm());
   if (report.largest_move <= flat) {
     report.largest_move = 0.0;
     return report;
   }
   report.planes = std::count_if(constraints.begin(), constraints.end(),
                                 [](const Constraint& constraint) { return constraint.stands; });
-  for (std::size_t v = 0; v < moved.size(); ++v)
-    if (moved[v] != mesh.vertices[v]) ++report.moved_vertices;
-  mesh.vertices = std::move(moved);
+  for (std::size_t i = 0; i < moved.size(); ++i) {
+    Vec3& vertex = mesh.vertices[static_cast<std::size_t>(ordered.vertices[i])];
+    if (moved[i] != vertex) ++report.moved_vertices;
+    vertex = moved[i];
+  }
   mesh.planar_tolerance = report.tolerance;
   return report;
 }

@@ -31,7 +31,8 @@ struct FlatteningReport {
 /// A face whose plane would pull some vertex by more than LARGEST_MOVE tolerances (it meets its neighbours at
 /// too small an angle, or four and more planes do not share the vertex) is left alone too, the one with the
 /// fewest vertices first. A mesh whose planes are flat to the rounding of doubles is not changed by a bit.
-/// Where vertices moved, `mesh.planar_tolerance` becomes the tolerance.
+/// Where vertices moved, `mesh.planar_tolerance` becomes the tolerance. Where they go does not depend on how vertices,
+/// triangles and corners are counted.
 FlatteningReport flatten(TriangleMesh& mesh, const PlanarTolerance& choice = {});
 
 /// Tolerances that a vertex may be moved by.
