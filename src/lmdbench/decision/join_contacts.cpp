@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/base/contract.h>
 #include <lmdbench/decision/covered_contacts.h>
 #include <lmdbench/decision/drop_intersecting.h>
 #include <lmdbench/decision/join_contacts.h>
@@ -187,6 +188,8 @@ class Joining {
 
   /// Contacts of which another one has the same distance: next to none but in flat contact.
   void find_ties() {
+    LMDBENCH_EXPECTS(std::ranges::is_sorted(contacts_, {}, &Contact::distance),
+                     "contacts appended after they were sorted");
     ties_.clear();
     // The lower end of what is the same as some farther contact.
     double lowest = std::numeric_limits<double>::infinity();
@@ -262,6 +265,9 @@ class Joining {
   }
 
   void join(std::size_t i, std::size_t j) {
+    LMDBENCH_EXPECTS(std::abs(contacts_[i].distance - contacts_[j].distance) <=
+                         tolerance_.widest_tie(std::max(contacts_[i].distance, contacts_[j].distance)),
+                     "contacts at unlike distances: no tolerance grows as a distance shrinks");
     const std::size_t a = sets_.find_set(i), b = sets_.find_set(j);
     // Next to touch a contact whose direction is not known may lie on faces that stand at an angle: it is of one of them.
     const std::size_t of_a = plane_of_[a], of_b = plane_of_[b];
@@ -520,6 +526,8 @@ class Joining {
 
   void report(const Contact& contact, const Contact& namesake, std::span<const std::size_t> set,
               bool is_minimum) {
+    LMDBENCH_EXPECTS(contact.distance >= 0.0 && is_unit(contact.direction),
+                     "a contact that nobody gave a direction");
     if (contact.distance > tolerance_.cutoff) return;
     if (contact.distance <= tolerance_.known) reported_.insert(reported_.end(), set.begin(), set.end());
     const Lmd lmd = make_lmd(pair_, places_, contact, namesake, body_);

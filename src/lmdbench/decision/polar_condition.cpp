@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/base/contract.h>
 #include <lmdbench/decision/polar_condition.h>
 
 #include <algorithm>
@@ -60,6 +61,7 @@ bool is_outer(const Surface& surface, const FeatureId& feature, const Vec3& u_S)
 std::optional<KnownDirection> common_direction(const ShapeSide& moving, const FeatureId& f,
                                                const ShapeSide& fixed, const FeatureId& g, const Vec3& u_W,
                                                double error, const PolarSlack& slack, double tilt) {
+  LMDBENCH_EXPECTS(is_unit(u_W) && error >= 0.0, "a direction between points at one place");
   std::vector<Vec3> bounds;
   append_bounds(moving, f, bounds);
   append_bounds(fixed, g, bounds);
@@ -101,6 +103,7 @@ bool admits(const ShapeSide& side, const FeatureId& feature, const Vec3& u_W, co
 }
 
 bool leads_down(const ShapeSide& side, const FeatureId& feature, const Vec3& u_W, const PolarSlack& slack) {
+  LMDBENCH_EXPECTS(is_unit(u_W), "a difference of points that was not divided by its length");
   const Vec3 u_S = side.direction_to_surface(u_W);
   return !side.shape.for_each_wing(side.surface, feature,
                                    [&](const Vec3& wing) { return admits_wing(u_S, wing, slack); });
