@@ -17,13 +17,20 @@ from __future__ import annotations
 import enum
 import json
 import os
+import sys
 from collections.abc import Sequence
 from typing import NamedTuple, Optional, Union, overload
 
 import numpy as np
 import numpy.typing as npt
 
-from . import _lmdbench
+try:
+    from . import _lmdbench
+except ImportError as error:
+    raise ImportError(
+        f"{os.path.dirname(os.path.abspath(__file__))} holds no compiled module for this Python ({sys.implementation.cache_tag}): "
+        f"{error} (remedy: 'pip install .' in lmdbench's tree with this Python, or the Python that the module was built for)"
+    ) from None
 from ._lmdbench import EnvironmentError, Error, InputError, UsageError, __version__
 
 __all__ = ["Agreement", "EnvironmentError", "Error", "FeatureKind", "Forces", "InputError", "LMD_DTYPE", "LmdSets", "Mesh",
