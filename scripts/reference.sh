@@ -76,6 +76,8 @@ part() {
       figure tilt --out "$OUT"
       run world --set '/methods=[{"name": "certified"}]' --set /probes/truth/stride_frames=0 --set /probes/fcl/stride_frames=0
       figure world "$OUT/world.h5" --out "$OUT"
+      run press-fit
+      figure press_fit "$OUT/press-fit.h5" --out "$OUT"
       run bunny-cut
       figure polylines "$OUT/bunny-cut.h5" --out "$OUT"
       ;;
