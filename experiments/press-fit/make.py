@@ -44,7 +44,7 @@ MASS, DAMPING, STIFFNESS = 0.5, 0.02, 1.0  # the experiment's hand [kg, N s/mm, 
 DURATION, INTERVAL = 1.6, 0.04  # of the run, and from shape to shape [s]
 LEAST_BEND = 0.05  # what the arms move by less than this [mm] makes no new shape
 BELT_SPEED, BELT_START = 40.0, -26.0  # along x [mm/s, mm]
-MAGAZINE = (-5.4, -32.0)  # place of the pin at the begin, in the lattice of the experiment's magazine [mm]
+MAGAZINE = (-5.4, 32.0)  # place of the pin at the begin, in the lattice of the experiment's magazine [mm]
 
 
 def smooth(time, begin, end):
