@@ -80,10 +80,10 @@ def over_time_entry(results, folder, by_paper):
     if not taken:
         return None
     names = [column.title().rpartition(":")[0] for column in figure7.columns_of([results[i] for i in taken])]
-    where = f"From left to right {', '.join(names)}: f" if len(names) > 1 else "F"
+    where = f"From left to right: {'; '.join(names)}. " if len(names) > 1 else ""
     name, title, beyond = ("figure7", "The paper's Figure 7", " beyond the paper") if by_paper else ("over_time", "Over time", "")
     made = entry(figure7.draw(*(results[i] for i in taken)), folder, name, title,
-                 f"{where}orce, LMD counts, search and update times, and{beyond} the true force and the share "
+                 f"{where}Force, LMD counts, search and update times, and{beyond} the true force and the share "
                  "of true LMDs that each method knows. The same over all methods, to zoom: the next section.")
     return {**made, "folded": "" if by_paper else "As a figure to print", "csv_results": [(i, results[i].name) for i in taken]}
 

@@ -135,7 +135,7 @@ def page(results, sweeps, scenes, study_files, by_paper, paper, folder):
                   "warnings": result.texts("/scene/warnings") if result.has("/scene/warnings") else []} for result, title in zip(results, titles)]
     return environment.get_template("page.html.j2").render(
         title=title_of(results, sweeps),
-        results=described, sections=sections, provenances=[*described, *map(sweep_provenance, sweeps)],
+        results=described, movers=any(result.has("/path/movers/position") for result in results), sections=sections, provenances=[*described, *map(sweep_provenance, sweeps)],
         figures=entries, by_paper=by_paper, paper=paper, studies=studies, first_studies=FIRST, claims=claims, linked_claims=linked,
         omissions=[PAPERS_OMISSION, *OMISSIONS] if by_paper else OMISSIONS, style=raw(text_of(HERE, "page.css")),
         libraries={"script": raw(in_script("\n".join(library(*item) for item in LIBRARIES))),

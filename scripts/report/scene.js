@@ -6,6 +6,7 @@
 
 const LEVELS = 65535;
 const MOVING_COLOUR = 0x8fb8de;
+const MOVER_COLOUR = 0x9ecbb4;
 const FIXED_COLOURS = [0xc9c3b6, 0xb9c7b0, 0xc7b3c0];
 const EXACT_COLOUR = "#d9b400";  // truth in every figure: figure_style.py
 const CURVE_COLOUR = "#555555";
@@ -104,11 +105,14 @@ class View {
 
   build_scene() {
     this.scene = new THREE.Scene();
-    this.bodies = this.data.meshes.map((mesh, i) => {
+    // One colour a mesh, however many instances.
+    const source = (mesh) => mesh.triangles_of || mesh.role, fixed = this.data.meshes.filter((mesh) => mesh.role.startsWith("fixed"));
+    const kinds = [...new Set(fixed.map(source))];
+    this.bodies = this.data.meshes.map((mesh) => {
       // Both let the contact between them shine through.
       const moves = !mesh.role.startsWith("fixed");
-      const material = new THREE.MeshLambertMaterial({color: moves ? MOVING_COLOUR : FIXED_COLOURS[i % FIXED_COLOURS.length],
-                                                      transparent: true, opacity: moves ? 0.8 : 0.6});
+      const colour = mesh.role === "moving" ? MOVING_COLOUR : moves ? MOVER_COLOUR : FIXED_COLOURS[kinds.indexOf(source(mesh)) % FIXED_COLOURS.length];
+      const material = new THREE.MeshLambertMaterial({color: colour, transparent: true, opacity: moves ? 0.8 : 0.6});
       const body = new THREE.Mesh(mesh_geometry(mesh, this.data.meshes), material);
       if (!mesh.role.startsWith("mover_")) this.scene.add(body);
       return body;
@@ -131,6 +135,7 @@ class View {
     this.marks = new THREE.Group();
     this.scene.add(this.marks, new THREE.AmbientLight(0xffffff, 0.45));
     this.camera = new THREE.PerspectiveCamera(35, 1, this.size * 1e-3, this.size * 100);
+    this.camera.up.fromArray(this.data.up);
     const lamp = new THREE.DirectionalLight(0xffffff, 0.75);
     this.camera.add(lamp);
     lamp.position.set(0.4, 0.8, 1);
@@ -177,7 +182,7 @@ class View {
   // Starts at the frame with most to see, of several where the meshes are nearest.
   begin_track() {
     const seen = this.track.frames.map((_, i) => {
-      const exact = lmds_of(this.track.exact, i), curves = this.track.polylines ? this.track.polylines[i].length : 0;
+      const exact = this.held(i), curves = this.track.polylines ? this.track.polylines[i].length : 0;
       return [exact.length + curves, -Math.min(...exact.map((lmd) => lmd[2]))];
     });
     const best = seen.reduce((most, [count, near], i) => count > seen[most][0] || (count === seen[most][0] && near > seen[most][1]) ? i : most, 0);
@@ -186,10 +191,18 @@ class View {
     this.show(best);
   }
 
+  // True contacts of the moving mesh: where others move, too, those on its surface.
+  held(index) {
+    const {center, radius} = this.moving.geometry.boundingSphere, {position, orientation} = this.track;
+    const middle = center.clone().applyQuaternion(new THREE.Quaternion().fromArray(orientation, 4 * index));
+    middle.add(new THREE.Vector3().fromArray(position, 3 * index));
+    return lmds_of(this.track.exact, index).filter(([from]) => !this.movers.length || from.distanceTo(middle) < 1.01 * radius);
+  }
+
   // Middle of the true contacts of the frame, and the mean direction from the fixed to the moving mesh there.
   contact() {
     const middle = new THREE.Vector3(), across = new THREE.Vector3();
-    const exact = lmds_of(this.track.exact, Number(this.slider.value));
+    const exact = this.held(Number(this.slider.value));
     for (const [moving, fixed] of exact) {
       middle.addScaledVector(moving, 0.5).addScaledVector(fixed, 0.5);
       across.add(moving.clone().sub(fixed).normalize());
@@ -203,7 +216,7 @@ class View {
   look() {
     const [middle, across] = this.contact();
     const away = new THREE.Vector3().crossVectors(across, this.camera.up);
-    if (away.length() < 0.3) away.set(0, 0, 1);
+    if (away.length() < 0.3) away.fromArray(this.data.front);
     away.normalize().addScaledVector(this.camera.up, 0.45).addScaledVector(across, 0.25).normalize();
     this.controls.target.copy(middle);
     this.camera.position.copy(middle).addScaledVector(away, VIEW_SHARE * this.moving_size);

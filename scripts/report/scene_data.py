@@ -79,6 +79,12 @@ def track_json(result, label, entries):
             "forces": {method.label: packed(method.read("force")[frames]) for method in methods}}
 
 
+def upright(result):
+    """Which way is up, and from where one looks when nothing else says it: drawn parts, which come as files, stand on z, scans on y."""
+    part = any(sign in result.text_attribute("/scene/moving", "mesh", "") for sign in "/.")
+    return {"up": [0, 0, 1], "front": [0, -1, 0]} if part else {"up": [0, 1, 0], "front": [0, 0, 1]}
+
+
 def scene(result, folder):
     """The 3D view of a result, or what is missing for it: {"problem": text}."""
     if not folder:
@@ -102,5 +108,5 @@ def scene(result, folder):
     with open(os.path.join(folder, "lmds.jsonl"), encoding="utf-8") as stream:
         for entry in (json.loads(line) for line in stream if line.strip()):
             tracks.setdefault(entry.get("track", ""), []).append(entry)
-    return {"name": result.name, "meshes": meshes, "tracks": [track_json(result, *track) for track in tracks.items()],
+    return {"name": result.name, **upright(result), "meshes": meshes, "tracks": [track_json(result, *track) for track in tracks.items()],
             "maximum_force": max(method.constant("maximum_force_n") for method in result.methods.values())}

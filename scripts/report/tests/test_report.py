@@ -120,6 +120,12 @@ class Scene(Scratch):
                                                for track in tracks for frame in (0, 100, 200)))
         return scene_data.scene(Result(file), self.path("scene"))
 
+    def test_parts_from_files_stand_on_z_and_scans_on_y(self):
+        def part(h5):
+            h5.require_group("scene/moving").attrs["mesh"] = "./peg.stl"
+
+        self.assertEqual([self.made()["up"], self.made(part)["up"]], [[0, 1, 0], [0, 0, 1]])
+
     def test_shows_exact_sets_poses_and_forces(self):
         (track,) = self.made()["tracks"]
         self.assertEqual(track["frames"], [0, 100, 200])
