@@ -121,7 +121,7 @@ def draw(results, narrow=False):
     width, height, rows = (0.5 * style.TWO_COLUMNS_IN, 6.2, len(PANELS)) if narrow else (style.TWO_COLUMNS_IN, 3.5, 1)
     inch = 3.5 / height
     figure, axes = plt.subplots(rows, len(PANELS) // rows, figsize=(width, height), sharey=True, gridspec_kw={
-        "left": 0.16 if narrow else 0.092, "right": 0.985, "bottom": 0.145 * inch, "top": 0.92, "wspace": 0.08, "hspace": 0.22})
+        "left": 0.19 if narrow else 0.092, "right": 0.985, "bottom": 0.145 * inch, "top": 0.92, "wspace": 0.08, "hspace": 0.22})
     for panel, (*quantities, label) in zip(axes, PANELS):
         draw_panel(panel, points, quantities, label, markers, colours)
     axes[0].set_yscale("log")

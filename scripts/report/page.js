@@ -46,6 +46,14 @@ function panels_csv(panels, time) {
   return csv(rows);
 }
 
+// A logarithmic axis is labelled at its decades.
+function decades(low, high) {
+  const ticks = [];
+  for (let power = Math.ceil(Math.log10(Math.max(low, 1e-9))); 10 ** power <= high; ++power)
+    ticks.push({v: 10 ** power, label: String(Number((10 ** power).toPrecision(1)))});
+  return ticks;
+}
+
 function draw_panel(place, number, panel, time, last) {
   const result = page.results[number];
   const columns = panel.series.map((line) => floats(line.values));
@@ -73,7 +81,7 @@ function draw_panel(place, number, panel, time, last) {
     axisLineColor: grid_colour(),
     gridLineColor: grid_colour(),
     digitsAfterDecimal: 4,
-    axes: {x: {valueFormatter: (value) => `${value.toFixed(3)} s`}, y: {axisLabelWidth: 56, valueRange: panel.range || null}},
+    axes: {x: {valueFormatter: (value) => `${value.toFixed(3)} s`}, y: {axisLabelWidth: 56, valueRange: panel.range || null, ...(panel.log && {ticker: decades})}},
     clickCallback: (event, x) => page.views[number] && page.views[number].go_to(x),
   });
 }

@@ -69,10 +69,21 @@ def title_of(results, sweeps):
 def what_was_run(result):
     methods = ", ".join(method.label for method in result.methods.values())
     probed = next((truth_of(method) for method in result.methods.values() if truth_of(method)), None)
-    truth = f"errors against exhaustive truth in {probed.frames.size} frames" if probed else "no truth probe"
-    cutoffs = dict.fromkeys(f"{method.constant('cutoff_m') * 1e3:.4g}" for method in result.methods.values())
-    return (f"{result.time.size} frames, {result.triangles()} triangles, cutoff "
-            f"{' and '.join(cutoffs)} mm; methods {methods}; {truth}.")
+    truth = f"errors against exhaustive truth (every pair of features) in {probed.frames.size} frames" if probed else "no truth probe"
+    cutoffs, largest = (" and ".join(dict.fromkeys(f"{method.constant(name) * scale:.4g}" for method in result.methods.values()))
+                        for name, scale in (("cutoff_m", 1e3), ("maximum_force_n", 1.0)))
+    loop = "in a closed loop, in which every method moves a simulated device of its own" if result.experiment.get("loop", {}).get("kind") == "closed" else ""
+    return (f"{result.time.size} frames{loop and ' ' + loop}, {result.triangles()} triangles, cutoff {cutoffs} mm, F_max {largest} N; methods {methods}"
+            f"{searches(result)}; {truth}.")
+
+
+def searches(result):
+    """When sets of methods that track are searched anew; nothing on the machine's clock, where each search is due when the last one is done."""
+    tracking, driver = [method.label for method in result.methods.values() if method.tracks_locally], result.experiment.get("driver", {})
+    if not tracking or driver.get("kind") == "realtime" or not {"search_every_frames", "search_latency_frames"} <= driver.keys():
+        return ""
+    return (f" ({' and '.join(tracking)}: a search every {driver['search_every_frames']} frames, its set there {driver['search_latency_frames']} "
+            "frames later, tracked in between)")
 
 
 def provenance(result):

@@ -106,6 +106,19 @@ def add_path(file):
         h5["path/orientation"] = np.tile([0.0, 0.0, 0.0, 1.0], (frames, 1))
 
 
+class WhatWasRun(Scratch):
+    def test_says_force_loop_and_searches(self):
+        result = Result(write_result(self.path("hard.h5")))
+        result.experiment.update({"loop": {"kind": "closed"}, "driver": {"kind": "lockstep", "search_every_frames": 20, "search_latency_frames": 15}})
+        told = report.what_was_run(result)
+        for words in ("in a closed loop", "F_max ", "original and improved: a search every 20 frames, its set there 15 frames later"):
+            self.assertIn(words, told)
+        result.experiment.update({"loop": {"kind": "open"}, "driver": {"kind": "realtime"}})
+        told = report.what_was_run(result)
+        self.assertNotIn("closed loop", told)
+        self.assertNotIn("a search every", told)
+
+
 class Scene(Scratch):
     def made(self, change=lambda h5: None, tracks=("",)):
         """Of what `lmdbench report` leaves of a result: two octahedra, an LMD of a millimetre in every frame but the first."""
