@@ -54,22 +54,16 @@ int judge_all(const HostileChoice& choice) {
     const std::size_t poses =
         motion == Motion::NONE ? choice.poses : (choice.frames + moving_kinds - 1) / moving_kinds;
     const std::vector<Judgement> judgements = judge_hostile_scenes(motion, choice.seed, poses, complain);
-    nlohmann::json row = {{"motion", name_of(motion)}};
+    report["motions"].push_back({{"motion", name_of(motion)}, {"variants", variants_json(judgements)}});
     for (std::size_t v = 0; v < judgements.size(); ++v) {
       const Judgement& judgement = judgements[v];
       fmt::print("| {} | {} | {} | {} | {} | {} | {} | {} |\n", name_of(motion), variants()[v].label,
                  judgement.poses, judgement.same.true_lmds, judgement.same.missed(), judgement.same.wrong(),
                  judgement.duplicates, judgement.wrong_poses);
-      row["variants"][variants()[v].label] = {
-          {"poses", judgement.poses},
-          {"wrong_poses", judgement.wrong_poses},
-          {"set", experiments::error_json(judgement.same, judgement.neighbours)},
-          {"duplicates", judgement.duplicates}};
       searches += judgement.poses;
       wrong += judgement.wrong_poses;
     }
     std::fflush(stdout);
-    report["motions"].push_back(row);
     experiments::write_report(choice.json, report);
   }
   fmt::print("\n{} of {} searches are wrong.\n", wrong, searches);

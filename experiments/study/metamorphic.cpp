@@ -16,7 +16,6 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <map>
 #include <memory>
 
 /// lmdbench-study metamorphic [--poses N] [--seed S] [--parts NAME]... [--generator G] [--out DIR] [--json FILE]: does the answer stay when
@@ -34,16 +33,12 @@ struct MetamorphicChoice {
   std::string out, json;
 };
 
-const std::map<std::string, parts::Generator> GENERATORS = {{"parts", parts::Generator::MACHINE_PARTS},
-                                                            {"solids", parts::Generator::RANDOM_SOLIDS},
-                                                            {"shapes", parts::Generator::FORMED_SHAPES}};
-
 std::vector<std::string> names_of(const std::string& generator) {
   std::vector<std::string> names;
   if (generator == "rest")
     for (const parts::RestFit& fit : parts::rest_fits()) names.emplace_back(fit.name);
   else
-    for (const parts::PartsKind& kind : parts::parts_kinds(GENERATORS.at(generator)))
+    for (const parts::PartsKind& kind : parts::parts_kinds(parts::HARD_GENERATORS.at(generator)))
       names.emplace_back(kind.name);
   return names;
 }
@@ -115,7 +110,7 @@ void lmdbench::study::add_metamorphic(CLI::App& app, Run& chosen) {
       "metamorphic", "Does the answer stay when meshes are swapped, turned, scaled, cut otherwise?");
   const auto choice = std::make_shared<MetamorphicChoice>();
   std::vector<std::string> generators = {"rest"}, names;
-  for (const auto& [name, generator] : GENERATORS) generators.push_back(name);
+  for (const auto& [name, generator] : parts::HARD_GENERATORS) generators.push_back(name);
   for (const Change& change : metamorphic_changes()) names.emplace_back(change.name);
   command->add_option("--poses", choice->poses, "Of each kind of parts")->capture_default_str();
   command->add_option("--seed", choice->seed, "Of the random numbers")->capture_default_str();

@@ -27,27 +27,17 @@ struct PartsChoiceOfUser {
 };
 
 nlohmann::json to_json(const PartsResult& result) {
-  nlohmann::json row = {{"kind", result.kind},
-                        {"coordinates", name_of(result.coordinates)},
-                        {"poses", result.poses},
-                        {"true_lmds", result.true_lmds},
-                        {"wrong_poses", result.wrong_poses},
-                        {"poses_that_show_cut", result.poses_that_show_cut}};
-  for (std::size_t v = 0; v < variants().size(); ++v) {
-    const Judgement& judgement = result.judgements[v];
-    row["variants"][variants()[v].label] = {
-        {"wrong_poses", judgement.wrong_poses},
-        {"set", experiments::error_json(judgement.same, judgement.neighbours)},
-        {"duplicates", judgement.duplicates},
-        {"worst_distance_difference_diagonals", judgement.worst_distance_difference},
-        {"worst_point_difference_diagonals", judgement.worst_point_difference}};
-  }
-  return row;
+  return {{"kind", result.kind},
+          {"coordinates", name_of(result.coordinates)},
+          {"poses", result.poses},
+          {"true_lmds", result.true_lmds},
+          {"wrong_poses", result.wrong_poses},
+          {"poses_that_show_cut", result.poses_that_show_cut},
+          {"variants", variants_json(result.judgements)}};
 }
 
 void print_row(const PartsResult& result) {
-  Judgement all;
-  for (const Judgement& judgement : result.judgements) all += judgement;
+  const Judgement all = sum_of(result.judgements);
   fmt::print(
       "| {} | {} | {} | {} | {} | {} | {} | {} | {:.1e} | {:.1e} | {} |\n", result.kind,
       name_of(result.coordinates), result.poses, result.true_lmds, result.wrong_poses, all.same.missed(),
@@ -108,7 +98,7 @@ void lmdbench::study::add_parts(CLI::App& app, Run& chosen) {
           "--generator", *generator,
           "Without --kind: parts (drawn machine parts), solids (random ones) or shapes (turned, swept, slit, "
           "scanned)")
-      ->check(CLI::IsMember({"parts", "solids", "shapes"}))
+      ->check(CLI::IsMember(parts::HARD_GENERATORS))
       ->capture_default_str();
   command->add_option("--coordinates", *coordinates,
                       "exact, turned, rounded or recut, may be repeated; all without it");
@@ -119,10 +109,7 @@ void lmdbench::study::add_parts(CLI::App& app, Run& chosen) {
     if (*flush) choice->study.family = parts::PoseFamily::FLUSH;
     for (const std::string& kind : choice->study.kinds) parts::parts_kind(kind);
     if (choice->study.kinds.empty())
-      for (const parts::PartsKind& kind :
-           parts::parts_kinds(*generator == "solids"   ? parts::Generator::RANDOM_SOLIDS
-                              : *generator == "shapes" ? parts::Generator::FORMED_SHAPES
-                                                       : parts::Generator::MACHINE_PARTS))
+      for (const parts::PartsKind& kind : parts::parts_kinds(parts::HARD_GENERATORS.at(*generator)))
         choice->study.kinds.emplace_back(kind.name);
     for (const parts::Coordinates each : parts::ALL_COORDINATES)
       if (coordinates->empty() ||

@@ -6,18 +6,19 @@
 
 #include <fmt/format.h>
 #include <study/completeness/far_scenes.h>
+#include <support/parts/placement.h>
 #include <support/poses.h>
 #include <support/random.h>
 
 #include <array>
 #include <cmath>
 #include <map>
-#include <memory>
 
 namespace lmdbench::completeness {
 namespace {
 
 using experiments::Random;
+using parts::scaled_body;
 
 struct Shape {
   const char* name;
@@ -48,21 +49,9 @@ double logarithmic(Random& random, double low, double high) {
   return low * std::pow(high / low, random.uniform());
 }
 
-std::shared_ptr<const Body> body_of(const char* name, TriangleMesh mesh, double scale, const Vec3& offset) {
-  for (Vec3& vertex : mesh.vertices) vertex = scale * vertex + offset;
-  return std::make_shared<const Body>(name, build_surface(std::move(mesh)));
-}
-
 const char* name_of(FarCarrier carrier) {
-  switch (carrier) {
-    case FarCarrier::POSE:
-      return "pose far away";
-    case FarCarrier::BOTH_MESHES:
-      return "both meshes far away";
-    case FarCarrier::MOVING_MESH:
-      break;
-  }
-  return "moving mesh far from its frame";
+  constexpr std::array NAMES = {"pose far away", "both meshes far away", "moving mesh far from its frame"};
+  return NAMES.at(static_cast<std::size_t>(carrier));
 }
 
 /// A rotation that is anything, or all but parallel to the axes: flat faces and edges meet flat ones.
@@ -89,21 +78,11 @@ Pose near_pose(const Body& moving, const Body& fixed, double gap, bool parallel,
 /// Unrelated poses, or a slow drift from one of them.
 std::vector<Pose> near_poses(const Body& moving, const Body& fixed, double gap, bool parallel, bool drifts,
                              Random& random) {
-  std::vector<Pose> poses;
   const double step = logarithmic(random, 1e-5, 1e-2);
   const Vec3 way = step * random.direction();
   const Eigen::Quaterniond turn(Eigen::AngleAxisd(parallel ? 0.0 : step, random.direction()));
-  for (std::size_t i = 0; i < FAR_POSES_A_SCENE; ++i) {
-    if (!drifts || poses.empty()) {
-      poses.push_back(near_pose(moving, fixed, gap, parallel, random));
-      continue;
-    }
-    Pose next = poses.back();
-    next.translation += way;
-    next.rotation = (turn * next.rotation).normalized();
-    poses.push_back(next);
-  }
-  return poses;
+  return parts::poses_of(FAR_POSES_A_SCENE, drifts, way, turn,
+                         [&] { return near_pose(moving, fixed, gap, parallel, random); });
 }
 
 }  // namespace
@@ -126,14 +105,14 @@ FarScene make_far_scene(std::uint64_t seed, std::size_t index) {
   FarScene result;
   result.label = fmt::format("far scene {} of seed {}: {} on {}, size {:.3g} of the offset, {}", index, seed,
                              moving.name, fixed.name, size, name_of(carrier));
-  const std::shared_ptr<const Body> near_moving = body_of(moving.name, moving.make(), 1.0, Vec3::Zero());
-  const std::shared_ptr<const Body> near_fixed = body_of(fixed.name, fixed.make(), 1.0, Vec3::Zero());
+  const std::shared_ptr<const Body> near_moving = scaled_body(moving.name, moving.make(), 1.0, Vec3::Zero());
+  const std::shared_ptr<const Body> near_fixed = scaled_body(fixed.name, fixed.make(), 1.0, Vec3::Zero());
   result.poses = near_poses(*near_moving, *near_fixed, gap, parallel, drifts, random);
 
   const Vec3 offset_M = carrier == FarCarrier::POSE ? Vec3::Zero() : offset;
   const Vec3 offset_W = carrier == FarCarrier::MOVING_MESH ? Vec3::Zero() : offset;
-  result.scene.moving = body_of(moving.name, moving.make(), size, offset_M);
-  result.scene.fixed = {body_of(fixed.name, fixed.make(), size, offset_W)};
+  result.scene.moving = scaled_body(moving.name, moving.make(), size, offset_M);
+  result.scene.fixed = {scaled_body(fixed.name, fixed.make(), size, offset_W)};
   result.diagonal = size * bounding_box_diagonal(near_fixed->surface().mesh);
   result.scene.cutoff = cutoff * size;
   for (Pose& pose : result.poses)
@@ -145,15 +124,10 @@ std::vector<FarResult> judge_far_scenes(std::uint64_t seed, std::size_t poses, c
   std::map<int, FarResult> decades;
   for (std::size_t index = 0; index * FAR_POSES_A_SCENE < poses; ++index) {
     const FarScene far = make_far_scene(seed, index);
-    // What rounds are coordinates of size 1, the offset: points are compared on that scale.
-    const std::vector<CutoffResult> judged =
-        judge_poses(far.scene, 1.0, {far.scene.cutoff}, far.poses,
-                    [&](const std::string& what) { complain(far.label + ", " + what); });
     const int decade = static_cast<int>(std::floor(std::log10(far.diagonal)));
     FarResult& result = decades[decade];
     result.decade = decade;
-    result.judgements.resize(variants().size());
-    for (std::size_t v = 0; v < variants().size(); ++v) result.judgements[v] += judged.front().judgements[v];
+    judge_scene(far, complain, result.judgements);
   }
   std::vector<FarResult> results;
   for (auto& [decade, result] : decades) results.push_back(std::move(result));

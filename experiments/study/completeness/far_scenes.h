@@ -2,9 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <lmdbench/geometry/pose.h>
-#include <lmdbench/lmd/scene.h>
-
 #include <study/completeness/study.h>
 
 #include <cstddef>
@@ -21,12 +18,10 @@ enum class FarCarrier : std::uint8_t {
   MOVING_MESH,  ///< The moving mesh alone has them; the pose brings it back to the fixed one at the origin.
 };
 
-/// Two small meshes far from the origin of the world or of their own frame.
-struct FarScene {
-  std::string label;      ///< Shapes, size and carrier, for messages.
-  Scene scene;            ///< With its cutoff.
-  double diagonal = 0.0;  ///< Of the fixed mesh; the offset is 1 [m].
-  std::vector<Pose> poses;
+/// Two small meshes far from the origin of the world or of their own frame. What rounds are coordinates of size 1, the offset:
+/// that is the scale.
+struct FarScene : GeneratedScene {
+  double diagonal = 0.0;  ///< Of the fixed mesh [m].
 };
 
 /// Poses of one far scene.

@@ -8,12 +8,13 @@
 #include <study/completeness/hostile_meshes.h>
 #include <study/completeness/hostile_scenes.h>
 #include <support/parts/chances.h>
+#include <support/parts/placement.h>
 #include <support/poses.h>
 #include <support/random.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <memory>
 #include <numbers>
 
 namespace lmdbench::completeness {
@@ -142,14 +143,14 @@ void append_frames(Motion motion, std::size_t count, const Start& start, Random&
   }
 }
 
+std::size_t poses_a_scene(Motion motion) {
+  return motion == Motion::NONE ? HOSTILE_POSES_A_SCENE : HOSTILE_FRAMES_A_SCENE;
+}
+
 std::vector<Pose> motion_of(Motion motion, const Start& start, Random& random) {
   std::vector<Pose> poses;
-  if (motion == Motion::NONE) {
-    append_frames(motion, HOSTILE_POSES_A_SCENE, start, random, poses);
-    return poses;
-  }
   if (motion != Motion::MIXED) {
-    append_frames(motion, HOSTILE_FRAMES_A_SCENE, start, random, poses);
+    append_frames(motion, poses_a_scene(motion), start, random, poses);
     return poses;
   }
   while (poses.size() < HOSTILE_FRAMES_A_SCENE) {
@@ -163,36 +164,14 @@ std::vector<Pose> motion_of(Motion motion, const Start& start, Random& random) {
   return poses;
 }
 
-std::shared_ptr<const Body> placed_body(const char* name, TriangleMesh mesh, double size,
-                                        const Vec3& offset) {
-  for (Vec3& p : mesh.vertices) p = size * p + offset;
-  mesh.planar_tolerance *= size;
-  return std::make_shared<const Body>(name, build_surface(std::move(mesh)));
-}
-
 }  // namespace
 
 const char* name_of(Motion motion) {
-  switch (motion) {
-    case Motion::NONE:
-      return "none";
-    case Motion::WALK:
-      return "walk";
-    case Motion::SLIDE:
-      return "slide";
-    case Motion::TREMBLE:
-      return "tremble";
-    case Motion::JUMPS:
-      return "jumps";
-    case Motion::THROUGH:
-      return "through";
-    case Motion::MIXED:
-      break;
-  }
-  return "mixed";
+  constexpr std::array NAMES = {"none", "walk", "slide", "tremble", "jumps", "through", "mixed"};
+  return NAMES.at(static_cast<std::size_t>(motion));
 }
 
-HostileScene make_hostile_scene(Motion motion, std::uint64_t seed, std::size_t index) {
+GeneratedScene make_hostile_scene(Motion motion, std::uint64_t seed, std::size_t index) {
   // Far from each other, so that no two scenes draw the same numbers.
   Random random((seed * std::size(ALL_MOTIONS) + static_cast<std::uint64_t>(motion)) * 0x9E3779B97F4A7C15ULL +
                 index);
@@ -212,13 +191,13 @@ HostileScene make_hostile_scene(Motion motion, std::uint64_t seed, std::size_t i
                                : Vec3(size * power_of_ten(-1.0, 7.0, random) * random.direction());
   };
   const Vec3 offset_M = offset(), offset_W = offset();
-  HostileScene result;
+  GeneratedScene result;
   result.label =
       fmt::format("scene {} of seed {}, motion {}: {} on {}, sizes {:.3g} and {:.3g}, {:.3g} and {:.3g} away",
                   index, seed, name_of(motion), is_copy ? "copy" : moving.history, fixed.history,
                   ratio * size, size, offset_M.norm(), offset_W.norm());
-  result.scene = {placed_body("moving", moving.mesh, size, offset_M),
-                  {placed_body("fixed", fixed.mesh, size, offset_W)},
+  result.scene = {parts::scaled_body("moving", moving.mesh, size, offset_M),
+                  {parts::scaled_body("fixed", fixed.mesh, size, offset_W)},
                   cutoff * size};
   result.scale = size + offset_M.norm() + offset_W.norm();
   for (const Pose& pose : poses)
@@ -228,15 +207,9 @@ HostileScene make_hostile_scene(Motion motion, std::uint64_t seed, std::size_t i
 
 std::vector<Judgement> judge_hostile_scenes(Motion motion, std::uint64_t seed, std::size_t poses,
                                             const Complain& complain) {
-  const std::size_t a_scene = motion == Motion::NONE ? HOSTILE_POSES_A_SCENE : HOSTILE_FRAMES_A_SCENE;
-  std::vector<Judgement> judgements(variants().size());
-  for (std::size_t index = 0; index * a_scene < poses; ++index) {
-    const HostileScene hostile = make_hostile_scene(motion, seed, index);
-    const std::vector<CutoffResult> judged =
-        judge_poses(hostile.scene, hostile.scale, {hostile.scene.cutoff / hostile.scale}, hostile.poses,
-                    [&](const std::string& what) { complain(hostile.label + ", " + what); });
-    for (std::size_t v = 0; v < variants().size(); ++v) judgements[v] += judged.front().judgements[v];
-  }
+  std::vector<Judgement> judgements;
+  for (std::size_t index = 0; index * poses_a_scene(motion) < poses; ++index)
+    judge_scene(make_hostile_scene(motion, seed, index), complain, judgements);
   return judgements;
 }
 

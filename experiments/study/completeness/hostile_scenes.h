@@ -2,15 +2,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <lmdbench/geometry/pose.h>
-#include <lmdbench/lmd/scene.h>
-
 #include <study/completeness/study.h>
 
 #include <cstddef>
 #include <cstdint>
 #include <string>
-#include <string_view>
 #include <vector>
 
 namespace lmdbench::completeness {
@@ -32,18 +28,10 @@ const char* name_of(Motion motion);
 /// Poses of one hostile scene.
 inline constexpr std::size_t HOSTILE_POSES_A_SCENE = 20, HOSTILE_FRAMES_A_SCENE = 100;
 
-struct HostileScene {
-  std::string label;  ///< How it came about, for messages.
-  Scene scene;        ///< With its cutoff.
-  double scale =
-      0.0;  ///< On which points are compared: of the meshes' size and distance from the origin [m].
-  std::vector<Pose> poses;  ///< World pose of the moving mesh.
-};
-
 /// Scene number `index` of a motion: two hostile meshes (hostile_meshes.h), or one and its copy, of any size, the moving one
 /// also far smaller than the other, at any distance from their frames' origins, from far apart over touch to deep in each other.
-/// The scene depends on its arguments alone.
-HostileScene make_hostile_scene(Motion motion, std::uint64_t seed, std::size_t index);
+/// The scene depends on its arguments alone; its scale is that of the meshes' size and distance from the origin.
+GeneratedScene make_hostile_scene(Motion motion, std::uint64_t seed, std::size_t index);
 
 /// Judges every variant at `poses` poses of a motion, rounded up to whole scenes; in the order of `variants()`.
 std::vector<Judgement> judge_hostile_scenes(Motion motion, std::uint64_t seed, std::size_t poses,

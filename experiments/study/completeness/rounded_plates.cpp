@@ -4,10 +4,10 @@
 #include <lmdbench/geometry/convex_polygon.h>
 #include <lmdbench/methods/registry.h>
 #include <lmdbench/motion/tum_file.h>
-#include <lmdbench/shape/flatten.h>
 
 #include <fmt/format.h>
 #include <study/completeness/rounded_plates.h>
+#include <support/parts/placement.h>
 #include <support/random.h>
 #include <support/timing.h>
 
@@ -23,21 +23,6 @@ using experiments::Random;
 /// Metres.
 constexpr double THICKNESS = 0.1, PLATE_GAP = 1e-3, PLATE_CUTOFF = 0.02;
 const Vec3 MOVING_SIZE(1.0, 1.0, THICKNESS), FIXED_SIZE(1.3, 0.9, THICKNESS);
-
-Pose random_placement(Random& random) {
-  Pose pose;
-  pose.rotation = random.rotation();
-  for (double& x : pose.translation) x = random.uniform(-0.5, 0.5);
-  return pose;
-}
-
-std::shared_ptr<const Body> plate_file(const char* name, TriangleMesh mesh, const Pose& X_FD) {
-  const RigidTransform X(X_FD);
-  for (Vec3& vertex : mesh.vertices) vertex = X.point(vertex);
-  mesh = turned_to_floats(std::move(mesh), Eigen::Quaterniond::Identity());
-  flatten(mesh);
-  return std::make_shared<const Body>(name, build_surface(std::move(mesh)));
-}
 
 ConvexPolygon rectangle(const Vec3& size) {
   const double x = 0.5 * size.x(), y = 0.5 * size.y();
@@ -71,10 +56,10 @@ RoundedPlates judge_rounded_plates(int cells, std::uint64_t seed, std::size_t po
   Scene scene;
   for (std::size_t i = 0; i < poses; ++i) {
     if (i % POSES_A_PAIR == 0) {
-      X_WD = random_placement(random);
-      X_MA = random_placement(random);
-      scene = {plate_file("moving", make_box(MOVING_SIZE, {cells, cells, 1}), X_MA),
-               {plate_file("fixed", make_box(FIXED_SIZE, {cells, cells, 1}), X_WD)},
+      X_WD = parts::random_placement(0.5, random);
+      X_MA = parts::random_placement(0.5, random);
+      scene = {parts::placed_body("moving", make_box(MOVING_SIZE, {cells, cells, 1}), X_MA, true),
+               {parts::placed_body("fixed", make_box(FIXED_SIZE, {cells, cells, 1}), X_WD, true)},
                PLATE_CUTOFF};
       result.triangles = scene.moving->surface().mesh.triangles.size();
     }

@@ -7,7 +7,9 @@
 #include <lmdbench/run/prepare.h>
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 #include <study/completeness/study.h>
+#include <support/program.h>
 
 #include <algorithm>
 
@@ -68,6 +70,35 @@ std::vector<CutoffResult> judge_poses(Scene scene, double diagonal, const std::v
     }
   }
   return results;
+}
+
+void judge_scene(const GeneratedScene& scene, const Complain& complain, std::vector<Judgement>& judgements) {
+  const std::vector<CutoffResult> judged =
+      judge_poses(scene.scene, scene.scale, {scene.scene.cutoff / scene.scale}, scene.poses,
+                  [&](const std::string& what) { complain(scene.label + ", " + what); });
+  judgements.resize(variants().size());
+  for (std::size_t v = 0; v < variants().size(); ++v) judgements[v] += judged.front().judgements[v];
+}
+
+Judgement sum_of(const std::vector<Judgement>& judgements) {
+  Judgement all;
+  for (const Judgement& judgement : judgements) all += judgement;
+  return all;
+}
+
+nlohmann::json to_json(const Judgement& judgement) {
+  return {{"poses", judgement.poses},
+          {"wrong_poses", judgement.wrong_poses},
+          {"set", experiments::error_json(judgement.same, judgement.neighbours)},
+          {"duplicates", judgement.duplicates},
+          {"worst_distance_difference_diagonals", judgement.worst_distance_difference},
+          {"worst_point_difference_diagonals", judgement.worst_point_difference}};
+}
+
+nlohmann::json variants_json(const std::vector<Judgement>& judgements) {
+  nlohmann::json json;
+  for (std::size_t v = 0; v < variants().size(); ++v) json[variants()[v].label] = to_json(judgements[v]);
+  return json;
 }
 
 PathResult judge_path(const std::filesystem::path& experiment_file, const std::filesystem::path& meshes,

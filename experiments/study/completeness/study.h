@@ -4,6 +4,7 @@
 
 #include <lmdbench/methods/registry.h>
 
+#include <nlohmann/json_fwd.hpp>
 #include <study/completeness/judge.h>
 
 #include <cstdint>
@@ -32,10 +33,28 @@ struct CutoffResult {
   std::vector<Judgement> judgements;
 };
 
+nlohmann::json to_json(const Judgement& judgement);
+
 /// Judges every variant against `exhaustive` at every pose and cutoff.
 /// @param cutoffs shares of the diagonal
 std::vector<CutoffResult> judge_poses(Scene scene, double diagonal, const std::vector<double>& cutoffs,
                                       const std::vector<Pose>& poses, const Complain& complain);
+
+/// Two meshes and poses of one, out of random numbers.
+struct GeneratedScene {
+  std::string label;        ///< How it came about, for messages.
+  Scene scene;              ///< With its cutoff.
+  double scale = 1.0;       ///< On which points are compared [m].
+  std::vector<Pose> poses;  ///< World pose of the moving mesh.
+};
+
+/// Judges every variant at every pose of a scene, and adds that in the order of `variants()`.
+void judge_scene(const GeneratedScene& scene, const Complain& complain, std::vector<Judgement>& judgements);
+
+/// Of all variants together.
+Judgement sum_of(const std::vector<Judgement>& judgements);
+/// Of each variant under its label.
+nlohmann::json variants_json(const std::vector<Judgement>& judgements);
 
 /// Frames of an experiment's path: `certified` with frame coherence against `certified` from scratch in every
 /// frame, and against `exhaustive` in every `truth_stride`-th.

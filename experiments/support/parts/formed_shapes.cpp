@@ -161,16 +161,8 @@ TriangleMesh random_coil(Random& random) {
   return swept(section, around, steps, way > 0 ? pitch * w : 0.0, way < 2 ? pitch * h : 0.0);
 }
 
-/// Between a level ground and a line from left to right, along y.
-TriangleMesh under_line(const Outline& line, double ground) {
-  PrismComplex solid({-0.375, 0.375});
-  for (std::size_t i = 0; i + 1 < line.size(); ++i)
-    solid.add_cell({{line[i].x(), ground}, {line[i + 1].x(), ground}, line[i + 1], line[i]});
-  return solid.mesh([](const Vec3& p) { return Vec3(p.x(), -p.z(), p.y()); });
-}
-
 TriangleMesh random_slit_block(Random& random) {
-  Outline line = {{-0.5, 0.0}};
+  Outline line = {{-0.5, 0.0}}, ground;
   double z = 0.0;
   const double pitch = sixty_fourths(8, 20, random);
   for (double x = -0.5 + 0.5 * pitch; x + 0.5 * pitch <= 0.5; x += pitch) {
@@ -184,7 +176,8 @@ TriangleMesh random_slit_block(Random& random) {
     line.emplace_back(x + half, z);
   }
   line.emplace_back(0.5, z);
-  return under_line(line, -0.625);
+  for (const Point& p : line) ground.emplace_back(p.x(), -0.625);
+  return between(ground, line, 0.75);
 }
 
 TriangleMesh random_thin_plate(Random& random) {

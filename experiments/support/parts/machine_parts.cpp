@@ -5,20 +5,30 @@
 #include <lmdbench/catalogue/sleeve.h>
 #include <lmdbench/mesh/triangle_mesh.h>
 
+#include <support/parts/chances.h>
 #include <support/parts/machine_parts.h>
 #include <support/parts/prism_complex.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <initializer_list>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace lmdbench::parts {
 namespace {
 
 using Lines = std::vector<double>;
+
+bool even(std::size_t i) {
+  return i % 2 == 0;
+}
+
+/// Holes in the middle row of every other column.
+Layers slits(std::size_t i, std::size_t j) {
+  return j == 1 && !even(i) ? NO_LAYER : ALL_LAYERS;
+}
 
 /// `count` equal steps; exact where the step is dyadic.
 Lines steps(int count, double from, double to) {
@@ -56,20 +66,12 @@ Outline polygon(int sides, double circumradius, int a_side = 1) {
   return result;
 }
 
-bool even(std::size_t i) {
-  return i % 2 == 0;
-}
-
-/// From a profile in the plane of x and height to its extrusion along y.
-Vec3 laid_down(const Vec3& p) {
-  return {p.x(), -p.z(), p.y()};
-}
-
 /// An upright prism of one cell.
-TriangleMesh prism(const Outline& outline, Lines levels) {
+TriangleMesh prism(const Outline& outline, Lines levels,
+                   const std::function<Vec3(const Vec3&)>& place = nullptr) {
   PrismComplex solid(std::move(levels));
   solid.add_cell(outline);
-  return solid.mesh();
+  return solid.mesh(place);
 }
 
 TriangleMesh box(double x, double y, double z) {
@@ -86,13 +88,11 @@ TriangleMesh columns(const Lines& xs, const Lines& ys, const Lines& levels,
 }
 
 /// Extrusion along y of a profile drawn in rows from the highest down: '#' is solid.
-TriangleMesh drawn(const Lines& xs, const Lines& heights, std::initializer_list<const char*> rows,
-                   double length = 1.0) {
-  const std::vector<std::string> picture(rows.begin(), rows.end());
+TriangleMesh drawn(const Lines& xs, const Lines& heights, std::string_view rows, double length = 1.0) {
   return columns(
       xs, heights, {-length / 2, length / 2},
       [&](std::size_t i, std::size_t j) {
-        return picture[picture.size() - 1 - j][i] == '#' ? ALL_LAYERS : NO_LAYER;
+        return rows[(heights.size() - 2 - j) * xs.size() + i] == '#' ? ALL_LAYERS : NO_LAYER;
       },
       laid_down);
 }
@@ -177,10 +177,8 @@ TriangleMesh honeycomb(int columns_of_cells, int rows, double half, double hole)
 /// A frame in which slats lean: holes sheared along x.
 TriangleMesh louvres() {
   const Lines xs = bars(5, 0.125, 0.09375);
-  return columns(
-      xs, {-0.5, -0.375, 0.375, 0.5}, {-0.0625, 0.0625},
-      [&](std::size_t i, std::size_t j) { return j == 1 && !even(i) ? NO_LAYER : ALL_LAYERS; },
-      [](const Vec3& p) { return Vec3(p.x() + 0.5 * p.z(), p.y(), p.z()); });
+  return columns(xs, {-0.5, -0.375, 0.375, 0.5}, {-0.0625, 0.0625}, slits,
+                 [](const Vec3& p) { return Vec3(p.x() + 0.5 * p.z(), p.y(), p.z()); });
 }
 
 /// The twelve edges of a cube.
@@ -200,28 +198,12 @@ double cone(double height) {
   return 1.0 - 0.5 * height;
 }
 
-TriangleMesh dome() {
-  PrismComplex solid(steps(4, 0.0, 0.25));
-  solid.add_cell(circle(12, 0.5));
-  return solid.mesh(turned_on_a_lathe([](double height) {
-    return std::ldexp(std::round(std::ldexp(std::sqrt(1.0 - 9.0 * height * height), 10)), -10);
-  }));
+double round_top(double height) {
+  return dyadic(std::sqrt(1.0 - 9.0 * height * height), 10);
 }
 
-TriangleMesh grooved_shaft() {
-  PrismComplex solid({-0.5, -0.25, -0.125, 0.125, 0.25, 0.5});
-  solid.add_cell(circle(16, 0.25));
-  return solid.mesh(turned_on_a_lathe([](double height) { return std::abs(height) < 0.2 ? 0.75 : 1.0; }));
-}
-
-TriangleMesh slotted_tube() {
-  return tube(circle(16, 0.25), circle(16, 0.375), {-0.375, -0.25, 0.25, 0.375},
-              [](std::size_t i) -> Layers { return i % 4 == 0 ? 0b101 : 0b111; });
-}
-
-TriangleMesh castellated_nut() {
-  return tube(circle(24, 0.25), polygon(6, 0.5, 4), {-0.25, 0.0625, 0.25},
-              [](std::size_t i) -> Layers { return i % 4 == 0 ? 0b01 : 0b11; });
+double neck(double height) {
+  return std::abs(height) < 0.2 ? 0.75 : 1.0;
 }
 
 TriangleMesh hex_bolt() {
@@ -247,18 +229,6 @@ TriangleMesh half_pipe() {
   for (std::size_t i = 8; i < 16; ++i) {
     const Point &a = round[i], &b = round[(i + 1) % 16];
     solid.add_cell({{a.x(), -0.5}, {b.x(), -0.5}, b, a});
-  }
-  return solid.mesh(laid_down);
-}
-
-/// Profile of quads between two outlines of points, from left to right, extruded along y.
-TriangleMesh between(const Outline& low, const Outline& high, double length = 1.0) {
-  PrismComplex solid({-length / 2, length / 2});
-  for (std::size_t i = 0; i + 1 < low.size(); ++i) {
-    Outline cell = {low[i], low[i + 1]};
-    if (high[i + 1] != low[i + 1]) cell.push_back(high[i + 1]);
-    if (high[i] != low[i]) cell.push_back(high[i]);
-    solid.add_cell(cell);
   }
   return solid.mesh(laid_down);
 }
@@ -317,234 +287,25 @@ TriangleMesh bore(int sides) {
   return tube(polygon(sides, 0.25), polygon(sides, 0.5), {-0.25, 0.25});
 }
 
-const std::array PARTS = {
-    Part{"plate",
-         [] {
-           return columns(steps(4, -0.5, 0.5), steps(4, -0.5, 0.5), {-0.0625, 0.0625});
-         }},
-    Part{"block", [] { return box(0.5, 0.375, 0.25); }},
-    Part{"ring",
-         [] {
-           return tube(circle(24, 0.25), circle(24, 0.5), {-0.0625, 0.0625});
-         }},
-    Part{"thin ring",
-         [] {
-           return tube(circle(32, 0.375), circle(32, 0.4375), {-0.0625, 0.0625});
-         }},
-    Part{"retaining ring",
-         [] {
-           return tube(circle(24, 0.375), circle(24, 0.5), {-0.0625, 0.0625},
-                       [](std::size_t i) { return i < 3 ? NO_LAYER : ALL_LAYERS; });
-         }},
-    Part{"bush",
-         [] {
-           return tube(circle(16, 0.25), circle(16, 0.375), {-0.375, 0.375});
-         }},
-    Part{"spoked wheel",
-         [] {
-           PrismComplex solid({-0.0625, 0.0625});
-           solid.add_ring(circle(16, 0.0625), circle(16, 0.125));
-           solid.add_ring(circle(16, 0.125), circle(16, 0.375),
-                          [](std::size_t i) { return i % 4 == 0 ? ALL_LAYERS : NO_LAYER; });
-           solid.add_ring(circle(16, 0.375), circle(16, 0.5));
-           return solid.mesh();
-         }},
-    Part{"slit plate",
-         [] {
-           return columns(
-               bars(6, 0.125, 0.0625), {-0.5, -0.375, 0.375, 0.5}, {-0.0625, 0.0625},
-               [](std::size_t i, std::size_t j) { return j == 1 && !even(i) ? NO_LAYER : ALL_LAYERS; });
-         }},
-    Part{"slotted plate",
-         [] {
-           return columns(
-               {-0.5, -0.25, -0.125, 0.125, 0.25, 0.5}, {-0.5, -0.125, 0.5}, {-0.0625, 0.0625},
-               [](std::size_t i, std::size_t j) { return j == 1 && !even(i) ? NO_LAYER : ALL_LAYERS; });
-         }},
-    Part{"comb", [] { return make_comb(8, 0.0625); }},
-    Part{"ribbed plate",
-         [] {
-           return columns(bars(5, 0.0625, 0.125), {-0.5, 0.5}, {-0.125, 0.0, 0.125},
-                          [](std::size_t i, std::size_t) -> Layers { return even(i) ? 0b11 : 0b01; });
-         }},
-    Part{"waffle",
-         [] {
-           return columns(
-               bars(4, 0.0625, 0.1875), bars(4, 0.0625, 0.1875), {-0.125, 0.0, 0.125},
-               [](std::size_t i, std::size_t j) -> Layers { return even(i) || even(j) ? 0b11 : 0b01; });
-         }},
-    Part{"egg crate",
-         [] {
-           return columns(
-               bars(5, 0.03125, 0.1875), bars(5, 0.03125, 0.1875), {-0.125, 0.125},
-               [](std::size_t i, std::size_t j) { return even(i) || even(j) ? ALL_LAYERS : NO_LAYER; });
-         }},
-    Part{"perforated sheet", [] { return make_perforated_sheet(4, 0.25, 0.09375, 0.0625); }},
-    Part{"honeycomb", [] { return honeycomb(3, 4, 0.15625, 0.125); }},
-    Part{"louvres", louvres},
-    Part{"gear",
-         [] {
-           return toothed(12, 0.1875, 0.375, 0.5, {-0.0625, 0.0625});
-         }},
-    Part{"involute gear", involute_gear},
-    Part{"sprocket",
-         [] {
-           return pointed(16, 0.25, 0.375, 0.5, 0.5, {-0.0625, 0.0625});
-         }},
-    Part{"ratchet",
-         [] {
-           return pointed(12, 0.25, 0.375, 0.5, 0.875, {-0.0625, 0.0625});
-         }},
-    Part{"nut",
-         [] {
-           return tube(circle(24, 0.25), polygon(6, 0.5, 4), {-0.125, 0.125});
-         }},
-    Part{"castellated nut", castellated_nut},
-    Part{"hex bolt", hex_bolt},
-    Part{"threaded rod",
-         [] {
-           return make_sleeve(thread_outline(0.25 - CLEARANCE, 0.0625, 0.125), nullptr,
-                              {.height = 0.5, .around = 24, .layers = 16});
-         }},
-    Part{"threaded nut",
-         [] {
-           return make_sleeve(polygon_outline(6, 0.4), thread_outline(0.25, 0.0625, 0.125),
-                              {.height = 0.25, .around = 24, .layers = 8});
-         }},
-    Part{"stepped shaft",
-         [] {
-           return tower(16, {0.375, 0.25, 0.125}, {-0.5, -0.25, 0.125, 0.5});
-         }},
-    Part{"grooved shaft", grooved_shaft},
-    Part{"plain shaft",
-         [] {
-           return prism(circle(16, 0.25 - CLEARANCE), {-0.5, 0.5});
-         }},
-    Part{"square peg", [] { return peg(4); }},
-    Part{"square bore", [] { return bore(4); }},
-    Part{"hexagonal peg", [] { return peg(6); }},
-    Part{"hexagonal bore", [] { return bore(6); }},
-    Part{"peg of 32 sides", [] { return peg(32); }},
-    Part{"bore of 32 sides", [] { return bore(32); }},
-    Part{"key", [] { return box(0.25 - 2.0 * CLEARANCE, 0.5, 0.25); }},
-    Part{"keyway",
-         [] {
-           return drawn({-0.5, -0.125, 0.125, 0.5}, {-0.375, -0.125 - CLEARANCE, 0.125}, {"# #", "###"});
-         }},
-    Part{"T-slot",
-         [] {
-           return drawn({-0.5, -0.25, -0.125, 0.125, 0.25, 0.5}, {-0.25, -0.125, 0.0, 0.125},
-                        {"## ##", "#   #", "#####"});
-         }},
-    Part{"T-nut",
-         [] {
-           return drawn({-0.25 + CLEARANCE, -0.125 + CLEARANCE, 0.125 - CLEARANCE, 0.25 - CLEARANCE},
-                        {-0.125 + CLEARANCE, 0.0 - CLEARANCE, 0.1875}, {" # ", "###"}, 0.5);
-         }},
-    Part{"dovetail", dovetail},
-    Part{"dovetail way", dovetail_way},
-    Part{"L bracket",
-         [] {
-           return drawn({-0.5, -0.375, 0.0, 0.5}, {-0.5, -0.375, 0.0, 0.5}, {"#  ", "#  ", "###"}, 0.5);
-         }},
-    Part{"U channel",
-         [] {
-           return drawn({-0.375, -0.25, 0.25, 0.375}, {-0.25, -0.125, 0.25}, {"# #", "###"});
-         }},
-    Part{"I beam",
-         [] {
-           return drawn({-0.25, -0.0625, 0.0625, 0.25}, {-0.375, -0.25, 0.25, 0.375}, {"###", " # ", "###"});
-         }},
-    Part{"cross",
-         [] {
-           const Lines at = {-0.5, -0.125, 0.125, 0.5};
-           return columns(at, at, {-0.125, 0.125}, [](std::size_t i, std::size_t j) {
-             return i == 1 || j == 1 ? ALL_LAYERS : NO_LAYER;
-           });
-         }},
-    Part{"star", [] { return star(5, 0.25, 0.5); }},
-    Part{"stairs",
-         [] {
-           return drawn(steps(4, -0.5, 0.5), steps(4, -0.25, 0.25), {"#   ", "##  ", "### ", "####"}, 0.5);
-         }},
-    Part{"crenellated wall",
-         [] {
-           return drawn(bars(6, 0.125, 0.0625), {-0.25, 0.0, 0.1875}, {"# # # # # #", "###########"}, 0.125);
-         }},
-    Part{"wedge",
-         [] {
-           return between({{-0.25, 0.0}, {0.25, 0.0}}, {{-0.25, 0.375}, {0.25, 0.0}}, 0.5);
-         }},
-    Part{"ridge",
-         [] {
-           return between({{-0.25, 0.0}, {0.0, -0.25}, {0.25, 0.0}},
-                          {{-0.25, 0.125}, {0.0, 0.125}, {0.25, 0.125}}, 0.75);
-         }},
-    Part{"V-block",
-         [] {
-           const double reach = 0.25 + CLEARANCE;
-           return between({{-0.5, -0.5}, {-reach, -0.5}, {0.0, -0.5}, {reach, -0.5}, {0.5, -0.5}},
-                          {{-0.5, 0.0}, {-reach, 0.0}, {0.0, -reach}, {reach, 0.0}, {0.5, 0.0}});
-         }},
-    Part{"rack",
-         [] {
-           return rack(5, {{0.0, 0.0}, {0.0625, 0.0}, {0.09375, 0.125}, {0.15625, 0.125}}, 0.1875);
-         }},
-    Part{"sawtooth",
-         [] {
-           return rack(6, {{0.0, 0.0}, {0.125, 0.125}}, 0.1875);
-         }},
-    Part{"frustum",
-         [] {
-           PrismComplex solid({-0.25, 0.25});
-           solid.add_cell(circle(12, 0.375));
-           return solid.mesh(turned_on_a_lathe(cone));
-         }},
-    Part{"funnel",
-         [] {
-           return tube(circle(12, 0.375 + CLEARANCE), circle(12, 0.5), {-0.1875, 0.1875}, nullptr,
-                       turned_on_a_lathe(cone));
-         }},
-    Part{"dome", dome},
-    Part{"cup", cup},
-    Part{"slotted tube", slotted_tube},
-    Part{"tray",
-         [] {
-           return columns(
-               {-0.5, -0.375, 0.375, 0.5}, {-0.375, -0.25, 0.25, 0.375}, {-0.25, -0.125, 0.125},
-               [](std::size_t i, std::size_t j) -> Layers { return i == 1 && j == 1 ? 0b01 : 0b11; });
-         }},
-    Part{"box for the tray",
-         [] { return box(0.75 - 2.0 * CLEARANCE, 0.5 - 2.0 * CLEARANCE, 0.25 - 2.0 * CLEARANCE); }},
-    Part{"spline shaft",
-         [] {
-           return toothed(8, 0.0, 0.1875 - CLEARANCE, 0.25 - CLEARANCE, {-0.375, 0.375});
-         }},
-    Part{"spline hub",
-         [] {
-           return toothed_hub(8, 0.1875, 0.25, 0.375, {-0.125, 0.125});
-         }},
-    Part{"cage",
-         [] {
-           return cube_frame({-0.5, -0.375, 0.375, 0.5});
-         }},
-    Part{"cross-drilled cube", [] { return cube_frame(steps(3, -0.375, 0.375)); }},
-    Part{"pyramid of steps",
-         [] {
-           return columns(steps(6, -0.375, 0.375), steps(6, -0.375, 0.375),
-                          {-0.1875, -0.0625, 0.0625, 0.1875}, [](std::size_t i, std::size_t j) -> Layers {
-                            const std::size_t in = std::min({i, j, 5 - i, 5 - j});
-                            return (Layers{2} << in) - 1;
-                          });
-         }},
-    Part{"half pipe", half_pipe},
-};
+TriangleMesh spoked_wheel() {
+  PrismComplex solid({-0.0625, 0.0625});
+  solid.add_ring(circle(16, 0.0625), circle(16, 0.125));
+  solid.add_ring(circle(16, 0.125), circle(16, 0.375),
+                 [](std::size_t i) { return i % 4 == 0 ? ALL_LAYERS : NO_LAYER; });
+  solid.add_ring(circle(16, 0.375), circle(16, 0.5));
+  return solid.mesh();
+}
+
+TriangleMesh v_block() {
+  const double reach = 0.25 + CLEARANCE;
+  return between({{-0.5, -0.5}, {-reach, -0.5}, {0.0, -0.5}, {reach, -0.5}, {0.5, -0.5}},
+                 {{-0.5, 0.0}, {-reach, 0.0}, {0.0, -reach}, {reach, 0.0}, {0.5, 0.0}});
+}
 
 }  // namespace
 
 TriangleMesh make_comb(int teeth, double tooth) {
-  return columns(bars(teeth, tooth, tooth), {-0.375, -0.25, 0.375}, {-0.0625, 0.0625},
-                 [](std::size_t i, std::size_t j) { return j == 1 && !even(i) ? NO_LAYER : ALL_LAYERS; });
+  return columns(bars(teeth, tooth, tooth), {-0.375, -0.25, 0.375}, {-0.0625, 0.0625}, slits);
 }
 
 TriangleMesh make_perforated_sheet(int count, double side, double hole, double thickness) {
@@ -568,16 +329,107 @@ TriangleMesh make_perforated_sheet(int count, double side, double hole, double t
 }
 
 std::span<const Part> machine_parts() {
+  static const std::vector<Part> PARTS = {
+      {"plate", columns(steps(4, -0.5, 0.5), steps(4, -0.5, 0.5), {-0.0625, 0.0625})},
+      {"block", box(0.5, 0.375, 0.25)},
+      {"ring", tube(circle(24, 0.25), circle(24, 0.5), {-0.0625, 0.0625})},
+      {"thin ring", tube(circle(32, 0.375), circle(32, 0.4375), {-0.0625, 0.0625})},
+      {"retaining ring", tube(circle(24, 0.375), circle(24, 0.5), {-0.0625, 0.0625},
+                              [](std::size_t i) { return i < 3 ? NO_LAYER : ALL_LAYERS; })},
+      {"bush", tube(circle(16, 0.25), circle(16, 0.375), {-0.375, 0.375})},
+      {"spoked wheel", spoked_wheel()},
+      {"slit plate", columns(bars(6, 0.125, 0.0625), {-0.5, -0.375, 0.375, 0.5}, {-0.0625, 0.0625}, slits)},
+      {"slotted plate",
+       columns({-0.5, -0.25, -0.125, 0.125, 0.25, 0.5}, {-0.5, -0.125, 0.5}, {-0.0625, 0.0625}, slits)},
+      {"comb", make_comb(8, 0.0625)},
+      {"ribbed plate", columns(bars(5, 0.0625, 0.125), {-0.5, 0.5}, {-0.125, 0.0, 0.125},
+                               [](std::size_t i, std::size_t) -> Layers { return even(i) ? 0b11 : 0b01; })},
+      {"waffle",
+       columns(bars(4, 0.0625, 0.1875), bars(4, 0.0625, 0.1875), {-0.125, 0.0, 0.125},
+               [](std::size_t i, std::size_t j) -> Layers { return even(i) || even(j) ? 0b11 : 0b01; })},
+      {"egg crate",
+       columns(bars(5, 0.03125, 0.1875), bars(5, 0.03125, 0.1875), {-0.125, 0.125},
+               [](std::size_t i, std::size_t j) { return even(i) || even(j) ? ALL_LAYERS : NO_LAYER; })},
+      {"perforated sheet", make_perforated_sheet(4, 0.25, 0.09375, 0.0625)},
+      {"honeycomb", honeycomb(3, 4, 0.15625, 0.125)},
+      {"louvres", louvres()},
+      {"gear", toothed(12, 0.1875, 0.375, 0.5, {-0.0625, 0.0625})},
+      {"involute gear", involute_gear()},
+      {"sprocket", pointed(16, 0.25, 0.375, 0.5, 0.5, {-0.0625, 0.0625})},
+      {"ratchet", pointed(12, 0.25, 0.375, 0.5, 0.875, {-0.0625, 0.0625})},
+      {"nut", tube(circle(24, 0.25), polygon(6, 0.5, 4), {-0.125, 0.125})},
+      {"castellated nut", tube(circle(24, 0.25), polygon(6, 0.5, 4), {-0.25, 0.0625, 0.25},
+                               [](std::size_t i) -> Layers { return i % 4 == 0 ? 0b01 : 0b11; })},
+      {"hex bolt", hex_bolt()},
+      {"threaded rod", make_sleeve(thread_outline(0.25 - CLEARANCE, 0.0625, 0.125), nullptr,
+                                   {.height = 0.5, .around = 24, .layers = 16})},
+      {"threaded nut", make_sleeve(polygon_outline(6, 0.4), thread_outline(0.25, 0.0625, 0.125),
+                                   {.height = 0.25, .around = 24, .layers = 8})},
+      {"stepped shaft", tower(16, {0.375, 0.25, 0.125}, {-0.5, -0.25, 0.125, 0.5})},
+      {"grooved shaft",
+       prism(circle(16, 0.25), {-0.5, -0.25, -0.125, 0.125, 0.25, 0.5}, turned_on_a_lathe(neck))},
+      {"plain shaft", prism(circle(16, 0.25 - CLEARANCE), {-0.5, 0.5})},
+      {"square peg", peg(4)},
+      {"square bore", bore(4)},
+      {"hexagonal peg", peg(6)},
+      {"hexagonal bore", bore(6)},
+      {"peg of 32 sides", peg(32)},
+      {"bore of 32 sides", bore(32)},
+      {"key", box(0.25 - 2.0 * CLEARANCE, 0.5, 0.25)},
+      {"keyway", drawn({-0.5, -0.125, 0.125, 0.5}, {-0.375, -0.125 - CLEARANCE, 0.125}, "#.#/###")},
+      {"T-slot",
+       drawn({-0.5, -0.25, -0.125, 0.125, 0.25, 0.5}, {-0.25, -0.125, 0.0, 0.125}, "##.##/#...#/#####")},
+      {"T-nut", drawn({-0.25 + CLEARANCE, -0.125 + CLEARANCE, 0.125 - CLEARANCE, 0.25 - CLEARANCE},
+                      {-0.125 + CLEARANCE, 0.0 - CLEARANCE, 0.1875}, ".#./###", 0.5)},
+      {"dovetail", dovetail()},
+      {"dovetail way", dovetail_way()},
+      {"L bracket", drawn({-0.5, -0.375, 0.0, 0.5}, {-0.5, -0.375, 0.0, 0.5}, "#../#../###", 0.5)},
+      {"U channel", drawn({-0.375, -0.25, 0.25, 0.375}, {-0.25, -0.125, 0.25}, "#.#/###")},
+      {"I beam", drawn({-0.25, -0.0625, 0.0625, 0.25}, {-0.375, -0.25, 0.25, 0.375}, "###/.#./###")},
+      {"cross",
+       columns({-0.5, -0.125, 0.125, 0.5}, {-0.5, -0.125, 0.125, 0.5}, {-0.125, 0.125},
+               [](std::size_t i, std::size_t j) { return i == 1 || j == 1 ? ALL_LAYERS : NO_LAYER; })},
+      {"star", star(5, 0.25, 0.5)},
+      {"stairs", drawn(steps(4, -0.5, 0.5), steps(4, -0.25, 0.25), "#.../##../###./####", 0.5)},
+      {"crenellated wall",
+       drawn(bars(6, 0.125, 0.0625), {-0.25, 0.0, 0.1875}, "#.#.#.#.#.#/###########", 0.125)},
+      {"wedge", between({{-0.25, 0.0}, {0.25, 0.0}}, {{-0.25, 0.375}, {0.25, 0.0}}, 0.5)},
+      {"ridge", between({{-0.25, 0.0}, {0.0, -0.25}, {0.25, 0.0}},
+                        {{-0.25, 0.125}, {0.0, 0.125}, {0.25, 0.125}}, 0.75)},
+      {"V-block", v_block()},
+      {"rack", rack(5, {{0.0, 0.0}, {0.0625, 0.0}, {0.09375, 0.125}, {0.15625, 0.125}}, 0.1875)},
+      {"sawtooth", rack(6, {{0.0, 0.0}, {0.125, 0.125}}, 0.1875)},
+      {"frustum", prism(circle(12, 0.375), {-0.25, 0.25}, turned_on_a_lathe(cone))},
+      {"funnel", tube(circle(12, 0.375 + CLEARANCE), circle(12, 0.5), {-0.1875, 0.1875}, nullptr,
+                      turned_on_a_lathe(cone))},
+      {"dome", prism(circle(12, 0.5), steps(4, 0.0, 0.25), turned_on_a_lathe(round_top))},
+      {"cup", cup()},
+      {"slotted tube", tube(circle(16, 0.25), circle(16, 0.375), {-0.375, -0.25, 0.25, 0.375},
+                            [](std::size_t i) -> Layers { return i % 4 == 0 ? 0b101 : 0b111; })},
+      {"tray",
+       columns({-0.5, -0.375, 0.375, 0.5}, {-0.375, -0.25, 0.25, 0.375}, {-0.25, -0.125, 0.125},
+               [](std::size_t i, std::size_t j) -> Layers { return i == 1 && j == 1 ? 0b01 : 0b11; })},
+      {"box for the tray", box(0.75 - 2.0 * CLEARANCE, 0.5 - 2.0 * CLEARANCE, 0.25 - 2.0 * CLEARANCE)},
+      {"spline shaft", toothed(8, 0.0, 0.1875 - CLEARANCE, 0.25 - CLEARANCE, {-0.375, 0.375})},
+      {"spline hub", toothed_hub(8, 0.1875, 0.25, 0.375, {-0.125, 0.125})},
+      {"cage", cube_frame({-0.5, -0.375, 0.375, 0.5})},
+      {"cross-drilled cube", cube_frame(steps(3, -0.375, 0.375))},
+      {"pyramid of steps",
+       columns(steps(6, -0.375, 0.375), steps(6, -0.375, 0.375), {-0.1875, -0.0625, 0.0625, 0.1875},
+               [](std::size_t i, std::size_t j) -> Layers {
+                 const std::size_t in = std::min({i, j, 5 - i, 5 - j});
+                 return (Layers{2} << in) - 1;
+               })},
+      {"half pipe", half_pipe()},
+  };
   return PARTS;
 }
 
-TriangleMesh make_machine_part(std::string_view name) {
-  const auto* const part =
-      std::find_if(PARTS.begin(), PARTS.end(), [&](const Part& p) { return name == p.name; });
-  if (part == PARTS.end())
-    throw UsageError("", "part", "there is no machine part '" + std::string(name) + "'",
-                     "see machine_parts.cpp");
-  return part->make();
+const TriangleMesh& machine_part(std::string_view name) {
+  for (const Part& part : machine_parts())
+    if (name == part.name) return part.mesh;
+  throw UsageError("", "part", "there is no machine part '" + std::string(name) + "'",
+                   "see machine_parts.cpp");
 }
 
 }  // namespace lmdbench::parts

@@ -14,14 +14,14 @@ namespace lmdbench::parts {
 
 struct Part {
   const char* name;
-  TriangleMesh (*make)();
+  TriangleMesh mesh;
 };
 
 /// All of them, by name.
 std::span<const Part> machine_parts();
 
 /// @throws UsageError for an unknown name
-TriangleMesh make_machine_part(std::string_view name);
+const TriangleMesh& machine_part(std::string_view name);
 
 /// A back 0.125 m wide with teeth 0.625 m long.
 /// @param tooth  width of a tooth and of the gap beside it [m]

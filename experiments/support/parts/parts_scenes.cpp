@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/base/error.h>
 #include <lmdbench/catalogue/shapes.h>
-#include <lmdbench/shape/flatten.h>
+#include <lmdbench/catalogue/sleeve.h>
 #include <lmdbench/snch/minimum_distance.h>
 
 #include <support/parts/chances.h>
@@ -10,6 +10,7 @@
 #include <support/parts/formed_shapes.h>
 #include <support/parts/machine_parts.h>
 #include <support/parts/parts_scenes.h>
+#include <support/parts/placement.h>
 #include <support/parts/random_solids.h>
 #include <support/parts/recut.h>
 #include <support/random.h>
@@ -18,6 +19,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <memory>
 #include <utility>
 
@@ -88,6 +90,22 @@ const std::array KINDS = {
     PartsKind{"any part on any part", "", ""},
 };
 
+/// In the place of a name: the same mesh again, or both drawn together.
+constexpr const char *ITS_COPY = "its copy", *ITS_MATE = "its mate", *ANY_FORMED = "any formed shape";
+constexpr const char *TURNED_MATES = "turned mates", *RELIEF_MATES = "relief mates";
+
+const std::array CLEAR_KINDS = {
+    PartsKind{"square plate on oblong plate", "square plate", "oblong plate"},
+    PartsKind{"box on box", "low box", "high box"},
+    PartsKind{"box on its copy", "cube", ITS_COPY},
+    PartsKind{"plate with a hole on a plate", "holed plate", "coarse plate"},
+    PartsKind{"box over a hole", "bar", "holed plate"},
+    PartsKind{"frame on frame", "frame", "frame"},
+    PartsKind{"L-block on L-block", "small L-block", "L-block"},
+    PartsKind{"two boxes on a gear", "two boxes", "involute gear"},
+    PartsKind{"wedge on a plate with a hole", "long wedge", "holed plate"},
+};
+
 constexpr const char *POLYCUBE = "polycube", *STAR_PRISM = "star prism";
 
 const std::array RANDOM_KINDS = {
@@ -95,10 +113,6 @@ const std::array RANDOM_KINDS = {
     PartsKind{"star prism on star prism", STAR_PRISM, STAR_PRISM},
     PartsKind{"star prism on polycube", STAR_PRISM, POLYCUBE},
 };
-
-/// In the place of a name: the same mesh again, or both drawn together.
-constexpr const char *ITS_COPY = "its copy", *ITS_MATE = "its mate", *ANY_FORMED = "any formed shape";
-constexpr const char *TURNED_MATES = "turned mates", *RELIEF_MATES = "relief mates";
 
 const std::array FORMED_KINDS = {
     PartsKind{"turned part on turned part", "turned part", "turned part"},
@@ -120,6 +134,42 @@ const std::array FORMED_KINDS = {
     PartsKind{"bricks on bricks", "bricks", "bricks"},
     PartsKind{"any formed shape on any formed shape", ANY_FORMED, ANY_FORMED},
 };
+
+struct Family {
+  Generator generator;
+  std::span<const PartsKind> kinds;
+};
+/// Where they stand says what their kinds draw (random_of).
+const std::array FAMILIES = {
+    Family{Generator::MACHINE_PARTS, KINDS}, Family{Generator::CLEAR_SHAPES, CLEAR_KINDS},
+    Family{Generator::RANDOM_SOLIDS, RANDOM_KINDS}, Family{Generator::FORMED_SHAPES, FORMED_KINDS}};
+
+const Family& family_of(const PartsKind& kind) {
+  return *std::ranges::find_if(FAMILIES, [&](const Family& family) {
+    return std::ranges::any_of(family.kinds, [&](const PartsKind& each) { return &each == &kind; });
+  });
+}
+
+/// Those of CLEAR_KINDS: boxes in grids, what has holes, is not convex or is two.
+const std::map<std::string_view, TriangleMesh>& clear_shapes() {
+  static const std::map<std::string_view, TriangleMesh> SHAPES = {
+      {"square plate", make_box({1.0, 1.0, 0.1}, {4, 4, 1})},
+      {"oblong plate", make_box({1.3, 0.9, 0.1}, {3, 4, 1})},
+      {"coarse plate", make_box({1.0, 1.0, 0.1}, {3, 3, 1})},
+      {"low box", make_box({0.7, 0.5, 0.4}, 3)},
+      {"high box", make_box({0.6, 0.6, 0.5}, 2)},
+      {"cube", make_box({0.5, 0.5, 0.5}, 2)},
+      {"bar", make_box({0.8, 0.2, 0.3}, 2)},
+      {"frame", make_sleeve(polygon_outline(4, 0.5), polygon_outline(4, 0.3), {.height = 0.2, .around = 24})},
+      {"holed plate",
+       make_sleeve(polygon_outline(4, 0.6), circle_outline(0.25), {.height = 0.1, .around = 32, .rings = 3})},
+      {"small L-block", make_l_block(1.0)},
+      {"L-block", make_l_block(1.3)},
+      {"two boxes", make_two_boxes({0.3, 0.4, 0.3}, 0.15)},
+      {"long wedge", make_wedge(0.3, 0.8, 0.3)},
+  };
+  return SHAPES;
+}
 
 /// One of the 24 turns of a cube: exact.
 Mat3 quarter_turns(Random& random) {
@@ -185,10 +235,8 @@ Vec3 level_direction(Random& random) {
   return {std::cos(angle), std::sin(angle), 0.0};
 }
 
-/// Multiples of 2^-24.
-double dyadic(double x) {
-  return std::ldexp(std::round(std::ldexp(x, 24)), -24);
-}
+/// [m]
+constexpr double CLEAR_GAP = CUTOFF / 40.0;
 
 class PoseMaker {
  public:
@@ -201,16 +249,27 @@ class PoseMaker {
         fixed_("fixed", build_surface(design.fixed)) {}
 
   Pose unrelated(Random& random) const {
+    if (generator_ == Generator::CLEAR_SHAPES && !flush_) return clearly_on_it(random);
     if (generator_ != Generator::MACHINE_PARTS && !flush_)
       return (generator_ == Generator::FORMED_SHAPES ? formed_pose : face_on_face)(design_.moving,
                                                                                    design_.fixed, random);
     Pose pose = nested_ ? in_it(random) : on_it(random);
     if (flush_)
-      for (double& x : pose.translation) x = dyadic(x);
+      for (double& x : pose.translation) x = dyadic(x, 24);
     return pose;
   }
 
  private:
+  /// A side lies over the other's without a tilt, a fortieth of the cutoff above it, nothing aligned but directions.
+  Pose clearly_on_it(Random& random) const {
+    Pose pose;
+    pose.rotation = about_z(chance(1.0 / 3.0, random) ? 0.25 * TAU * static_cast<double>(random.index(4))
+                                                      : TAU * random.uniform());
+    pose.translation = Vec3(random.uniform(-0.5, 0.5), random.uniform(-0.5, 0.5), 3.0);
+    descend(pose, CLEAR_GAP);
+    return pose;
+  }
+
   /// A side lies over the other's.
   Pose on_it(Random& random) const {
     Pose pose;
@@ -303,66 +362,36 @@ struct File {
 File file_of(const char* name, TriangleMesh mesh, Coordinates coordinates, Random& random) {
   File file;
   if (coordinates == Coordinates::RECUT) mesh = recut(std::move(mesh), random);
-  if (coordinates == Coordinates::TURNED || coordinates == Coordinates::ROUNDED) {
-    file.X_FD.rotation = random.rotation();
-    for (double& x : file.X_FD.translation) x = random.uniform(-0.5, 0.5);
-    const RigidTransform X(file.X_FD);
-    for (Vec3& p : mesh.vertices) p = X.point(p);
-  }
-  if (coordinates == Coordinates::ROUNDED) {
-    mesh = turned_to_floats(std::move(mesh), Eigen::Quaterniond::Identity());
-    flatten(mesh);
-  }
-  file.body = std::make_shared<const Body>(name, build_surface(std::move(mesh)));
+  if (coordinates == Coordinates::TURNED || coordinates == Coordinates::ROUNDED)
+    file.X_FD = random_placement(0.5, random);
+  file.body = placed_body(name, std::move(mesh), file.X_FD, coordinates == Coordinates::ROUNDED);
   return file;
-}
-
-/// Which generator a kind is of.
-Generator generator_of(const PartsKind& kind) {
-  for (const Generator generator : {Generator::RANDOM_SOLIDS, Generator::FORMED_SHAPES})
-    for (const PartsKind& other : parts_kinds(generator))
-      if (&other == &kind) return generator;
-  return Generator::MACHINE_PARTS;
 }
 
 /// Far from each other, so that no two scenes draw the same numbers.
 Random random_of(const PartsChoice& choice, std::uint64_t stream) {
   const PartsKind& kind = parts_kind(choice.kind);
-  const Generator generator = generator_of(kind);
-  const auto number = 500 * (generator == Generator::FORMED_SHAPES   ? 3U
-                             : generator == Generator::RANDOM_SOLIDS ? 2U
-                                                                     : 0U) +
-                      static_cast<std::uint64_t>(&kind - parts_kinds(generator).data());
+  const Family& family = family_of(kind);
+  const auto number =
+      static_cast<std::uint64_t>(500 * (&family - FAMILIES.data()) + (&kind - family.kinds.data()));
   return Random((choice.seed * 2000 + number) * 0x9E3779B97F4A7C15ULL + 8 * choice.index + stream);
 }
 
 }  // namespace
 
 const char* name_of(Coordinates coordinates) {
-  switch (coordinates) {
-    case Coordinates::EXACT:
-      return "exact";
-    case Coordinates::TURNED:
-      return "turned";
-    case Coordinates::ROUNDED:
-      return "rounded";
-    case Coordinates::RECUT:
-      break;
-  }
-  return "recut";
+  constexpr std::array NAMES = {"exact", "turned", "rounded", "recut"};
+  return NAMES.at(static_cast<std::size_t>(coordinates));
 }
 
 std::span<const PartsKind> parts_kinds(Generator generator) {
-  if (generator == Generator::RANDOM_SOLIDS) return RANDOM_KINDS;
-  if (generator == Generator::FORMED_SHAPES) return FORMED_KINDS;
-  return KINDS;
+  return std::ranges::find(FAMILIES, generator, &Family::generator)->kinds;
 }
 
 const PartsKind& parts_kind(std::string_view name) {
   std::string names;
-  for (const Generator generator :
-       {Generator::MACHINE_PARTS, Generator::RANDOM_SOLIDS, Generator::FORMED_SHAPES}) {
-    for (const PartsKind& kind : parts_kinds(generator)) {
+  for (const Family& family : FAMILIES) {
+    for (const PartsKind& kind : family.kinds) {
       if (name == kind.name) return kind;
       names += (names.empty() ? "" : ", ") + std::string(kind.name);
     }
@@ -379,8 +408,8 @@ PartsDesign make_parts_design(const PartsChoice& choice) {
     if (name == ANY_FORMED) return formed_shapes()[random.index(formed_shapes().size())].make(random);
     for (const FormedShape& shape : formed_shapes())
       if (name == shape.name) return shape.make(random);
-    return name.empty() ? machine_parts()[random.index(machine_parts().size())].make()
-                        : make_machine_part(name);
+    if (const auto clear = clear_shapes().find(name); clear != clear_shapes().end()) return clear->second;
+    return name.empty() ? machine_parts()[random.index(machine_parts().size())].mesh : machine_part(name);
   };
   PartsDesign design;
   if (std::string_view(kind.fixed) == ITS_MATE) {
@@ -391,7 +420,7 @@ PartsDesign make_parts_design(const PartsChoice& choice) {
     design.moving = part(kind.moving);
     design.fixed = std::string_view(kind.fixed) == ITS_COPY ? design.moving : part(kind.fixed);
   }
-  const Generator generator = generator_of(kind);
+  const Generator generator = family_of(kind).generator;
   if (!kind.nested && generator != Generator::FORMED_SHAPES) {
     design.moving = on_some_side(std::move(design.moving), random);
     design.fixed = on_some_side(std::move(design.fixed), random);
@@ -401,16 +430,7 @@ PartsDesign make_parts_design(const PartsChoice& choice) {
   const double step = std::pow(10.0, random.uniform(-6.0, -2.0));
   const Vec3 way = step * level_direction(random);
   const Eigen::Quaterniond turn = about_z(tiny(0.5, std::log10(step) - 2.0, std::log10(step), random));
-  for (std::size_t i = 0; i < POSES_A_SCENE; ++i) {
-    if (!slides || i == 0) {
-      design.poses.push_back(maker.unrelated(random));
-      continue;
-    }
-    Pose next = design.poses.back();
-    next.translation += way;
-    if (turn.w() != 1.0 || turn.z() != 0.0) next.rotation = (turn * next.rotation).normalized();
-    design.poses.push_back(next);
-  }
+  design.poses = poses_of(POSES_A_SCENE, slides, way, turn, [&] { return maker.unrelated(random); });
   return design;
 }
 

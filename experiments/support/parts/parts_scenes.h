@@ -7,6 +7,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <map>
 #include <span>
 #include <string>
 #include <string_view>
@@ -43,10 +44,15 @@ struct PartsKind {
 /// Where kinds come from.
 enum class Generator : std::uint8_t {
   MACHINE_PARTS,  ///< Parts that are drawn (machine_parts.h), on and in each other; the last kind draws both by lot.
+  CLEAR_SHAPES,  ///< Plates, boxes, holes, blocks; a side of one lies clearly over a side of the other, nothing to rounding.
   RANDOM_SOLIDS,  ///< Solids that nobody drew (random_solids.h); any face of one lies on any face of the other.
   FORMED_SHAPES  ///< Turned, swept, slit, scanned shapes (formed_shapes.h) on each other, their copies and their mates.
 };
 std::span<const PartsKind> parts_kinds(Generator generator = Generator::MACHINE_PARTS);
+/// Names on command lines, of those whose poses are hard.
+inline const std::map<std::string, Generator> HARD_GENERATORS = {{"parts", Generator::MACHINE_PARTS},
+                                                                 {"solids", Generator::RANDOM_SOLIDS},
+                                                                 {"shapes", Generator::FORMED_SHAPES}};
 /// Of any generator.
 /// @throws UsageError for an unknown name
 const PartsKind& parts_kind(std::string_view name);

@@ -87,4 +87,15 @@ TriangleMesh PrismComplex::mesh(const std::function<Vec3(const Vec3&)>& place) c
   return mesh;
 }
 
+TriangleMesh between(const Outline& low, const Outline& high, double length) {
+  PrismComplex solid({-length / 2, length / 2});
+  for (std::size_t i = 0; i + 1 < low.size(); ++i) {
+    Outline cell = {low[i], low[i + 1]};
+    if (high[i + 1] != low[i + 1]) cell.push_back(high[i + 1]);
+    if (high[i] != low[i]) cell.push_back(high[i]);
+    solid.add_cell(cell);
+  }
+  return solid.mesh(laid_down);
+}
+
 }  // namespace lmdbench::parts

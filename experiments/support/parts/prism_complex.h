@@ -51,4 +51,11 @@ class PrismComplex {
   std::vector<Cell> cells_;
 };
 
+/// From a profile in the plane of x and height to its extrusion along y.
+inline Vec3 laid_down(const Vec3& p) {
+  return {p.x(), -p.z(), p.y()};
+}
+/// Extrusion along y of what is between two lines of as many points, from left to right.
+TriangleMesh between(const Outline& low, const Outline& high, double length = 1.0);
+
 }  // namespace lmdbench::parts

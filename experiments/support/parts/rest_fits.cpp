@@ -1,11 +1,10 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/base/error.h>
-#include <lmdbench/catalogue/shapes.h>
-#include <lmdbench/shape/flatten.h>
 
 #include <fmt/format.h>
 #include <support/parts/chances.h>
+#include <support/parts/placement.h>
 #include <support/parts/prism_complex.h>
 #include <support/parts/recut.h>
 #include <support/parts/rest_drawing.h>
@@ -251,24 +250,6 @@ RestPlace place_of(const RestDrawing::Meeting& meeting, const RestDrawing& drawi
   return place;
 }
 
-/// Where a mesh is in the frame of its file.
-Pose draw_frame(double size, Random& random) {
-  Pose X;
-  X.rotation = random.rotation();
-  for (double& x : X.translation) x = size * random.uniform(-3.0, 3.0);
-  return X;
-}
-
-std::shared_ptr<const Body> body_of(const char* name, TriangleMesh mesh, const Pose& X_FD, bool in_floats) {
-  const RigidTransform X(X_FD);
-  for (Vec3& p : mesh.vertices) p = X.point(p);
-  if (in_floats) {
-    mesh = turned_to_floats(std::move(mesh), Eigen::Quaterniond::Identity());
-    flatten(mesh);
-  }
-  return std::make_shared<const Body>(name, build_surface(std::move(mesh)));
-}
-
 }  // namespace
 
 std::span<const RestFit> rest_fits() {
@@ -304,15 +285,15 @@ RestScene make_rest_scene(const RestFit& fit, std::uint64_t seed, std::size_t in
   std::array<TriangleMesh, 2> meshes = {mesh_of(drawing, lines, 'A'), mesh_of(drawing, lines, 'B')};
   if (cut)
     for (TriangleMesh& mesh : meshes) mesh = recut(std::move(mesh), random);
-  if (frames != Frames::DESIGN) result.X_WD = draw_frame(result.size, random);
-  const Pose X_MD = frames == Frames::POSED ? draw_frame(result.size, random) : result.X_WD;
+  if (frames != Frames::DESIGN) result.X_WD = random_placement(3.0 * result.size, random);
+  const Pose X_MD = frames == Frames::POSED ? random_placement(3.0 * result.size, random) : result.X_WD;
   if (frames == Frames::POSED) result.X_WM = result.X_WD * X_MD.inverse();
   if (swapped) {
     std::swap(meshes[0], meshes[1]);
     for (RestPlace& place : result.places) place.direction = -place.direction;
   }
-  result.scene = {body_of("moving", std::move(meshes[0]), X_MD, result.single_precision),
-                  {body_of("fixed", std::move(meshes[1]), result.X_WD, result.single_precision)},
+  result.scene = {placed_body("moving", std::move(meshes[0]), X_MD, result.single_precision),
+                  {placed_body("fixed", std::move(meshes[1]), result.X_WD, result.single_precision)},
                   CUTOFF_SHARE * result.size};
   constexpr std::array FRAMES = {"as designed", "both turned", "each turned"};
   result.text =

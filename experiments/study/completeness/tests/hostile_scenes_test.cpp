@@ -42,8 +42,8 @@ TEST(HostileMeshes, AreBrokenInEveryWay) {
 
 TEST(HostileScenes, DependOnTheirArgumentsAlone) {
   for (const Motion motion : ALL_MOTIONS) {
-    const HostileScene one = make_hostile_scene(motion, 2, 5), same = make_hostile_scene(motion, 2, 5),
-                       other = make_hostile_scene(motion, 2, 6);
+    const GeneratedScene one = make_hostile_scene(motion, 2, 5), same = make_hostile_scene(motion, 2, 5),
+                         other = make_hostile_scene(motion, 2, 6);
     EXPECT_EQ(one.label, same.label);
     EXPECT_EQ(one.poses.back().translation, same.poses.back().translation);
     EXPECT_NE(one.label, other.label);
@@ -65,7 +65,7 @@ TEST(HostileScenes, AreSearchedWithoutLoss) {
 
 TEST(HostileScenes, AContactOfShortPiecesApartHasItsMiddle) {
   // Squashed meshes: pieces of 1e-9 of the size, far from each other, so that the middle is as good as the shares of their lengths.
-  const HostileScene hostile = make_hostile_scene(Motion::NONE, 9141, 290);
+  const GeneratedScene hostile = make_hostile_scene(Motion::NONE, 9141, 290);
   Certified certified(hostile.scene);
   Exhaustive exhaustive(hostile.scene);
   std::size_t contacts = 0;

@@ -45,7 +45,7 @@ TEST(MachineParts, AreClosedManifoldsWithoutTJunctions) {
   std::set<std::string> names;
   for (const Part& part : machine_parts()) {
     SCOPED_TRACE(part.name);
-    const TriangleMesh mesh = part.make();
+    const TriangleMesh mesh = part.mesh;
     expect_sound(mesh);
     EXPECT_TRUE(names.insert(part.name).second) << "a second one of this name";
     EXPECT_GT(bounding_box_diagonal(mesh), 0.4);
@@ -57,7 +57,7 @@ TEST(MachineParts, AreClosedManifoldsWithoutTJunctions) {
 
 TEST(MachineParts, HaveTheVolumeThatTheyAreDrawnWith) {
   const auto volume = [](const char* name) {
-    return check_mesh(build_surface(make_machine_part(name))).volume.value_or(0.0);
+    return check_mesh(build_surface(machine_part(name))).volume.value_or(0.0);
   };
   EXPECT_NEAR(volume("plate"), 0.125, 1e-15);
   EXPECT_NEAR(volume("block"), 0.5 * 0.375 * 0.25, 1e-15);
@@ -67,7 +67,7 @@ TEST(MachineParts, HaveTheVolumeThatTheyAreDrawnWith) {
 }
 
 TEST(MachineParts, RefuseAnUnknownName) {
-  EXPECT_THROW(make_machine_part("flux capacitor"), UsageError);
+  EXPECT_THROW(machine_part("flux capacitor"), UsageError);
 }
 
 TEST(PrismComplex, LeavesNoWallBetweenWhatIsFilled) {
@@ -86,7 +86,7 @@ TEST(Recut, IsTheSameShapeInOtherTriangles) {
   experiments::Random random(5);
   for (const Part& part : machine_parts()) {
     SCOPED_TRACE(part.name);
-    const TriangleMesh mesh = part.make(), cut = recut(mesh, random);
+    const TriangleMesh mesh = part.mesh, cut = recut(mesh, random);
     expect_sound(cut);
     const ValidityReport before = check_mesh(build_surface(mesh)), after = check_mesh(build_surface(cut));
     EXPECT_GT(after.triangles, before.triangles);

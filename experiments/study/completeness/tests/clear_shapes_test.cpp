@@ -4,7 +4,7 @@
 #include <lmdbench/shape/flat_regions.h>
 
 #include <gtest/gtest.h>
-#include <study/completeness/flat_scenes.h>
+#include <study/completeness/parts_study.h>
 #include <study/completeness/rounded_plates.h>
 
 #include <algorithm>
@@ -16,25 +16,20 @@
 namespace lmdbench::completeness {
 namespace {
 
-LmdSet truth_of(const FlatScene& flat, const Pose& pose) {
+using parts::Coordinates;
+using parts::Generator;
+using parts::PartsKind;
+using parts::PartsScene;
+
+LmdSet truth_of(const PartsScene& flat, const Pose& pose) {
   LmdSet lmds;
   WorkCounters counters;
   make_method("exhaustive", flat.scene)->search(pose, lmds, counters);
   return lmds;
 }
 
-TEST(FlatScenesOfTheStudy, DependOnTheirNumbersAlone) {
-  const FlatScene one = make_flat_scene(0, FlatCoordinates::FLOATS, 3, 7);
-  const FlatScene same = make_flat_scene(0, FlatCoordinates::FLOATS, 3, 7);
-  const FlatScene other = make_flat_scene(0, FlatCoordinates::FLOATS, 3, 8);
-  EXPECT_EQ(one.label, same.label);
-  EXPECT_EQ(one.poses.back().translation, same.poses.back().translation);
-  EXPECT_EQ(one.scene.moving->surface().mesh.vertices, same.scene.moving->surface().mesh.vertices);
-  EXPECT_NE(one.poses.back().translation, other.poses.back().translation);
-}
-
 /// Distances of a contact's points from vertices of their meshes: the same in every frame.
-std::array<double, 6> place_of(const FlatScene& flat, const Pose& pose, const Lmd& lmd) {
+std::array<double, 6> place_of(const PartsScene& flat, const Pose& pose, const Lmd& lmd) {
   std::array<double, 6> place{};
   const RigidTransform X_WM(pose);
   for (std::size_t k = 0; k < 3; ++k) {
@@ -53,7 +48,7 @@ bool has_its_planes_apart(const std::string& pair) {
 }
 
 /// How far the contacts of one set are from those of another one, at worst [m]; infinite where they are not as many.
-double farthest_apart(const FlatScene& one, const FlatScene& other, std::size_t pose) {
+double farthest_apart(const PartsScene& one, const PartsScene& other, std::size_t pose) {
   const LmdSet a = truth_of(one, one.poses[pose]), b = truth_of(other, other.poses[pose]);
   if (a.size() != b.size()) return std::numeric_limits<double>::infinity();
   double worst = 0.0;
@@ -71,27 +66,24 @@ double farthest_apart(const FlatScene& one, const FlatScene& other, std::size_t 
   return worst;
 }
 
-TEST(FlatScenesOfTheStudy, HaveTheSameContactsWhateverTheirCoordinates) {
+TEST(ClearShapes, HaveTheSameContactsWhateverTheirCoordinates) {
   // The design is the same, so are the contacts: those of the design are exact.
   std::size_t poses = 0, faces = 0;
-  for (std::size_t pair = 0; pair < flat_pairs().size(); ++pair) {
-    for (const std::size_t index : {0u, 2u}) {
-      const FlatScene made = make_flat_scene(pair, FlatCoordinates::AS_MADE, 3, index);
-      const FlatScene turned = make_flat_scene(pair, FlatCoordinates::TURNED, 3, index);
-      const FlatScene floats = make_flat_scene(pair, FlatCoordinates::FLOATS, 3, index);
-      EXPECT_EQ(made.scene.moving->surface().mesh.planar_tolerance, 0.0);
-      EXPECT_EQ(turned.scene.moving->surface().mesh.planar_tolerance, 0.0);
-      EXPECT_GT(floats.scene.fixed[0]->surface().mesh.planar_tolerance, 0.0) << floats.label;
-      if (has_its_planes_apart(flat_pairs()[pair])) {
+  for (const PartsKind& kind : parts::parts_kinds(Generator::CLEAR_SHAPES)) {
+    for (const std::size_t index : {0u, 2u, 3u}) {
+      const PartsScene made = parts::make_parts_scene({kind.name, Coordinates::EXACT, 3, index});
+      const PartsScene turned = parts::make_parts_scene({kind.name, Coordinates::TURNED, 3, index});
+      const PartsScene floats = parts::make_parts_scene({kind.name, Coordinates::ROUNDED, 3, index});
+      SCOPED_TRACE(std::string(kind.name) + ", scene " + std::to_string(index));
+      if (has_its_planes_apart(kind.name)) {
         EXPECT_EQ(floats.scene.fixed[0]->prepared<FlatRegions>().region_count(),
-                  made.scene.fixed[0]->prepared<FlatRegions>().region_count())
-            << floats.label;
+                  made.scene.fixed[0]->prepared<FlatRegions>().region_count());
       }
-      for (std::size_t i = 0; i < made.poses.size(); i += index == 0 ? 5 : 2) {
+      for (std::size_t i = 0; i < made.poses.size(); i += 2) {
         const LmdSet truth = truth_of(made, made.poses[i]);
         ++poses;
-        EXPECT_LT(farthest_apart(made, turned, i), 1e-9) << turned.label << ", pose " << i;
-        EXPECT_LT(farthest_apart(made, floats, i), 1e-5) << floats.label << ", pose " << i;
+        EXPECT_LT(farthest_apart(made, turned, i), 1e-9) << "turned, pose " << i;
+        EXPECT_LT(farthest_apart(made, floats, i), 1e-5) << "floats, pose " << i;
         faces += std::any_of(truth.begin(), truth.end(), [](const Lmd& lmd) {
           return lmd.feature_moving.kind == FeatureKind::FACE && lmd.feature_fixed.kind == FeatureKind::FACE;
         });
@@ -101,21 +93,19 @@ TEST(FlatScenesOfTheStudy, HaveTheSameContactsWhateverTheirCoordinates) {
   EXPECT_GT(2 * faces, poses);
 }
 
-TEST(FlatScenesOfTheStudy, AreSearchedWithoutLoss) {
+TEST(ClearShapes, AreSearchedWithoutLoss) {
   std::string wrong;
   std::size_t lmds = 0;
-  for (std::size_t pair = 0; pair < flat_pairs().size(); ++pair) {
-    for (const FlatCoordinates coordinates :
-         {FlatCoordinates::AS_MADE, FlatCoordinates::TURNED, FlatCoordinates::FLOATS}) {
-      const FlatScene flat = make_flat_scene(pair, coordinates, 3, 0);
-      const auto judged =
-          judge_poses(flat.scene, flat.diagonal, {flat.scene.cutoff / flat.diagonal}, flat.poses,
-                      [&](const std::string& what) { wrong += flat.label + ", " + what; });
-      for (const Judgement& judgement : judged.front().judgements) lmds += judgement.same.true_lmds;
-    }
-  }
+  PartsStudy study;
+  study.poses = 20;
+  study.seed = 3;
+  for (const PartsKind& kind : parts::parts_kinds(Generator::CLEAR_SHAPES))
+    for (const Coordinates coordinates : {Coordinates::EXACT, Coordinates::TURNED, Coordinates::ROUNDED})
+      lmds += judge_parts(study, kind.name, coordinates, [&](const std::string& what) {
+                wrong += what + "\n";
+              }).true_lmds;
   EXPECT_EQ(wrong, "");
-  EXPECT_GT(lmds, 1400u);
+  EXPECT_GT(lmds, 450u);
 }
 
 TEST(RoundedPlatesOfTheStudy, AreOneContactWhereTheDesignHasIt) {
