@@ -27,9 +27,10 @@
 /// Is `certified` complete and exact? Recall and precision, distances and points against `exhaustive` on
 /// random grazing poses of many mesh pairs, and frame coherence against searches from scratch along recorded
 /// paths. Markdown on standard output, JSON in a file. Exit code 1 on the first thing that is wrong, after
-/// all has run; every wrong pose is printed as a TUM line that `--poses-file` takes, one of flat shapes as a
-/// line for completeness/tests/parts_study_test.cpp. Flat shapes are made by the generator of `parts` (CLEAR_SHAPES): one seed has
-/// other poses there than in tables made before 2026-11-25.
+/// all has run; every wrong pose is printed as a TUM line that `--poses-file` takes, one of flat
+/// shapes as a line for completeness/tests/parts_study_test.cpp. Flat shapes are made by the
+/// generator of `parts` (CLEAR_SHAPES): one seed has other poses there than in tables made before
+/// 2026-11-25.
 namespace lmdbench::completeness {
 namespace {
 

@@ -18,8 +18,8 @@ enum class FarCarrier : std::uint8_t {
   MOVING_MESH,  ///< The moving mesh alone has them; the pose brings it back to the fixed one at the origin.
 };
 
-/// Two small meshes far from the origin of the world or of their own frame. What rounds are coordinates of size 1, the offset:
-/// that is the scale.
+/// Two small meshes far from the origin of the world or of their own frame. What rounds are
+/// coordinates of size 1, the offset: that is the scale.
 struct FarScene : GeneratedScene {
   double diagonal = 0.0;  ///< Of the fixed mesh [m].
 };

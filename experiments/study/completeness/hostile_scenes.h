@@ -30,7 +30,8 @@ inline constexpr std::size_t HOSTILE_POSES_A_SCENE = 20, HOSTILE_FRAMES_A_SCENE 
 
 /// Scene number `index` of a motion: two hostile meshes (hostile_meshes.h), or one and its copy, of any size, the moving one
 /// also far smaller than the other, at any distance from their frames' origins, from far apart over touch to deep in each other.
-/// The scene depends on its arguments alone; its scale is that of the meshes' size and distance from the origin.
+/// The scene depends on its arguments alone; its scale is that of the meshes' size and distance
+/// from the origin.
 GeneratedScene make_hostile_scene(Motion motion, std::uint64_t seed, std::size_t index);
 
 /// Judges every variant at `poses` poses of a motion, rounded up to whole scenes; in the order of `variants()`.

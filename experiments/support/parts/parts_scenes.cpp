@@ -260,7 +260,8 @@ class PoseMaker {
   }
 
  private:
-  /// A side lies over the other's without a tilt, a fortieth of the cutoff above it, nothing aligned but directions.
+  /// A side lies over the other's without a tilt, a fortieth of the cutoff above it, nothing
+  /// aligned but directions.
   Pose clearly_on_it(Random& random) const {
     Pose pose;
     pose.rotation = about_z(chance(1.0 / 3.0, random) ? 0.25 * TAU * static_cast<double>(random.index(4))

@@ -18,8 +18,8 @@ namespace lmdbench::parts {
 /// Any turn, and up to `reach` from the origin along each axis.
 Pose random_placement(double reach, experiments::Random& random);
 
-/// A mesh as its file holds it: moved by a pose from the frame of its design, and where `in_floats` rounded to single precision and
-/// flattened as an import does it.
+/// A mesh as its file holds it: moved by a pose from the frame of its design, and where `in_floats`
+/// rounded to single precision and flattened as an import does it.
 std::shared_ptr<const Body> placed_body(const char* name, TriangleMesh mesh, const Pose& X_FD,
                                         bool in_floats);
 /// Scaled, then moved by an offset.

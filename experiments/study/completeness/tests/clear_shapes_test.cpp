@@ -41,13 +41,14 @@ std::array<double, 6> place_of(const PartsScene& flat, const Pose& pose, const L
   return place;
 }
 
-/// Some sides of a gear meet at so small an angle that an import leaves them as they are (LARGEST_MOVE): a side of two
-/// triangles is two regions.
+/// Some sides of a gear meet at so small an angle that an import leaves them as they are
+/// (LARGEST_MOVE): a side of two triangles is two regions.
 bool has_its_planes_apart(const std::string& pair) {
   return pair.find("gear") == std::string::npos;
 }
 
-/// How far the contacts of one set are from those of another one, at worst [m]; infinite where they are not as many.
+/// How far the contacts of one set are from those of another one, at worst [m]; infinite where they
+/// are not as many.
 double farthest_apart(const PartsScene& one, const PartsScene& other, std::size_t pose) {
   const LmdSet a = truth_of(one, one.poses[pose]), b = truth_of(other, other.poses[pose]);
   if (a.size() != b.size()) return std::numeric_limits<double>::infinity();
