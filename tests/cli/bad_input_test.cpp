@@ -6,6 +6,7 @@
 #include <support/source_directory.h>
 
 #include <string>
+#include <vector>
 
 /// What a user can get wrong, through the real program: exit code, and a message that
 /// names the file and the place.
@@ -38,27 +39,6 @@ class BadInput : public ::testing::Test {
   ScratchDirectory scratch_;
 };
 
-TEST_F(BadInput, UnknownKey) {
-  const Outcome outcome = run_with("--set /force/cutof_diagonal=0.1");
-  EXPECT_EQ(outcome.code, USAGE);
-  EXPECT_THAT(outcome.err, AllOf(HasSubstr("shapes.json: /force/cutof_diagonal: unknown key"),
-                                 HasSubstr("did you mean \"cutoff_diagonal\"?")));
-}
-
-TEST_F(BadInput, CutoffNotAboveZero) {
-  for (const std::string value : {"0", "-0.01"}) {
-    const Outcome outcome = run_with("--set /force/cutoff_diagonal=" + value);
-    EXPECT_EQ(outcome.code, USAGE);
-    EXPECT_THAT(outcome.err, AllOf(HasSubstr("/force/cutoff_diagonal: "), HasSubstr("found " + value)));
-  }
-}
-
-TEST_F(BadInput, NotANumber) {
-  const Outcome outcome = run_with("--set /force/maximum_force_n=nan");
-  EXPECT_EQ(outcome.code, USAGE);
-  EXPECT_THAT(outcome.err, HasSubstr("/force/maximum_force_n: "));
-}
-
 TEST_F(BadInput, BrokenJson) {
   const Outcome outcome = lmdbench("run '" + scratch_.write("broken.json", "{\n \"name\": }") + "'");
   EXPECT_EQ(outcome.code, USAGE);
@@ -71,51 +51,44 @@ TEST_F(BadInput, MissingExperiment) {
   EXPECT_THAT(outcome.err, HasSubstr("/no/such/experiment.json: cannot read"));
 }
 
-TEST_F(BadInput, UnknownMethodDriverAndDevice) {
-  EXPECT_THAT(run_with("--set /methods/0/name=orginal").err, HasSubstr("/methods/0/"));
-  EXPECT_THAT(run_with("--driver sundial").err, HasSubstr("/driver/kind: "));
-  const Outcome device = run_with("--set /device=phantom-9000");
-  EXPECT_EQ(device.code, USAGE);
-  EXPECT_THAT(device.err, AllOf(HasSubstr("shapes.json: /device: "), HasSubstr("phantom-desktop")));
+struct Refused {
+  std::string options;
+  int code;
+  std::vector<const char*> said;
+};
+
+TEST_F(BadInput, ValuesAndFilesOfAnExperiment) {
+  for (const auto& [options, code, said] : std::vector<Refused>{
+           {"--set /force/cutof_diagonal=0.1",
+            USAGE,
+            {"shapes.json: /force/cutof_diagonal: unknown key", "did you mean \"cutoff_diagonal\"?"}},
+           {"--set /force/cutoff_diagonal=0", USAGE, {"/force/cutoff_diagonal: ", "found 0"}},
+           {"--set /force/cutoff_diagonal=-0.01", USAGE, {"/force/cutoff_diagonal: ", "found -0.01"}},
+           {"--set /force/maximum_force_n=nan", USAGE, {"/force/maximum_force_n: "}},
+           {"--set /methods/0/name=orginal", USAGE, {"/methods/0/"}},
+           {"--driver sundial", USAGE, {"/driver/kind: "}},
+           {"--set /device=phantom-9000", USAGE, {"shapes.json: /device: ", "phantom-desktop"}},
+           {"--set /moving/mesh=no-such-mesh", INPUT_DATA, {"manifest.json", "no-such-mesh"}},
+           {"--set /moving/mesh=./no-such.off", INPUT_DATA, {"no-such.off"}},
+           {"--set /path/file=./no-such.tum", INPUT_DATA, {"no-such.tum"}}}) {
+    SCOPED_TRACE(options);
+    const Outcome outcome = run_with(options);
+    EXPECT_EQ(outcome.code, code);
+    for (const char* words : said) EXPECT_THAT(outcome.err, HasSubstr(words));
+  }
 }
 
-TEST_F(BadInput, MissingMesh) {
-  const Outcome name = run_with("--set /moving/mesh=no-such-mesh");
-  EXPECT_EQ(name.code, INPUT_DATA);
-  EXPECT_THAT(name.err, AllOf(HasSubstr("manifest.json"), HasSubstr("no-such-mesh")));
-  const Outcome file = run_with("--set /moving/mesh=./no-such.off");
-  EXPECT_EQ(file.code, INPUT_DATA);
-  EXPECT_THAT(file.err, HasSubstr("no-such.off"));
-}
-
-TEST_F(BadInput, MissingPath) {
-  const Outcome outcome = run_with("--set /path/file=./no-such.tum");
-  EXPECT_EQ(outcome.code, INPUT_DATA);
-  EXPECT_THAT(outcome.err, HasSubstr("no-such.tum"));
-}
-
-TEST_F(BadInput, NaNInThePath) {
-  const Outcome outcome = run_path("0 0 0 0.2 0 0 0 1\n1 0 nan 0.2 0 0 0 1\n");
-  EXPECT_EQ(outcome.code, INPUT_DATA);
-  EXPECT_THAT(outcome.err, HasSubstr("path.tum: line 2"));
-}
-
-TEST_F(BadInput, TimeRunningBackwards) {
-  const Outcome outcome = run_path("0 0 0 0.2 0 0 0 1\n1 0 0 0.2 0 0 0 1\n0.5 0 0 0.2 0 0 0 1\n");
-  EXPECT_EQ(outcome.code, INPUT_DATA);
-  EXPECT_THAT(outcome.err, HasSubstr("path.tum: line 3"));
-}
-
-TEST_F(BadInput, QuaternionNotOfUnitLength) {
-  const Outcome outcome = run_path("0 0 0 0.2 0 0 0 2\n");
-  EXPECT_EQ(outcome.code, INPUT_DATA);
-  EXPECT_THAT(outcome.err, HasSubstr("path.tum: line 1"));
-}
-
-TEST_F(BadInput, EmptyPath) {
-  const Outcome outcome = run_path("# nothing\n");
-  EXPECT_EQ(outcome.code, INPUT_DATA);
-  EXPECT_THAT(outcome.err, HasSubstr("path.tum"));
+TEST_F(BadInput, PathsThatNothingCanFollow) {
+  for (const auto& [path, code, said] : std::vector<Refused>{
+           {"0 0 0 0.2 0 0 0 1\n1 0 nan 0.2 0 0 0 1\n", INPUT_DATA, {"path.tum: line 2"}},
+           {"0 0 0 0.2 0 0 0 1\n1 0 0 0.2 0 0 0 1\n0.5 0 0 0.2 0 0 0 1\n", INPUT_DATA, {"path.tum: line 3"}},
+           {"0 0 0 0.2 0 0 0 2\n", INPUT_DATA, {"path.tum: line 1"}},
+           {"# nothing\n", INPUT_DATA, {"path.tum"}}}) {
+    SCOPED_TRACE(path);
+    const Outcome outcome = run_path(path);
+    EXPECT_EQ(outcome.code, code);
+    EXPECT_THAT(outcome.err, HasSubstr(said.front()));
+  }
 }
 
 TEST_F(BadInput, BrokenMeshFiles) {

@@ -26,201 +26,103 @@ TriangleFeature unpermuted(TriangleFeature feature, const std::array<int, 3>& or
   return edge_feature((opposite + 1) % 3);
 }
 
-/// A case whose answer is known by hand, checked under all 72 orders of the corners and the arguments.
-struct Known {
-  Triangle a, b;
-  double distance;
-  Vec3 point_a, point_b;
-  TriangleFeature feature_a, feature_b;
-  int minimiser_dimension = 0;
-  double minimiser_measure = 0.0;
-  bool intersecting = false;
-};
+const Triangle FLOOR{Vec3(0, 0, 0), Vec3(4, 0, 0), Vec3(0, 4, 0)};
 
-void expect_known(const Known& known) {
+/// FLOOR and a triangle whose answer is known by hand, checked under all 72 orders of the corners and the arguments.
+void expect_known(const Triangle& other, double distance, const Vec3& on_floor, const Vec3& on_other,
+                  TriangleFeature of_floor, TriangleFeature of_other, int dimension = 0, double measure = 0.0,
+                  bool intersecting = false) {
   for (const auto& order_a : PERMUTATIONS) {
     for (const auto& order_b : PERMUTATIONS) {
       for (const bool swap : {false, true}) {
-        const Triangle a = permuted(known.a, order_a);
-        const Triangle b = permuted(known.b, order_b);
+        const Triangle a = permuted(FLOOR, order_a);
+        const Triangle b = permuted(other, order_b);
         const TrianglePairDistance pair = swap ? triangle_distance(b, a) : triangle_distance(a, b);
         const Vec3& point_a = swap ? pair.point_b : pair.point_a;
         const Vec3& point_b = swap ? pair.point_a : pair.point_b;
-        EXPECT_NEAR(std::sqrt(pair.squared_distance), known.distance, 1e-14);
-        EXPECT_NEAR((point_a - known.point_a).norm(), 0.0, 1e-14) << point_a.transpose();
-        EXPECT_NEAR((point_b - known.point_b).norm(), 0.0, 1e-14) << point_b.transpose();
-        EXPECT_EQ(unpermuted(swap ? pair.feature_b : pair.feature_a, order_a), known.feature_a);
-        EXPECT_EQ(unpermuted(swap ? pair.feature_a : pair.feature_b, order_b), known.feature_b);
-        EXPECT_EQ(pair.minimiser_dimension, known.minimiser_dimension);
-        EXPECT_NEAR(pair.minimiser_measure, known.minimiser_measure, 1e-14);
-        EXPECT_EQ(pair.intersecting, known.intersecting);
+        EXPECT_NEAR(std::sqrt(pair.squared_distance), distance, 1e-14);
+        EXPECT_NEAR((point_a - on_floor).norm(), 0.0, 1e-14) << point_a.transpose();
+        EXPECT_NEAR((point_b - on_other).norm(), 0.0, 1e-14) << point_b.transpose();
+        EXPECT_EQ(unpermuted(swap ? pair.feature_b : pair.feature_a, order_a), of_floor);
+        EXPECT_EQ(unpermuted(swap ? pair.feature_a : pair.feature_b, order_b), of_other);
+        EXPECT_EQ(pair.minimiser_dimension, dimension);
+        EXPECT_NEAR(pair.minimiser_measure, measure, 1e-14);
+        EXPECT_EQ(pair.intersecting, intersecting);
       }
     }
   }
 }
 
-const Triangle FLOOR{Vec3(0, 0, 0), Vec3(4, 0, 0), Vec3(0, 4, 0)};
-
 TEST(TriangleDistance, VertexToVertex) {
-  expect_known({FLOOR,
-                {Vec3(-3, 0, 4), Vec3(-9, 0, 5), Vec3(-9, 1, 9)},
-                5.0,
-                Vec3(0, 0, 0),
-                Vec3(-3, 0, 4),
-                TriangleFeature::V0,
-                TriangleFeature::V0});
+  expect_known({Vec3(-3, 0, 4), Vec3(-9, 0, 5), Vec3(-9, 1, 9)}, 5.0, Vec3(0, 0, 0), Vec3(-3, 0, 4),
+               TriangleFeature::V0, TriangleFeature::V0);
 }
 
 TEST(TriangleDistance, VertexToEdge) {
-  expect_known({FLOOR,
-                {Vec3(2, -3, 4), Vec3(1, -9, 5), Vec3(3, -9, 9)},
-                5.0,
-                Vec3(2, 0, 0),
-                Vec3(2, -3, 4),
-                TriangleFeature::E0,
-                TriangleFeature::V0});
+  expect_known({Vec3(2, -3, 4), Vec3(1, -9, 5), Vec3(3, -9, 9)}, 5.0, Vec3(2, 0, 0), Vec3(2, -3, 4),
+               TriangleFeature::E0, TriangleFeature::V0);
 }
 
 TEST(TriangleDistance, VertexToFace) {
-  expect_known({FLOOR,
-                {Vec3(1, 1, 3), Vec3(2, 1, 4), Vec3(1, 2, 5)},
-                3.0,
-                Vec3(1, 1, 0),
-                Vec3(1, 1, 3),
-                TriangleFeature::FACE,
-                TriangleFeature::V0});
+  expect_known({Vec3(1, 1, 3), Vec3(2, 1, 4), Vec3(1, 2, 5)}, 3.0, Vec3(1, 1, 0), Vec3(1, 1, 3),
+               TriangleFeature::FACE, TriangleFeature::V0);
 }
 
 TEST(TriangleDistance, EdgeToEdge) {
-  expect_known({FLOOR,
-                {Vec3(2, -1, -1), Vec3(2, -1, 1), Vec3(3, -9, 0)},
-                1.0,
-                Vec3(2, 0, 0),
-                Vec3(2, -1, 0),
-                TriangleFeature::E0,
-                TriangleFeature::E0});
+  expect_known({Vec3(2, -1, -1), Vec3(2, -1, 1), Vec3(3, -9, 0)}, 1.0, Vec3(2, 0, 0), Vec3(2, -1, 0),
+               TriangleFeature::E0, TriangleFeature::E0);
 }
 
 TEST(TriangleDistance, AnExactTieGoesToTheLowestDimension) {
   // The corner (2, 0, 3) is exactly over the edge, (0, 0, 3) exactly over the corner.
-  expect_known({FLOOR,
-                {Vec3(2, 0, 3), Vec3(3, 0, 4), Vec3(2, 1, 5)},
-                3.0,
-                Vec3(2, 0, 0),
-                Vec3(2, 0, 3),
-                TriangleFeature::E0,
-                TriangleFeature::V0});
-  expect_known({FLOOR,
-                {Vec3(0, 0, 3), Vec3(1, 0, 4), Vec3(0, 1, 5)},
-                3.0,
-                Vec3(0, 0, 0),
-                Vec3(0, 0, 3),
-                TriangleFeature::V0,
-                TriangleFeature::V0});
+  expect_known({Vec3(2, 0, 3), Vec3(3, 0, 4), Vec3(2, 1, 5)}, 3.0, Vec3(2, 0, 0), Vec3(2, 0, 3),
+               TriangleFeature::E0, TriangleFeature::V0);
+  expect_known({Vec3(0, 0, 3), Vec3(1, 0, 4), Vec3(0, 1, 5)}, 3.0, Vec3(0, 0, 0), Vec3(0, 0, 3),
+               TriangleFeature::V0, TriangleFeature::V0);
 }
 
 TEST(TriangleDistance, ParallelEdgesAreAnsweredByTheMiddleOfTheOverlap) {
-  expect_known({FLOOR,
-                {Vec3(1, -2, 0), Vec3(9, -2, 0), Vec3(3, -5, 0)},
-                2.0,
-                Vec3(2.5, 0, 0),
-                Vec3(2.5, -2, 0),
-                TriangleFeature::E0,
-                TriangleFeature::E0,
-                1,
-                3.0});
+  expect_known({Vec3(1, -2, 0), Vec3(9, -2, 0), Vec3(3, -5, 0)}, 2.0, Vec3(2.5, 0, 0), Vec3(2.5, -2, 0),
+               TriangleFeature::E0, TriangleFeature::E0, 1, 3.0);
 }
 
 TEST(TriangleDistance, AnEdgeParallelToAFaceIsAnsweredByTheMiddleOfTheOverlap) {
-  expect_known({FLOOR,
-                {Vec3(1, -1, 2), Vec3(1, 9, 2), Vec3(1, 1, 8)},
-                2.0,
-                Vec3(1, 1.5, 0),
-                Vec3(1, 1.5, 2),
-                TriangleFeature::FACE,
-                TriangleFeature::E0,
-                1,
-                3.0});
+  expect_known({Vec3(1, -1, 2), Vec3(1, 9, 2), Vec3(1, 1, 8)}, 2.0, Vec3(1, 1.5, 0), Vec3(1, 1.5, 2),
+               TriangleFeature::FACE, TriangleFeature::E0, 1, 3.0);
 }
 
 TEST(TriangleDistance, ParallelFacesAreAnsweredByTheCentroidOfTheOverlap) {
   // The overlap is the unit square with its far corners at (1, 1) and (2, 2).
-  expect_known({FLOOR,
-                {Vec3(2, 2, 1), Vec3(2, -2, 1), Vec3(-2, 2, 1)},
-                1.0,
-                Vec3(1, 1, 0),
-                Vec3(1, 1, 1),
-                TriangleFeature::FACE,
-                TriangleFeature::FACE,
-                2,
-                4.0});
+  expect_known({Vec3(2, 2, 1), Vec3(2, -2, 1), Vec3(-2, 2, 1)}, 1.0, Vec3(1, 1, 0), Vec3(1, 1, 1),
+               TriangleFeature::FACE, TriangleFeature::FACE, 2, 4.0);
   // One inside the other's shadow: its own centroid.
-  expect_known({FLOOR,
-                {Vec3(1, 1, 1), Vec3(1.75, 1, 1), Vec3(1, 1.75, 1)},
-                1.0,
-                Vec3(1.25, 1.25, 0),
-                Vec3(1.25, 1.25, 1),
-                TriangleFeature::FACE,
-                TriangleFeature::FACE,
-                2,
-                0.28125});
+  expect_known({Vec3(1, 1, 1), Vec3(1.75, 1, 1), Vec3(1, 1.75, 1)}, 1.0, Vec3(1.25, 1.25, 0),
+               Vec3(1.25, 1.25, 1), TriangleFeature::FACE, TriangleFeature::FACE, 2, 0.28125);
 }
 
 TEST(TriangleDistance, PiercingTrianglesShareAPoint) {
-  expect_known({FLOOR,
-                {Vec3(1, 1, -1), Vec3(1, 1, 1), Vec3(3, -9, 0)},
-                0.0,
-                Vec3(1.1, 0.5, 0),
-                Vec3(1.1, 0.5, 0),
-                TriangleFeature::FACE,
-                TriangleFeature::FACE,
-                1,
-                std::hypot(0.2, 1.0),
-                true});
+  expect_known({Vec3(1, 1, -1), Vec3(1, 1, 1), Vec3(3, -9, 0)}, 0.0, Vec3(1.1, 0.5, 0), Vec3(1.1, 0.5, 0),
+               TriangleFeature::FACE, TriangleFeature::FACE, 1, std::hypot(0.2, 1.0), true);
 }
 
 TEST(TriangleDistance, ASharedCornerIsThatCorner) {
-  expect_known({FLOOR,
-                {Vec3(0, 0, 0), Vec3(-3, 0, 1), Vec3(0, -3, 1)},
-                0.0,
-                Vec3(0, 0, 0),
-                Vec3(0, 0, 0),
-                TriangleFeature::V0,
-                TriangleFeature::V0,
-                0,
-                0.0,
-                true});
+  expect_known({Vec3(0, 0, 0), Vec3(-3, 0, 1), Vec3(0, -3, 1)}, 0.0, Vec3(0, 0, 0), Vec3(0, 0, 0),
+               TriangleFeature::V0, TriangleFeature::V0, 0, 0.0, true);
 }
 
 TEST(TriangleDistance, ASharedEdgeIsItsMiddle) {
-  expect_known({FLOOR,
-                {Vec3(0, 0, 0), Vec3(4, 0, 0), Vec3(0, -3, 1)},
-                0.0,
-                Vec3(2, 0, 0),
-                Vec3(2, 0, 0),
-                TriangleFeature::E0,
-                TriangleFeature::E0,
-                1,
-                4.0,
-                true});
+  expect_known({Vec3(0, 0, 0), Vec3(4, 0, 0), Vec3(0, -3, 1)}, 0.0, Vec3(2, 0, 0), Vec3(2, 0, 0),
+               TriangleFeature::E0, TriangleFeature::E0, 1, 4.0, true);
 }
 
 TEST(TriangleDistance, ACornerThatTouchesAFaceIsThatCorner) {
-  expect_known({FLOOR,
-                {Vec3(1, 1, 0), Vec3(2, 1, 4), Vec3(1, 2, 5)},
-                0.0,
-                Vec3(1, 1, 0),
-                Vec3(1, 1, 0),
-                TriangleFeature::FACE,
-                TriangleFeature::V0,
-                0,
-                0.0,
-                true});
+  expect_known({Vec3(1, 1, 0), Vec3(2, 1, 4), Vec3(1, 2, 5)}, 0.0, Vec3(1, 1, 0), Vec3(1, 1, 0),
+               TriangleFeature::FACE, TriangleFeature::V0, 0, 0.0, true);
 }
 
 TEST(TriangleDistance, IdenticalTrianglesShareTheirCentroid) {
-  expect_known({FLOOR, FLOOR, 0.0, Vec3(4, 4, 0) / 3.0, Vec3(4, 4, 0) / 3.0, TriangleFeature::FACE,
-                TriangleFeature::FACE, 2, 8.0, true});
+  expect_known(FLOOR, 0.0, Vec3(4, 4, 0) / 3.0, Vec3(4, 4, 0) / 3.0, TriangleFeature::FACE,
+               TriangleFeature::FACE, 2, 8.0, true);
 }
 
 TEST(TriangleDistance, CornersAreBitCopies) {
