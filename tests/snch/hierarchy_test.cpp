@@ -16,6 +16,10 @@
 namespace lmdbench {
 namespace {
 
+constexpr auto *by_ray = rejected_by_g3<DirectionTest::RAY>, *by_line = rejected_by_g3<DirectionTest::LINE>,
+               *by_literal = rejected_by_g3<DirectionTest::LITERAL>,
+               *by_clamped = rejected_by_g3<DirectionTest::CLAMPED>;
+
 using testing::grazing_pose;
 using testing::make_scene;
 
@@ -136,9 +140,9 @@ TEST(NodeTests, KeepEveryTrueLmd) {
             const NodePair pair(world_a, *b);
             EXPECT_FALSE(rejected_by_cutoff(pair, scene.cutoff));
             EXPECT_FALSE(rejected_by_collinearity(world_a, *b));
-            EXPECT_FALSE(rejected_by_direction(world_a, *b, pair));
-            EXPECT_FALSE(rejected_by_solution_line(world_a, *b, pair));
-            literal_keeps = literal_keeps && !rejected_by_literal_direction(world_a, *b, pair);
+            EXPECT_FALSE(by_ray(world_a, *b, pair));
+            EXPECT_FALSE(by_line(world_a, *b, pair));
+            literal_keeps = literal_keeps && !by_literal(world_a, *b, pair);
           }
         }
         if (!literal_keeps) ++lost_by_literal_g3;
@@ -171,7 +175,7 @@ TEST(NodeTests, AgreeWithTheAnglesOfThePaper) {
     const bool g3 =
         std::acos(line.dot(a.cone_axis)) > sigma + phi_a || std::acos(-line.dot(b.cone_axis)) > sigma + phi_b;
     EXPECT_EQ(rejected_by_collinearity(a, b), g2);
-    EXPECT_EQ(rejected_by_direction(a, b, pair), g3);
+    EXPECT_EQ(by_ray(a, b, pair), g3);
     rejected_g2 += g2;
     rejected_g3 += g3;
   }
@@ -210,7 +214,7 @@ TEST(LeafCones, TheNarrowerOnesLoseLmds) {
       for (const Lmd& lmd : lmds) {
         const WorldNode a(*leaves_moving.at(lmd.triangle_moving).back(), RigidTransform(pose));
         const HierarchyNode& b = *leaves_fixed.at(lmd.triangle_fixed).back();
-        lost.back() += rejected_by_collinearity(a, b) || rejected_by_direction(a, b, NodePair(a, b)) ? 1 : 0;
+        lost.back() += rejected_by_collinearity(a, b) || by_ray(a, b, NodePair(a, b)) ? 1 : 0;
       }
     }
   }
@@ -231,18 +235,18 @@ TEST(NodeTests, OverlappingSpheresPassG3) {
   b.cone_axis = Vec3::UnitX();
   a.cone_cosine = b.cone_cosine = std::cos(0.1);
   a.cone_sine = b.cone_sine = std::sin(0.1);
-  EXPECT_FALSE(rejected_by_direction(a, b, NodePair(a, b)));
-  EXPECT_TRUE(rejected_by_clamped_direction(a, b, NodePair(a, b))) << "the ablation takes 90 degrees for it";
+  EXPECT_FALSE(by_ray(a, b, NodePair(a, b)));
+  EXPECT_TRUE(by_clamped(a, b, NodePair(a, b))) << "the ablation takes 90 degrees for it";
   b.cone_axis = -Vec3::UnitX();
-  EXPECT_TRUE(rejected_by_clamped_direction(a, b, NodePair(a, b))) << "the moving one alone faces away";
+  EXPECT_TRUE(by_clamped(a, b, NodePair(a, b))) << "the moving one alone faces away";
   a.cone_axis = b.cone_axis = Vec3::UnitX();
-  EXPECT_TRUE(rejected_by_clamped_direction(a, b, NodePair(a, b))) << "the fixed one alone does";
+  EXPECT_TRUE(by_clamped(a, b, NodePair(a, b))) << "the fixed one alone does";
   b.cone_axis = -Vec3::UnitX();
-  EXPECT_FALSE(rejected_by_clamped_direction(a, b, NodePair(a, b)));
+  EXPECT_FALSE(by_clamped(a, b, NodePair(a, b)));
   std::swap(a.cone_axis, b.cone_axis);
   a.radius = b.radius = 0.2;
-  EXPECT_TRUE(rejected_by_direction(a, b, NodePair(a, b)));
-  EXPECT_TRUE(rejected_by_clamped_direction(a, b, NodePair(a, b)));
+  EXPECT_TRUE(by_ray(a, b, NodePair(a, b)));
+  EXPECT_TRUE(by_clamped(a, b, NodePair(a, b)));
 }
 
 }  // namespace

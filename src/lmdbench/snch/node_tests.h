@@ -70,60 +70,33 @@ inline bool direction_cone_misses(double along, double tangent, double radii, do
   return along < tangent * cone_cosine - radii * cone_sine;
 }
 
-/// G3.a and G3.b (section 4.1) as rejection conditions. Decision E3: overlapping spheres have no sigma,
-/// the pair passes.
-inline bool rejected_by_direction(const WorldNode& a, const HierarchyNode& b, const NodePair& pair) {
-  const double squared_tangent = pair.squared_distance - pair.radii * pair.radii;
-  if (squared_tangent <= 0.0) return false;
-  const double tangent = std::sqrt(squared_tangent);
-  return direction_cone_misses(pair.centres.dot(a.cone_axis), tangent, pair.radii, a.cone_cosine,
-                               a.cone_sine) ||
-         direction_cone_misses(-pair.centres.dot(b.cone_axis), tangent, pair.radii, b.cone_cosine,
-                               b.cone_sine);
-}
-
-/// Decision E4, ours: the original's dual solution line cone read as a two-sided line. A pair is rejected
-/// when the line through the spheres leaves a cone in both of its senses.
-inline bool rejected_by_solution_line(const WorldNode& a, const HierarchyNode& b, const NodePair& pair) {
-  const double squared_tangent = pair.squared_distance - pair.radii * pair.radii;
-  if (squared_tangent <= 0.0) return false;
-  const double tangent = std::sqrt(squared_tangent);
-  const double along_a = std::abs(pair.centres.dot(a.cone_axis));
-  const double along_b = std::abs(pair.centres.dot(b.cone_axis));
-  return direction_cone_misses(along_a, tangent, pair.radii, a.cone_cosine, a.cone_sine) ||
-         direction_cone_misses(along_b, tangent, pair.radii, b.cone_cosine, b.cone_sine);
-}
-
-/// Ablation of decision E2: "pass only when satisfying" taken literally, which keeps
-/// the pairs that G3 should reject.
-inline bool rejected_by_literal_direction(const WorldNode& a, const HierarchyNode& b, const NodePair& pair) {
-  const double squared_tangent = pair.squared_distance - pair.radii * pair.radii;
-  if (squared_tangent <= 0.0) return false;
-  const double tangent = std::sqrt(squared_tangent);
-  return !direction_cone_misses(pair.centres.dot(a.cone_axis), tangent, pair.radii, a.cone_cosine,
-                                a.cone_sine) ||
-         !direction_cone_misses(-pair.centres.dot(b.cone_axis), tangent, pair.radii, b.cone_cosine,
-                                b.cone_sine);
-}
-
-/// Ablation of decision E3: where the spheres overlap, the arcsin of more than 1 is taken for the right angle that it
-/// reaches at touch. Lines between overlapping spheres have every direction, so LMDs are lost.
-inline bool rejected_by_clamped_direction(const WorldNode& a, const HierarchyNode& b, const NodePair& pair) {
-  if (pair.squared_distance > pair.radii * pair.radii) return rejected_by_direction(a, b, pair);
-  const double distance = std::sqrt(pair.squared_distance);
-  return direction_cone_misses(pair.centres.dot(a.cone_axis), 0.0, distance, a.cone_cosine, a.cone_sine) ||
-         direction_cone_misses(-pair.centres.dot(b.cone_axis), 0.0, distance, b.cone_cosine, b.cone_sine);
-}
-
 /// How G3 reads a normal cone against the spheres.
-enum class DirectionTest { RAY, LINE, LITERAL, CLAMPED };
+enum class DirectionTest {
+  RAY,      ///< G3.a and G3.b (section 4.1) as rejection conditions.
+  LINE,     ///< Decision E4, ours: the original's dual solution line cone read as a two-sided line. A pair is
+            ///< rejected when the line through the spheres leaves a cone in both of its senses.
+  LITERAL,  ///< Ablation of decision E2: "pass only when satisfying" taken literally, which keeps the pairs
+            ///< that G3 should reject.
+  CLAMPED  ///< Ablation of decision E3: where the spheres overlap, the arcsin of more than 1 is taken for the
+           ///< right angle that it reaches at touch. Lines between overlapping spheres have every direction,
+           ///< so LMDs are lost.
+};
 
+/// Decision E3: overlapping spheres have no sigma, the pair passes.
 template <DirectionTest TEST>
 inline bool rejected_by_g3(const WorldNode& a, const HierarchyNode& b, const NodePair& pair) {
-  if constexpr (TEST == DirectionTest::RAY) return rejected_by_direction(a, b, pair);
-  if constexpr (TEST == DirectionTest::LINE) return rejected_by_solution_line(a, b, pair);
-  if constexpr (TEST == DirectionTest::LITERAL) return rejected_by_literal_direction(a, b, pair);
-  if constexpr (TEST == DirectionTest::CLAMPED) return rejected_by_clamped_direction(a, b, pair);
+  const double squared_tangent = pair.squared_distance - pair.radii * pair.radii;
+  const bool overlap = squared_tangent <= 0.0;
+  if (overlap && TEST != DirectionTest::CLAMPED) return false;
+  const double tangent = overlap ? 0.0 : std::sqrt(squared_tangent);
+  const double radii = overlap ? std::sqrt(pair.squared_distance) : pair.radii;
+  const auto rejects = [&](double along, double cone_cosine, double cone_sine) {
+    if constexpr (TEST == DirectionTest::LINE) along = std::abs(along);
+    return direction_cone_misses(along, tangent, radii, cone_cosine, cone_sine) !=
+           (TEST == DirectionTest::LITERAL);
+  };
+  return rejects(pair.centres.dot(a.cone_axis), a.cone_cosine, a.cone_sine) ||
+         rejects(-pair.centres.dot(b.cone_axis), b.cone_cosine, b.cone_sine);
 }
 
 }  // namespace lmdbench
