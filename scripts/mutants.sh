@@ -43,14 +43,15 @@ $keep || trap remove_tree EXIT
 
 # The fields of every mutant, a line each: name, file, from, to, test, only, equivalent; separated by the unit separator.
 mutants() {
-  awk -v RS= -F'\n' -v OFS='\037' '
-    { split("", field)
-      for (i = 1; i <= NF; ++i) {
-        if ($i ~ /^#/) continue
-        colon = index($i, ":"); field[substr($i, 1, colon - 1)] = substr($i, colon + 2)
-      }
+  awk -v OFS='\037' '
+    function row_ends() {
       if ("name" in field)
-        print field["name"], field["file"], field["from"], field["to"], field["test"], field["only"], field["equivalent"] }' "$LIST"
+        print field["name"], field["file"], field["from"], field["to"], field["test"], field["only"], field["equivalent"]
+      for (key in field) if (key != "file" && key != "test") delete field[key]
+    }
+    /^(name: .*)?$/ { row_ends() }
+    /^[a-z]/ { colon = index($0, ":"); field[substr($0, 1, colon - 1)] = substr($0, colon + 2) }
+    END { row_ends() }' "$LIST"
 }
 
 # plant FILE FROM TO: replaces the text, which must be there exactly once.

@@ -9,9 +9,14 @@ from cases import text_of
 
 
 def mutants():
-    entries = [dict(re.findall(r"^(name|file|from|to|test|only|equivalent): (.*)$", entry, re.M))
-               for entry in text_of("scripts", "mutants.txt").split("\n\n")]
-    return [entry for entry in entries if "name" in entry]
+    found, row = [], {}
+    for key, value in [*re.findall(r"^(?:([a-z]+): (.*))?$", text_of("scripts", "mutants.txt"), re.M), ("", "")]:
+        if key in ("", "name"):
+            found += [row] if "name" in row else []
+            row = {shared: row[shared] for shared in ("file", "test") if shared in row}
+        if key:
+            row[key] = value
+    return found
 
 
 class Mutants(unittest.TestCase):
