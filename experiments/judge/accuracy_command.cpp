@@ -3,7 +3,6 @@
 #include <lmdbench/base/error.h>
 
 #include <CLI/CLI.hpp>
-#include <benchmarks/triangle_distance/batch/triangle_distance_batch.h>
 #include <fmt/format.h>
 #include <judge/accuracy_table.h>
 #include <judge/distance_kernels.h>
@@ -46,15 +45,15 @@ void print_times() {
   constexpr int REPETITIONS = 11;
   fmt::print(
       "\n## Times\n\nns of processor time a pair in one run on one machine, median of {} alternating\n"
-      "runs over {} pairs; batch in {}. All but CGAL give witness points too.\n\n| family |",
-      REPETITIONS, TIMED_PAIRS, triangle_distance_batch_target());
+      "runs over {} pairs. All but CGAL give witness points too.\n\n| family |",
+      REPETITIONS, TIMED_PAIRS);
   for (const DistanceKernel& kernel : distance_kernels()) fmt::print(" {} |", kernel.name);
-  fmt::print(" FCL / lmdbench | FCL / batch |\n|---|---|---|---|---|---|---|\n");
+  fmt::print(" FCL / lmdbench |\n|---|---|---|---|---|\n");
   for (const TriangleFamily& family : triangle_families()) {
     const auto times = time_kernels(family, TIMED_PAIRS, REPETITIONS);
     fmt::print("| {} |", family.name);
     for (const double time : times) fmt::print(" {:.0f} |", time);
-    fmt::print(" {:.2f} | {:.2f} |\n", times[2] / times[0], times[2] / times[1]);
+    fmt::print(" {:.2f} |\n", times[1] / times[0]);
   }
 }
 
@@ -63,7 +62,7 @@ int judge_accuracy(bool million) {
     fmt::print("# Triangle distances: a million pairs a family\n\n");
     print_answers(MILLION_TABLE, "lmdbench-judge accuracy --million", "MillionTable", MILLION_PAIRS);
   } else {
-    fmt::print("# Triangle distances: answers and times of four kernels\n\n");
+    fmt::print("# Triangle distances: answers and times of three kernels\n\n");
     print_answers(PUBLISHED_TABLE, "lmdbench-judge accuracy", "AccuracyTable.IsTheOneThatIsPublished",
                   PUBLISHED_PAIRS);
     print_times();

@@ -3,7 +3,6 @@
 #include <lmdbench/crosscheck/fcl_crosscheck.h>
 #include <lmdbench/geometry/triangle_distance.h>
 
-#include <benchmarks/triangle_distance/batch/triangle_distance_batch.h>
 #include <judge/distance_kernels.h>
 
 #include <cmath>
@@ -20,14 +19,6 @@ void scalar_distances(std::span<const Triangle> a, std::span<const Triangle> b,
   for (std::size_t i = 0; i < answers.size(); ++i) answers[i] = answer(triangle_distance(a[i], b[i]));
 }
 
-void batch_distances(std::span<const Triangle> a, std::span<const Triangle> b,
-                     std::span<DistanceAnswer> answers) {
-  thread_local std::vector<TrianglePairDistance> results;
-  results.resize(answers.size());
-  triangle_distance_batch(a, b, results);
-  for (std::size_t i = 0; i < answers.size(); ++i) answers[i] = answer(results[i]);
-}
-
 void fcl_distances(std::span<const Triangle> a, std::span<const Triangle> b,
                    std::span<DistanceAnswer> answers) {
   for (std::size_t i = 0; i < answers.size(); ++i) {
@@ -39,10 +30,7 @@ void fcl_distances(std::span<const Triangle> a, std::span<const Triangle> b,
 }  // namespace
 
 std::vector<DistanceKernel> distance_kernels() {
-  return {{"lmdbench", scalar_distances},
-          {"lmdbench batch", batch_distances},
-          {"FCL", fcl_distances},
-          {"CGAL double", cgal_distances}};
+  return {{"lmdbench", scalar_distances}, {"FCL", fcl_distances}, {"CGAL double", cgal_distances}};
 }
 
 }  // namespace lmdbench::testing

@@ -28,7 +28,6 @@ struct DistanceImplementation {
 };
 
 DistanceImplementation lmdbench_scalar_distance();
-DistanceImplementation lmdbench_batched_distance();
 DistanceImplementation fcl_distance();
 
 /// All that this build knows.

@@ -34,15 +34,10 @@ struct LaneGap {
   alignas(64) double axis[3][MAX_LANES];
 };
 
-/// Nearest points, and the corners that carry them as the sum of 2^k over the corners k.
-struct LaneResult {
-  alignas(64) double squared_distance[MAX_LANES];
-  alignas(64) double point_a[3][MAX_LANES];
-  alignas(64) double point_b[3][MAX_LANES];
-  alignas(64) double carriers_a[MAX_LANES];
-  alignas(64) double carriers_b[MAX_LANES];
-  alignas(64) double shared_length[MAX_LANES];  ///< of the segment that crossing triangles share; set by
-                                                ///< `crossing`
+/// Middle and length of the segment that crossing triangles share.
+struct LaneCrossing {
+  alignas(64) double middle[3][MAX_LANES];
+  alignas(64) double length[MAX_LANES];
 };
 
 }  // namespace lmdbench::kernel

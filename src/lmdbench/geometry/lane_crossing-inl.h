@@ -9,14 +9,59 @@
 #define LMDBENCH_LANE_CROSSING_INL
 #endif
 
-#include <lmdbench/geometry/lane_face-inl.h>
 #include <lmdbench/geometry/lane_triangle-inl.h>
-#include <lmdbench/geometry/lane_turned-inl.h>
 
 #include <cstdint>
 
 HWY_BEFORE_NAMESPACE();
 namespace lmdbench::HWY_NAMESPACE {
+
+/// A triangle's plane; only for well-shaped triangles, where plain cross products keep their
+/// digits.
+struct Face {
+  Vector origin, e1, e2, n;
+  Real squared_n, inverse;  ///< |n|^2 and its inverse
+  Real least_squared_altitude;
+  Mask well_shaped;
+};
+
+HWY_INLINE Face face_of(const Three<Vector>& t) {
+  const Real one = constant(1.0);
+  Face face;
+  face.origin = t.v[0];
+  face.e1 = t.v[1] - t.v[0];
+  face.e2 = t.v[2] - t.v[0];
+  const Vector e3 = t.v[2] - t.v[1];
+  face.n = cross(face.e1, face.e2);
+  face.squared_n = dot(face.n, face.n);
+  const Real longest = hn::Max(dot(face.e1, face.e1), hn::Max(dot(face.e2, face.e2), dot(e3, e3)));
+  // Squared altitude on the longest edge over that edge's square.
+  face.well_shaped = hn::Gt(face.squared_n, hn::Mul(constant(MIN_SQUARED_SINE), squared(longest)));
+  face.inverse = hn::Div(one, select(face.well_shaped, face.squared_n, one));
+  face.least_squared_altitude = hn::Mul(face.squared_n, hn::Div(one, select(face.well_shaped, longest, one)));
+  return face;
+}
+
+/// Weights of the face's corners for the projection of origin + w.
+HWY_INLINE Three<Real> weights_on(const Face& face, const Vector& w) {
+  const Real w1 = hn::Mul(dot(cross(w, face.e2), face.n), face.inverse);
+  const Real w2 = hn::Mul(dot(cross(face.e1, w), face.n), face.inverse);
+  return {{hn::Sub(hn::Sub(constant(1.0), w1), w2), w1, w2}};
+}
+
+HWY_INLINE Real least_of(const Three<Real>& w) {
+  return hn::Min(w.v[0], hn::Min(w.v[1], w.v[2]));
+}
+
+/// A triangle's corners or their numbers, beginning with corner 1 or 2 where a mask says so, else
+/// with corner 0; in the same sense of rotation.
+template <class T>
+HWY_INLINE Three<T> turned(const Three<T>& t, Mask first_is_1, Mask first_is_2) {
+  Three<T> result;
+  for (int k = 0; k < 3; ++k)
+    result.v[k] = select(first_is_2, t.v[(k + 2) % 3], select(first_is_1, t.v[(k + 1) % 3], t.v[k]));
+  return result;
+}
 
 /// Crossing triangles share at least this part of a chord, and its middle is at least this part away from all
 /// borders; the rest is left to the scalar kernel's exact predicates.
@@ -40,7 +85,7 @@ HWY_INLINE void cut(Real from, Real to, Real least_squared_fall, Real& begin, Re
 
 /// Lanes where the triangles cross clearly, with the middle of the segment that they share inside both: the
 /// chord that the plane of a cuts out of b, cut by the edges of a.
-inline std::uint32_t crossing(const LaneBlock& block, LaneResult& result) {
+inline std::uint32_t crossing(const LaneBlock& block, LaneCrossing& result) {
   const Real one = constant(1.0);
   std::uint32_t done = 0;
   for (std::size_t lane = 0; lane < MAX_LANES; lane += hn::Lanes(Lanes())) {
@@ -64,24 +109,20 @@ inline std::uint32_t crossing(const LaneBlock& block, LaneResult& result) {
     const Mask lone_is_2 = hn::Not(hn::Or(lone_is_0, lone_is_1));
     clear = hn::And(clear, hn::Or(hn::Lt(hn::Mul(height.v[0], height.v[1]), zero()),
                                   hn::Lt(hn::Mul(height.v[0], height.v[2]), zero())));
-    const Turned turned_b = turned(b, lone_is_1, lone_is_2);
-    Three<Real> h;
-    for (int k = 0; k < 3; ++k) {
-      h.v[k] =
-          select(lone_is_2, height.v[(k + 2) % 3], select(lone_is_1, height.v[(k + 1) % 3], height.v[k]));
-    }
+    const Three<Vector> turned_b = turned(b, lone_is_1, lone_is_2);
+    const Three<Real> h = turned(height, lone_is_1, lone_is_2);
     Real part[2];
     Vector chord_end[2];
     Three<Real> on_a[2];
     for (int i = 0; i < 2; ++i) {
-      const Vector edge = turned_b.corner.v[i + 1] - turned_b.corner.v[0];
+      const Vector edge = turned_b.v[i + 1] - turned_b.v[0];
       const Real drop = hn::Sub(h.v[0], h.v[i + 1]);
       // The edge must not be nearly parallel to the plane, or the chord's end is not
       // where the scalar kernel has it.
       clear = hn::And(clear, hn::Gt(squared(drop), hn::Mul(constant(MIN_SQUARED_SINE),
                                                            hn::Mul(face.squared_n, dot(edge, edge)))));
       part[i] = hn::Div(h.v[0], select(hn::Eq(drop, zero()), one, drop));
-      chord_end[i] = turned_b.corner.v[0] + times(part[i], edge);
+      chord_end[i] = turned_b.v[0] + times(part[i], edge);
       on_a[i] = weights_on(face, chord_end[i] - face.origin);
     }
     const Vector chord = chord_end[1] - chord_end[0];
@@ -93,22 +134,19 @@ inline std::uint32_t crossing(const LaneBlock& block, LaneResult& result) {
     for (int k = 0; k < 3; ++k) cut(on_a[0].v[k], on_a[1].v[k], least_squared_fall, begin, end, clear);
     const Real middle = hn::Mul(constant(0.5), hn::Add(begin, end));
     const Real rest = hn::Sub(one, middle);
-    Found found;
-    found.point_a = found.point_b = chord_end[0] + times(middle, chord);
-    found.weights_a = weights_on(face, found.point_a - face.origin);
+    const Vector point = chord_end[0] + times(middle, chord);
+    const Three<Real> weights_a = weights_on(face, point - face.origin);
     const Real towards_1 = hn::Mul(rest, part[0]);
     const Real towards_2 = hn::Mul(middle, part[1]);
-    found.weights_b =
-        turned_back(turned_b, {{hn::Sub(hn::Sub(one, towards_1), towards_2), towards_1, towards_2}});
+    const Three<Real> weights_b{{hn::Sub(hn::Sub(one, towards_1), towards_2), towards_1, towards_2}};
     const Real least = constant(LEAST_CROSSING_PART);
     clear = hn::And(clear, hn::Gt(hn::Sub(end, begin), least));
-    clear = hn::And(
-        clear, hn::And(hn::Gt(least_of(found.weights_a), least), hn::Gt(least_of(found.weights_b), least)));
+    clear = hn::And(clear, hn::And(hn::Gt(least_of(weights_a), least), hn::Gt(least_of(weights_b), least)));
     const Real length = hn::Mul(hn::Sub(end, begin), hn::Sqrt(dot(chord, chord)));
     clear = hn::And(clear, hn::Gt(squared(length), squared_margin));
-    hn::Store(length, Lanes(), result.shared_length + lane);
+    hn::Store(length, Lanes(), result.length + lane);
     done |= bits(clear, lane);
-    store(found, lane, result);
+    store(point, result.middle, lane);
   }
   return done;
 }

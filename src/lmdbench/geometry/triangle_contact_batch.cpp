@@ -29,8 +29,8 @@ HWY_EXPORT(crossing);
 namespace {
 
 using kernel::LaneBlock;
+using kernel::LaneCrossing;
 using kernel::LaneGap;
-using kernel::LaneResult;
 using kernel::MAX_LANES;
 
 /// Calls visit(begin, count, block) for all pairs, MAX_LANES at a time; the last pair fills lanes that have none.
@@ -52,13 +52,13 @@ void for_each_block(std::span<const Triangle> a, std::span<const Triangle> b, Vi
 void find_clear_crossings(std::span<const Triangle> a, std::span<const Triangle> b,
                           std::span<ClearCrossing> results) {
   LMDBENCH_ALWAYS(a.size() == b.size() && a.size() == results.size(), "parallel arrays of unlike lengths");
-  LaneResult lanes;
+  LaneCrossing lanes;
   for_each_block(a, b, [&](std::size_t begin, std::size_t count, const LaneBlock& block) {
     const std::uint32_t crosses = HWY_DYNAMIC_DISPATCH(crossing)(block, lanes);
     for (std::size_t lane = 0; lane < count; ++lane) {
       ClearCrossing& result = results[begin + lane];
-      result.middle = {lanes.point_a[0][lane], lanes.point_a[1][lane], lanes.point_a[2][lane]};
-      result.length = ((crosses >> lane) & 1U) != 0 ? lanes.shared_length[lane] : 0.0;
+      result.middle = {lanes.middle[0][lane], lanes.middle[1][lane], lanes.middle[2][lane]};
+      result.length = ((crosses >> lane) & 1U) != 0 ? lanes.length[lane] : 0.0;
     }
   });
 }

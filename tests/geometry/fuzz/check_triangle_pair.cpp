@@ -5,7 +5,6 @@
 #include <lmdbench/geometry/tolerance.h>
 #include <lmdbench/geometry/triangle_distance.h>
 
-#include <benchmarks/triangle_distance/batch/triangle_distance_batch.h>
 #include <triangles/brute_force_distance.h>
 
 #include <array>
@@ -98,11 +97,6 @@ std::string broken_promise(const TrianglePair& pair) {
     return complaint("wrong distance", pair);
   if (!(off(result.point_a, pair.a) <= bound)) return complaint("point_a is not on a", pair);
   if (!(off(result.point_b, pair.b) <= bound)) return complaint("point_b is not on b", pair);
-  std::array<TrianglePairDistance, 1> batch;
-  triangle_distance_batch({&pair.a, 1}, {&pair.b, 1}, batch);
-  if (!(std::abs(std::sqrt(batch[0].squared_distance) - truth) <= bound)) {
-    return complaint("wrong distance from the batch", pair);
-  }
   return "";
 }
 
