@@ -47,9 +47,6 @@ class Deformation {
   /// The same at a strength in [-1, 1], of the amplitude.
   void at_strength(double strength, std::vector<Vec3>& vertices) const;
 
-  /// Vertices that move.
-  std::size_t moving_vertices() const { return moving_.size(); }
-
  private:
   struct MovingVertex {
     std::int32_t vertex;

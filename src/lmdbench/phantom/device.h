@@ -48,8 +48,6 @@ struct Device {
   std::array<DeviceFigure, 3> workspace;  ///< Width, height, depth [m].
 };
 
-inline constexpr double SERVO_RATE = 1000.0;  ///< [Hz] Paper, section 5; the devices' own servo rate.
-
 /// All known devices, in a fixed order.
 std::span<const Device> known_devices();
 
