@@ -8,6 +8,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
+#include <support/message_of.h>
 
 #include <filesystem>
 #include <string>
@@ -37,13 +38,7 @@ Experiment parse(const std::string& text, const std::vector<Override>& overrides
 
 /// Message of the usage error that loading raises.
 std::string message(const std::vector<Override>& overrides, const std::string& text = MINIMAL) {
-  try {
-    parse(text, overrides);
-  } catch (const UsageError& error) {
-    EXPECT_EQ(error.code(), ExitCode::USAGE);
-    return error.what();
-  }
-  return "no error";
+  return testing::message_of<UsageError>([&] { parse(text, overrides); });
 }
 
 TEST(LoadExperiment, FillsDefaultsFromTheSchema) {
@@ -285,12 +280,8 @@ TEST(LoadExperiment, PlanarTolerancesAreOfEachMesh) {
 }
 
 TEST(LoadExperiment, MissingFileIsAUsageError) {
-  try {
-    load_experiment("/nowhere/at/all.json");
-    FAIL() << "loaded a file that does not exist";
-  } catch (const UsageError& error) {
-    EXPECT_THAT(error.what(), HasSubstr("/nowhere/at/all.json: cannot read"));
-  }
+  EXPECT_THAT(testing::message_of<UsageError>([] { load_experiment("/nowhere/at/all.json"); }),
+              HasSubstr("/nowhere/at/all.json: cannot read"));
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
+#include <support/message_of.h>
 
 #include <string>
 #include <vector>
@@ -24,12 +25,7 @@ Experiment parse_loop(const std::vector<Override>& overrides) {
 }
 
 std::string loop_message(const std::vector<Override>& overrides) {
-  try {
-    parse_loop(overrides);
-  } catch (const UsageError& error) {
-    return error.what();
-  }
-  return "no error";
+  return testing::message_of<UsageError>([&] { parse_loop(overrides); });
 }
 
 TEST(LoopChoice, IsOpenUnlessAskedFor) {

@@ -9,6 +9,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
+#include <support/message_of.h>
 #include <support/scratch_directory.h>
 #include <support/source_directory.h>
 
@@ -88,13 +89,10 @@ TEST(Rules, NoneHoldsOnASceneThatDoesNot) {
 
 TEST(Rules, WhereTheConditionDoesNotHoldOnIsAnError) {
   const ScratchDirectory scratch;
-  try {
-    run_experiment(experiment(scratch.write("p.tum", "0 0.1 0 0 0 0 0 1\n0.01 0.101 0 0 0 0 0 1\n"),
-                              {"/plan/repeated_pose=on"}));
-    FAIL();
-  } catch (const UsageError& error) {
-    EXPECT_THAT(error.what(), HasSubstr("/plan/repeated_pose: cannot be on: 0 of 2 exhaustive searches"));
-  }
+  const Experiment moves = experiment(scratch.write("p.tum", "0 0.1 0 0 0 0 0 1\n0.01 0.101 0 0 0 0 0 1\n"),
+                                      {"/plan/repeated_pose=on"});
+  EXPECT_THAT(testing::message_of<UsageError>([&] { run_experiment(moves); }),
+              HasSubstr("/plan/repeated_pose: cannot be on: 0 of 2 exhaustive searches"));
 }
 
 /// Forces, sets, truth, contact and cross-check of two runs are the same bits.

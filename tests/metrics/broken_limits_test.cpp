@@ -7,6 +7,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <support/message_of.h>
 #include <support/source_directory.h>
 
 namespace lmdbench {
@@ -77,13 +78,8 @@ TEST(Acceptance, WhatWasNotMeasuredBreaksItsLimit) {
 }
 
 TEST(Acceptance, LimitsOnWhatIsNotProbedAreRefused) {
-  const auto message = [](const std::string& limits, const Override& override) -> std::string {
-    try {
-      with_limits(limits, {override});
-    } catch (const UsageError& error) {
-      return error.what();
-    }
-    return "";
+  const auto message = [](const std::string& limits, const Override& override) {
+    return testing::message_of<UsageError>([&] { with_limits(limits, {override}); });
   };
   EXPECT_THAT(message(R"({"recall": 1})", "/probes/truth/stride_frames=0"), HasSubstr("/limits/recall"));
   EXPECT_THAT(message(R"({"fcl_disagreements": 0})", "/probes/fcl/stride_frames=0"),

@@ -12,6 +12,7 @@
 #include <nlohmann/json.hpp>
 #include <result_file/result_reading.h>
 #include <support/committed.h>
+#include <support/message_of.h>
 
 #include <cmath>
 #include <numbers>
@@ -67,12 +68,7 @@ TEST(Profiles, OneObjectStaysOneProfileWithoutALabel) {
 
 TEST(Profiles, MistakesNameTheProfile) {
   const auto place_of = [](const std::string& force) {
-    try {
-      shapes_under(force);
-    } catch (const UsageError& error) {
-      return std::string(error.what());
-    }
-    return std::string("nothing was thrown");
+    return testing::message_of<UsageError>([&] { shapes_under(force); });
   };
   EXPECT_THAT(place_of(R"([{"cutoff_m": 0.01, "maximum_force_n": 3}])"), HasSubstr("/force/0"));
   EXPECT_THAT(place_of(fmt::format("[{}, {}]", HARD, HARD)), HasSubstr("/force/1/name"));

@@ -8,13 +8,13 @@
 #include <gtest/gtest.h>
 #include <result/deterministic_datasets.h>
 #include <result_file/result_reading.h>
+#include <support/message_of.h>
 #include <support/source_directory.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <filesystem>
-#include <functional>
 #include <string>
 #include <vector>
 
@@ -24,6 +24,7 @@ namespace {
 using ::testing::AllOf;
 using testing::deterministic_datasets;
 using ::testing::HasSubstr;
+using testing::message_of;
 using testing::OpenResult;
 using testing::ScratchDirectory;
 
@@ -60,15 +61,6 @@ std::int64_t run_until(const Experiment& experiment, const std::filesystem::path
                    leftover),
                Interrupted);
   return measured;
-}
-
-std::string message_of(const std::function<void()>& action) {
-  try {
-    action();
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return "no error";
 }
 
 std::int64_t known_times(const OpenResult& part, const std::vector<std::string>& labels) {
@@ -153,11 +145,11 @@ INSTANTIATE_TEST_SUITE_P(Resume, ResumeAnywhere,
 TEST(Resume, MeasuredFramesAreNotThrownAwayByMistake) {
   const ScratchDirectory scratch;
   run_until(open_loop(), scratch / "r.h5", 100);
-  EXPECT_THAT(message_of([&] { run(open_loop(), scratch / "r.h5"); }),
+  EXPECT_THAT(message_of<Error>([&] { run(open_loop(), scratch / "r.h5"); }),
               AllOf(HasSubstr("r.h5.part"), HasSubstr("--resume")));
-  EXPECT_THAT(
-      message_of([&] { run(open_loop({"/force/maximum_force_n=1"}), scratch / "r.h5", Leftover::RESUME); }),
-      AllOf(HasSubstr("r.h5.part"), HasSubstr("of another run")));
+  EXPECT_THAT(message_of<Error>(
+                  [&] { run(open_loop({"/force/maximum_force_n=1"}), scratch / "r.h5", Leftover::RESUME); }),
+              AllOf(HasSubstr("r.h5.part"), HasSubstr("of another run")));
   EXPECT_GT(OpenResult(scratch / "r.h5.part").integers("/frames_measured").front(), 99);
 }
 
@@ -187,7 +179,7 @@ TEST(Resume, AnotherForceIsNoticed) {
     H5Dclose(dataset);
     H5Fclose(file);
   }
-  EXPECT_THAT(message_of([&] { run(open_loop(), scratch / "r.h5", Leftover::RESUME); }),
+  EXPECT_THAT(message_of<Error>([&] { run(open_loop(), scratch / "r.h5", Leftover::RESUME); }),
               AllOf(HasSubstr("r.h5.part"), HasSubstr("method original, frame 200")));
 }
 

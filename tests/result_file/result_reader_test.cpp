@@ -8,6 +8,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <hdf5.h>
+#include <support/message_of.h>
 #include <support/scratch_directory.h>
 #include <support/source_directory.h>
 
@@ -51,14 +52,7 @@ std::filesystem::path small_result(const std::filesystem::path& file,
 
 /// The message of the InputError that `work` must throw.
 std::string input_error(const std::function<void()>& work) {
-  try {
-    work();
-  } catch (const InputError& error) {
-    EXPECT_EQ(error.code(), ExitCode::INPUT_DATA);
-    return error.what();
-  }
-  ADD_FAILURE() << "no InputError";
-  return {};
+  return testing::message_of<InputError>(work);
 }
 
 TEST(ResultReader, ReadsWhatTheWriterWrote) {

@@ -8,6 +8,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <result_file/result_reading.h>
+#include <support/message_of.h>
 #include <sys/resource.h>
 
 #include <chrono>
@@ -28,14 +29,8 @@ using testing::OpenResult;
 using testing::ScratchDirectory;
 
 /// What the user reads when `action` fails as it should.
-std::string message_of(const std::function<void()>& action) {
-  try {
-    action();
-  } catch (const EnvironmentError& error) {
-    EXPECT_EQ(error.code(), ExitCode::ENVIRONMENT);
-    return error.what();
-  }
-  return "nothing was thrown";
+std::string complaint(const std::function<void()>& action) {
+  return testing::message_of<EnvironmentError>(action);
 }
 
 void write_one(const std::filesystem::path& file, double value) {
@@ -53,22 +48,22 @@ TEST(ResultWriterFailure, MakesMissingDirectories) {
 TEST(ResultWriterFailure, NamesAFileThatStandsWhereADirectoryShould) {
   const ScratchDirectory directory;
   std::ofstream(directory / "file") << "text";
-  EXPECT_THAT(message_of([&] { ResultWriter writer(directory / "file/a.h5"); }),
+  EXPECT_THAT(complaint([&] { ResultWriter writer(directory / "file/a.h5"); }),
               AllOf(HasSubstr("/file"), HasSubstr("Not a directory"), HasSubstr("--out")));
 }
 
 TEST(ResultWriterFailure, RefusesADirectoryAsResult) {
   const ScratchDirectory directory;
   std::filesystem::create_directory(directory / "a.h5");
-  EXPECT_THAT(message_of([&] { ResultWriter writer(directory / "a.h5"); }),
+  EXPECT_THAT(complaint([&] { ResultWriter writer(directory / "a.h5"); }),
               AllOf(HasSubstr("a.h5"), HasSubstr("is a directory")));
-  EXPECT_THAT(message_of([&] { ResultWriter writer(directory / "new/"); }), HasSubstr("names no file"));
+  EXPECT_THAT(complaint([&] { ResultWriter writer(directory / "new/"); }), HasSubstr("names no file"));
   EXPECT_FALSE(std::filesystem::exists(directory / "a.h5.part"));
 }
 
 TEST(ResultWriterFailure, NamesAPlaceThatCannotBeWritten) {
   // /proc refuses new files even to root.
-  EXPECT_THAT(message_of([&] { ResultWriter writer("/proc/lmdbench-result.h5"); }),
+  EXPECT_THAT(complaint([&] { ResultWriter writer("/proc/lmdbench-result.h5"); }),
               AllOf(HasSubstr("/proc/lmdbench-result.h5.part"), HasSubstr("--out")));
 }
 
@@ -85,7 +80,7 @@ TEST(ResultWriterFailure, WaitsAMomentForTheLock) {
     std::this_thread::sleep_for(std::chrono::milliseconds(100));
     holder = FileDescriptor();
   });
-  EXPECT_EQ(message_of([&] { write_one(directory / "a.h5", 3.0); }), "nothing was thrown");
+  EXPECT_NO_THROW(write_one(directory / "a.h5", 3.0));
   release.join();
   EXPECT_THAT(OpenResult(directory / "a.h5").doubles("/a"), ElementsAre(3.0));
 }
@@ -94,7 +89,7 @@ TEST(ResultWriterFailure, RefusesASecondWriterOfTheSameResult) {
   const ScratchDirectory directory;
   ResultWriter first(directory / "a.h5");
   first.write({"/a", "m", "a value"}, std::vector<double>{1.0}, {1});
-  EXPECT_THAT(message_of([&] { ResultWriter second(directory / "a.h5"); }),
+  EXPECT_THAT(complaint([&] { ResultWriter second(directory / "a.h5"); }),
               AllOf(HasSubstr("a.h5.part"), HasSubstr("another run")));
   first.commit();
   EXPECT_THAT(OpenResult(directory / "a.h5").doubles("/a"), ElementsAre(1.0));
@@ -135,7 +130,7 @@ TEST(ResultWriterFailure, AFullDiskLeavesTheEarlierResult) {
     ResultWriter writer(directory / "a.h5");
     write_much(writer);
     const FullDisk full(64 * 1024);
-    EXPECT_THAT(message_of([&] { writer.commit(); }),
+    EXPECT_THAT(complaint([&] { writer.commit(); }),
                 AllOf(HasSubstr("a.h5"), HasSubstr("File too large"), HasSubstr("disk space")));
   }
   EXPECT_THAT(OpenResult(directory / "a.h5").doubles("/a"), ElementsAre(1.0));
@@ -164,8 +159,8 @@ TEST(ResultWriterFailure, Hdf5PrintsNothing) {
           ResultWriter writer(directory / "a.h5");
           writer.write({"/a", "m", "a value"}, std::vector<double>{1.0}, {1});
           // A dataset cannot hold others: HDF5 refuses.
-          message_of([&] { writer.write({"/a/b", "m", "inside"}, std::vector<double>{1.0}, {1}); });
-          message_of([&] { writer.attribute("/a/b", "name", std::int64_t{1}); });
+          complaint([&] { writer.write({"/a/b", "m", "inside"}, std::vector<double>{1.0}, {1}); });
+          complaint([&] { writer.attribute("/a/b", "name", std::int64_t{1}); });
         }
         std::exit(0);
       },

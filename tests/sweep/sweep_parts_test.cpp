@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 #include <result_file/result_reading.h>
+#include <support/message_of.h>
 #include <support/source_directory.h>
 
 #include <filesystem>
@@ -19,6 +20,7 @@
 namespace lmdbench {
 namespace {
 
+using ::testing::AllOf;
 using ::testing::Contains;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
@@ -97,13 +99,9 @@ TEST_F(SweepParts, MeasureNothingThatAnotherJournalKnows) {
 TEST_F(SweepParts, CollectingNamesThePointsThatLack) {
   const Sweep all = sweep();
   measure_part(all, {2}, out_);
-  try {
-    collect(all);
-    FAIL() << "nobody has measured the others";
-  } catch (const InputError& error) {
-    EXPECT_THAT(error.what(), HasSubstr("3 of 4 points are not measured: 0-1,3"));
-    EXPECT_THAT(error.what(), HasSubstr("--points"));
-  }
+  EXPECT_THAT(testing::message_of<InputError>([&] { collect(all); }),
+              AllOf(HasSubstr("3 of 4 points are not measured: 0-1,3"), HasSubstr("--points")))
+      << "nobody has measured the others";
   EXPECT_FALSE(std::filesystem::exists(out_));
 }
 
@@ -206,13 +204,9 @@ TEST(PointNumbers, AreReadAndWritten) {
                                                         {"1,0-2", "names point 1 twice"},
                                                         {"8", "there is no point 8: the sweep has 8"},
                                                         {"0-99999999999999999999", "no list"}}) {
-    try {
-      parse_point_numbers(text, 8, "--points");
-      FAIL() << text;
-    } catch (const UsageError& error) {
-      EXPECT_THAT(error.what(), HasSubstr(problem)) << text;
-      EXPECT_THAT(error.what(), HasSubstr("--points")) << text;
-    }
+    EXPECT_THAT(testing::message_of<UsageError>([&] { parse_point_numbers(text, 8, "--points"); }),
+                AllOf(HasSubstr(problem), HasSubstr("--points")))
+        << text;
   }
 }
 
