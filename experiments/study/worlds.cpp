@@ -302,8 +302,8 @@ void study_pile_slack(const WorldsChoice& choice, nlohmann::json& report) {
                                     {"median_s", median(row.seconds)},
                                     {"p99_s", quantile(row.seconds, P99)}});
   };
-  for (const double slack : choice.pile_slacks) print(slack, MoverGroup::Tuning{}.pack_share);
-  for (const double share : choice.pack_shares) print(MoverGroup::Tuning{}.slack, share);
+  for (const double slack : choice.pile_slacks) print(slack, BroadPhase::Tuning{}.pack_share);
+  for (const double share : choice.pack_shares) print(BroadPhase::Tuning{}.slack, share);
   fmt::print("\n");
 }
 

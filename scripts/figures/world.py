@@ -45,8 +45,9 @@ class World:
         self.offset = lmds["frame_offset"][:].astype(int)
         self.body = lmds["fixed_body"][:].astype(int)
         self.points = lmds["point_fixed"][:]
-        self.counters = {name: group["counters"][name][:] for name in ("instances_touched", "instances_searched", "broad_phase_queries")
-                         if "counters" in group and name in group["counters"]}
+        # Of files written before instances counted as pairs do, too.
+        names = ("pairs_touched", "pairs_searched", "broad_phase_queries", "instances_touched", "instances_searched")
+        self.counters = {name: group["counters"][name][:] for name in names if name in group.get("counters", {})}
 
     def count(self):
         return sum(len(entry["position"]) for entry in self.entries)

@@ -1,12 +1,9 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include <lmdbench/lmd/method_description.h>
 #include <lmdbench/lmd/near_frame.h>
 
 #include <gtest/gtest.h>
 #include <support/scenes.h>
-
-#include <vector>
 
 namespace lmdbench {
 namespace {
@@ -22,44 +19,6 @@ Scene boxes(const Vec3& offset_M, const Vec3& offset_W) {
   return make_scene(translated(box, offset_M), translated(box, offset_W), 0.25);
 }
 
-enum class Asked : std::uint8_t { FOR_A_SEARCH };
-
-const MethodDescription& recorder_method() {
-  static const MethodDescription description = [] {
-    MethodDescription result;
-    result.name = "recorder";
-    return result;
-  }();
-  return description;
-}
-
-/// Remembers what it was asked and answers with one LMD.
-class Recorder : public Method {
- public:
-  explicit Recorder(Scene scene) : scene_(std::move(scene)) {}
-  const MethodDescription& description() const override { return recorder_method(); }
-  void search(const Pose& X_WM, LmdSet& lmds, WorkCounters& counters) override {
-    pose = X_WM;
-    ++counters[Asked::FOR_A_SEARCH];
-    Lmd lmd;
-    lmd.point_moving = Vec3(0.25, 0.0, 0.0);
-    lmd.point_fixed = Vec3(0.5, 0.0, 0.0);
-    lmd.distance = 0.25;
-    lmds = {lmd};
-  }
-  void track(const Pose& X_WM, LmdSet& lmds, WorkCounters&) override {
-    pose = X_WM;
-    tracked = lmds;
-  }
-  const Scene& scene() const { return scene_; }
-
-  Pose pose;
-  LmdSet tracked;
-
- private:
-  Scene scene_;
-};
-
 TEST(NearFrame, LeavesScenesNearTheOriginAlone) {
   const Scene scene = boxes(Vec3::Zero(), Vec3(2.0, 0.0, 0.0));
   const NearFrame frame(scene);
@@ -68,13 +27,6 @@ TEST(NearFrame, LeavesScenesNearTheOriginAlone) {
   ASSERT_EQ(frame.scene().fixed.size(), scene.fixed.size());
   for (std::size_t i = 0; i < scene.fixed.size(); ++i)
     EXPECT_EQ(frame.scene().fixed[i].body, scene.fixed[i].body);
-  Recorder* made = nullptr;
-  const auto method = make_in_near_frame(scene, [&](const Scene& near) {
-    auto recorder = std::make_unique<Recorder>(near);
-    made = recorder.get();
-    return recorder;
-  });
-  EXPECT_EQ(method.get(), made);
 }
 
 TEST(NearFrame, CountsFromSixteenHalfDiagonals) {
@@ -112,37 +64,6 @@ TEST(NearFrame, MovesMeshesPosesAndPointsThereAndBack) {
       EXPECT_EQ(frame.to_near(X_WM).rotation.coeffs(), X_NN.rotation.coeffs());
     }
   }
-}
-
-TEST(NearFrame, WrapsAMethod) {
-  Recorder* made = nullptr;
-  const auto method = make_in_near_frame(boxes(Vec3::Zero(), FAR), [&](const Scene& near) {
-    auto recorder = std::make_unique<Recorder>(near);
-    made = recorder.get();
-    return recorder;
-  });
-  ASSERT_NE(made, nullptr);
-  EXPECT_NE(method.get(), made);
-  EXPECT_EQ(&method->description(), &recorder_method());
-
-  Pose X_WM;
-  X_WM.translation = FAR + Vec3(0.0, 0.75, 0.0);
-  LmdSet lmds;
-  WorkCounters counters;
-  method->search(X_WM, lmds, counters);
-  EXPECT_EQ(made->pose.translation, Vec3(0.0, 0.75, 0.0));
-  EXPECT_EQ(counters[Asked::FOR_A_SEARCH], 1u);
-  ASSERT_EQ(lmds.size(), 1u);
-  EXPECT_EQ(lmds[0].point_moving, FAR + Vec3(0.25, 0.0, 0.0));
-  EXPECT_EQ(lmds[0].point_fixed, FAR + Vec3(0.5, 0.0, 0.0));
-  EXPECT_EQ(lmds[0].distance, 0.25);
-
-  X_WM.translation += Vec3(1.0, 0.0, 0.0);
-  method->track(X_WM, lmds, counters);
-  EXPECT_EQ(made->pose.translation, Vec3(1.0, 0.75, 0.0));
-  ASSERT_EQ(made->tracked.size(), 1u);
-  EXPECT_EQ(made->tracked[0].point_moving, Vec3(0.25, 0.0, 0.0));
-  EXPECT_EQ(lmds[0].point_fixed, FAR + Vec3(0.5, 0.0, 0.0));
 }
 
 }  // namespace

@@ -46,7 +46,7 @@ class JudgedContacts : public ::testing::Test {
   LmdSet judge(const std::vector<lmdbench_contact>& contacts) {
     LmdSet lmds;
     marks_ = {};
-    ContactJudge(scene_.moving, scene_.fixed[0].body).judge(contacts, RigidTransform(X_), 0, lmds, marks_);
+    ContactJudge(scene_.moving, scene_.fixed[0].body).judge(contacts, RigidTransform(X_), lmds, marks_);
     EXPECT_TRUE(is_well_formed(lmds, scene_));
     return lmds;
   }

@@ -71,12 +71,12 @@ TEST(Instances, ARunAmongThemFindsWhatTheSceneWithoutThemHas) {
   for (const double recall : result.doubles("/methods/certified/truth/recall")) EXPECT_FALSE(recall < 1.0);
   for (const double precision : result.doubles("/methods/certified/truth/precision"))
     EXPECT_FALSE(precision < 1.0);
-  const auto touched = result.integers("/methods/certified/counters/instances_touched");
-  const auto searched = result.integers("/methods/certified/counters/instances_searched");
+  const auto touched = result.integers("/methods/certified/counters/pairs_touched");
+  const auto searched = result.integers("/methods/certified/counters/pairs_searched");
   ASSERT_EQ(touched.size(), 320u);
   EXPECT_EQ(searched.back(), 2);  // in contact with both that coincide
   for (std::size_t i = 0; i < touched.size(); ++i) EXPECT_GE(touched[i], searched[i]);
-  EXPECT_FALSE(plain.has("/methods/certified/counters/instances_touched"));
+  EXPECT_FALSE(plain.has("/methods/certified/counters/pairs_touched"));
   EXPECT_EQ(run.plan.scene->meshes.at(1).instances, 4);
 }
 
@@ -113,13 +113,12 @@ TEST(Instances, EntriesOfOneMeshShareItAndFindWhatInstancesFind) {
                          {"lmdbench", "run"});
   const OpenResult entries(scratch / "entries.h5"), instances(scratch / "instances.h5"),
       separate(scratch / "apart.h5"), world(scratch / "world.h5");
-  EXPECT_FALSE(world.has("/methods/certified/counters/instances_touched"));
   for (const std::string method : {"/methods/certified", "/methods/improved"}) {
     const auto points = entries.doubles(method + "/lmds/point_fixed");
     EXPECT_GT(points.size(), 150u);
     for (const OpenResult* same : {&entries, &instances, &separate}) {
       EXPECT_EQ(points, same->doubles(method + "/lmds/point_fixed"));
-      EXPECT_TRUE(same->has("/methods/certified/counters/instances_touched"));
+      EXPECT_TRUE(same->has("/methods/certified/counters/pairs_touched"));
     }
   }
   // In another frame roundings differ, which an approximation may follow.

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/scene/broad_phase.h>
+#include <lmdbench/scene/near_pairs.h>
 #include <lmdbench/scene/scatter.h>
 #include <lmdbench/snch/minimum_distance.h>
 
@@ -46,9 +47,11 @@ double radius_of(const Body& body) {
   return radius;
 }
 
-std::vector<std::uint32_t> near_of(const BroadPhase& phase) {
+/// Instances that may be within reach at the pose, ascending.
+std::vector<std::uint32_t> near_at(const Pose& pose, BroadPhase& phase, BroadPhase::Work& work) {
   std::vector<std::uint32_t> near;
-  for (std::size_t i = 0; i < phase.near_count(); ++i) near.push_back(phase.candidates()[i].instance);
+  phase.advance(pose, work);
+  phase.for_each_near(work, [&](const BroadPhase::Candidate& one) { near.push_back(one.other - 1); });
   return near;
 }
 
@@ -79,18 +82,18 @@ TEST(BroadPhase, DropsNoInstanceWithinReach) {
       BroadPhase phase(scene);
       BroadPhase::Work work;
       std::size_t within = 0;
-      std::vector<std::uint32_t> all;
+      NearPairs all(scene);
       const double reach = 1.001 * (radius_of(*scene.moving) + radius_of(*scene.fixed.front().body) + cutoff);
       for (const Pose& pose : wander(origin, 9.0, 0.03, 200, 7)) {
-        phase.advance(pose, work);
-        const std::vector<std::uint32_t> near = near_of(phase);
-        phase.look_at_all(pose, all);
+        const std::vector<std::uint32_t> near = near_at(pose, phase, work);
+        const std::vector<NearPairs::Pair>& pairs = all.within(contact_reach(scene), pose);
         for (std::uint32_t i = 0; i < scene.fixed.size(); ++i) {
           if ((scene.fixed[i].X_WF.translation - pose.translation).norm() > reach) continue;
           if (!(distance_to(scene, i, pose) <= cutoff)) continue;
           ++within;
-          EXPECT_NE(std::find(near.begin(), near.end(), i), near.end()) << "instance " << i;
-          EXPECT_TRUE(std::binary_search(all.begin(), all.end(), i)) << "instance " << i;
+          EXPECT_TRUE(std::binary_search(near.begin(), near.end(), i)) << "instance " << i;
+          EXPECT_NE(std::ranges::find(pairs, ObjectPair{0, i + 1}, &NearPairs::Pair::objects), pairs.end())
+              << "instance " << i;
         }
       }
       EXPECT_GT(within, 50u);
@@ -109,8 +112,7 @@ TEST(BroadPhase, TouchesNothingWhereNothingCanComeNear) {
   int idle = 0;
   for (int frame = 0; frame < 2000; ++frame) {
     const BroadPhase::Work before = work;
-    phase.advance(moved(-5.0 + 0.005 * frame, 0.0, 0.0), work);
-    EXPECT_EQ(phase.near_count(), 0u);
+    EXPECT_TRUE(near_at(moved(-5.0 + 0.005 * frame, 0.0, 0.0), phase, work).empty());
     if (work.queries == before.queries) {
       EXPECT_EQ(work.touched, before.touched);
       ++idle;
@@ -128,18 +130,14 @@ TEST(BroadPhase, LooksOnlyAtCandidatesWhoseRoomIsUsedUp) {
   scene.fixed.emplace_back(mesh, moved(-1.25, 0.0, 0.0));
   BroadPhase phase(scene);
   BroadPhase::Work work;
-  phase.advance(moved(0, 0, 0), work);
+  EXPECT_TRUE(near_at(moved(0, 0, 0), phase, work).empty());
   ASSERT_EQ(phase.candidates().size(), 2u);
-  EXPECT_EQ(phase.candidates()[0].instance, 0u);
+  EXPECT_EQ(phase.candidates()[0].other, 1u);
   EXPECT_NEAR(phase.candidates()[0].room, 0.05, 1e-6);
   EXPECT_NEAR(phase.candidates()[1].room, 0.15, 1e-6);
-  EXPECT_EQ(phase.near_count(), 0u);
-  phase.advance(moved(0, 0.049, 0), work);
-  EXPECT_EQ(phase.near_count(), 0u);
-  phase.advance(moved(0, 0.051, 0), work);  // whatever the direction
-  EXPECT_EQ(phase.near_count(), 1u);
-  phase.advance(moved(0, 0.151, 0), work);
-  EXPECT_EQ(phase.near_count(), 2u);
+  EXPECT_TRUE(near_at(moved(0, 0.049, 0), phase, work).empty());
+  EXPECT_EQ(near_at(moved(0, 0.051, 0), phase, work).size(), 1u);  // whatever the direction
+  EXPECT_EQ(near_at(moved(0, 0.151, 0), phase, work).size(), 2u);
   EXPECT_EQ(work.queries, 1u);
   Pose turned;
   turned.rotation = Eigen::AngleAxisd(1.0, Vec3::UnitZ());
@@ -153,11 +151,8 @@ TEST(BroadPhase, FindsInstancesThatAreExactlyACutoffAway) {
     Scene scene{mesh, {{mesh, moved(offset + 1.25, 0.0, 0.0)}}, 0.25};
     BroadPhase phase(scene);
     BroadPhase::Work work;
-    phase.advance(moved(offset, 0.0, 0.0), work);
-    EXPECT_EQ(phase.near_count(), 1u) << offset;
-    std::vector<std::uint32_t> all;
-    phase.look_at_all(moved(offset, 0.0, 0.0), all);
-    EXPECT_EQ(all.size(), 1u) << offset;
+    EXPECT_EQ(near_at(moved(offset, 0.0, 0.0), phase, work).size(), 1u) << offset;
+    EXPECT_EQ(NearPairs(scene).within(contact_reach(scene), moved(offset, 0.0, 0.0)).size(), 1u) << offset;
   }
 }
 

@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/experiment/experiment.h>
-#include <lmdbench/lmd/near_frame.h>
 #include <lmdbench/methods/certified/certified.h>
 #include <lmdbench/motion/tum_file.h>
 #include <lmdbench/run/prepare.h>
+#include <lmdbench/scene/scene_search.h>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -18,8 +18,8 @@ namespace {
 
 template <bool Coherent, WideKernel Kernel>
 std::unique_ptr<Method> make_certified(const Scene& scene) {
-  return make_in_near_frame(scene, [](const Scene& near) {
-    return std::make_unique<Certified>(near, CertifiedOptions{.frame_coherence = Coherent}, Kernel);
+  return std::make_unique<SceneSearch>(scene, certified_method(), [](const Scene& of_pair) {
+    return std::make_unique<Certified>(of_pair, CertifiedOptions{.frame_coherence = Coherent}, Kernel);
   });
 }
 

@@ -134,7 +134,7 @@ class Kept : public Answers {
     BroadPhase::Work work;
     phase_.advance(X_WM, work);
     found.clear();
-    for (std::size_t i = 0; i < phase_.near_count(); ++i) found.push_back(phase_.candidates()[i].instance);
+    phase_.for_each_near(work, [&](const BroadPhase::Candidate& near) { found.push_back(near.other - 1); });
   }
 
  private:
@@ -313,10 +313,13 @@ SlackRow measure_slack(double slack, std::size_t instances, std::size_t frames, 
   const Input input = make_input(instances, frames, seed);
   SlackRow row{slack, 0.0, 0.0, std::numeric_limits<double>::infinity()};
   for (std::size_t pass = 0; pass < passes; ++pass) {
-    BroadPhase phase(input.scene, slack);
+    BroadPhase phase(std::make_shared<const Scene>(input.scene), {.slack = slack});
     BroadPhase::Work work;
     const double seconds = seconds_of([&] {
-      for (const Pose& pose : input.way) phase.advance(pose, work);
+      for (const Pose& pose : input.way) {
+        phase.advance(pose, work);
+        phase.for_each_near(work, [](const BroadPhase::Candidate&) {});
+      }
     });
     row.seconds = std::min(row.seconds, seconds / static_cast<double>(frames));
     row.queries = static_cast<double>(work.queries) / static_cast<double>(frames);

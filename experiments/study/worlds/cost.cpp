@@ -16,12 +16,6 @@
 namespace lmdbench::worlds {
 namespace {
 
-std::uint64_t counted(const Method& method, const WorkCounters& counters, const std::string& name) {
-  for (const CounterDescription& counter : method.description().counters)
-    if (counter.name == name) return counters.values[counter.index];
-  return 0;  // one instance in the world frame needs no broad phase
-}
-
 /// A world of some size along the path.
 struct Walker {
   Scene scene;
@@ -33,6 +27,12 @@ struct Walker {
 };
 
 }  // namespace
+
+std::uint64_t counted(const Method& method, const WorkCounters& counters, const std::string& name) {
+  for (const CounterDescription& counter : method.description().counters)
+    if (counter.name == name) return counters.values[counter.index];
+  return 0;
+}
 
 const char* to_string(Frames frames) {
   return frames == Frames::COHERENT       ? "along the path"
@@ -75,10 +75,10 @@ std::vector<CostRow> measure_frames(const std::shared_ptr<const Body>& moving,
             std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
         if (pass == 0) continue;
         walker.seconds[i] = std::min(walker.seconds[i], seconds);
-        const std::uint64_t touched = counted(*walker.method, counters, "instances_touched");
+        const std::uint64_t touched = counted(*walker.method, counters, "pairs_touched");
         walker.row.queries += static_cast<double>(counted(*walker.method, counters, "broad_phase_queries"));
         walker.row.touched += static_cast<double>(touched);
-        walker.row.searched += static_cast<double>(counted(*walker.method, counters, "instances_searched"));
+        walker.row.searched += static_cast<double>(counted(*walker.method, counters, "pairs_searched"));
         walker.row.node_pairs += static_cast<double>(counted(*walker.method, counters, "node_pairs"));
         walker.row.idle_frames += touched == 0 && pass == 1 ? 1 : 0;
       }

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <lmdbench/lmd/method.h>
 #include <lmdbench/lmd/scene.h>
 
 #include <cstddef>
@@ -10,6 +11,9 @@
 #include <vector>
 
 namespace lmdbench::worlds {
+
+/// What a method has counted under a name; 0 of a pair, which needs no broad phase.
+std::uint64_t counted(const Method& method, const WorkCounters& counters, const std::string& name);
 
 /// How a frame begins.
 enum class Frames : std::uint8_t {
@@ -32,8 +36,8 @@ struct CostRow {
   std::vector<double>
       seconds;  ///< One a frame with a contact of instance 0 alone: the least of the passes, wall clock.
   double queries = 0.0;         ///< Of the broad phase, a frame; as the following over all frames of a pass.
-  double touched = 0.0;         ///< Instances looked at, a frame.
-  double searched = 0.0;        ///< Instances whose meshes were searched, a frame.
+  double touched = 0.0;         ///< Pairs looked at, a frame.
+  double searched = 0.0;        ///< Pairs whose meshes were searched, a frame.
   double node_pairs = 0.0;      ///< A frame.
   std::size_t idle_frames = 0;  ///< Frames in which no instance was looked at.
   std::size_t frames = 0;       ///< Of a pass.

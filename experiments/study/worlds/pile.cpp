@@ -4,7 +4,9 @@
 #include <lmdbench/mesh/surface.h>
 #include <lmdbench/methods/registry.h>
 #include <lmdbench/scene/scatter.h>
+#include <lmdbench/scene/scene_search.h>
 
+#include <study/worlds/cost.h>
 #include <study/worlds/heap.h>
 #include <study/worlds/pile.h>
 #include <support/random.h>
@@ -15,6 +17,7 @@
 #include <limits>
 #include <memory>
 #include <numeric>
+#include <set>
 
 namespace lmdbench::worlds {
 namespace {
@@ -87,37 +90,43 @@ double seconds_since(std::chrono::steady_clock::time_point begin) {
 
 /// One pass over a pile; counters, which are the same in all passes, replace those of the last one.
 void run_pass(const std::shared_ptr<const Body>& sphere, const PileScript& script, const PileChoice& choice,
-              const MoverGroup::Tuning& tuning, PileRow& row) {
-  const MeshPair::Make make = method_maker("certified");
+              const BroadPhase::Tuning& tuning, PileRow& row) {
+  const MethodDescription& certified = method_description("certified");
+  const auto make = [&certified, options = complete_options(certified, {}, "")](const Scene& of_pair) {
+    return certified.make(of_pair, options);
+  };
   const double heap = heap_in_use();
-  MoverGroup group(std::vector<std::shared_ptr<const Body>>(row.movers, sphere), {}, choice.cutoff, make,
-                   tuning);
-  MoverContacts contacts;
-  MoverGroup::Work first, work;
-  std::vector<Pose> poses;
-  script.at(0, poses);
+  const auto poses = std::make_shared<std::vector<Pose>>();
+  script.at(0, *poses);
+  SceneSearch search({sphere, {}, choice.cutoff, std::vector(row.movers, sphere), 0, poses}, certified, make,
+                     tuning);
+  LmdSet lmds;
+  WorkCounters work;
   auto begin = std::chrono::steady_clock::now();
-  group.search(poses, contacts, first);
+  search.search(poses->front(), lmds, work);
   row.first_seconds = std::min(row.first_seconds, seconds_since(begin));
-  std::size_t lmds = 0;
+  work = {};
+  std::size_t all = 0;
   for (std::size_t frame = 0; frame < choice.frames; ++frame) {
-    script.at(frame + 1, poses);
+    script.at(frame + 1, *poses);
     begin = std::chrono::steady_clock::now();
-    group.search(poses, contacts, work);
+    search.search(poses->front(), lmds, work);
     row.seconds[frame] = std::min(row.seconds[frame], seconds_since(begin));
-    row.contact_pairs[frame] = contacts.pairs.size();
-    lmds += contacts.lmds.size();
+    std::set<std::int32_t> pairs;
+    for (const Lmd& lmd : lmds) pairs.insert(lmd.fixed_body);
+    row.contact_pairs[frame] = pairs.size();
+    all += lmds.size();
   }
   const auto a_frame = [&](std::uint64_t count) {
     return static_cast<double>(count) / static_cast<double>(choice.frames);
   };
-  row.lmds = a_frame(lmds);
-  row.touched = a_frame(work.pairs_touched);
-  row.searched = a_frame(work.pairs_searched);
-  row.anchored = a_frame(work.anchored);
-  row.node_pairs = a_frame(work.of_methods.values[0]);
-  row.candidates = group.candidate_count();
-  row.methods = group.method_count();
+  row.lmds = a_frame(all);
+  row.touched = a_frame(counted(search, work, "pairs_touched"));
+  row.searched = a_frame(counted(search, work, "pairs_searched"));
+  row.anchored = a_frame(counted(search, work, "broad_phase_queries"));
+  row.node_pairs = a_frame(counted(search, work, "node_pairs"));
+  row.candidates = search.candidate_count();
+  row.methods = search.method_count();
   row.bytes = heap_in_use() - heap;
 }
 
@@ -145,7 +154,7 @@ std::size_t PileRow::frames_above(double limit) const {
 }
 
 std::vector<PileRow> measure_piles(PileMotion motion, const PileChoice& choice,
-                                   const MoverGroup::Tuning& tuning) {
+                                   const BroadPhase::Tuning& tuning) {
   const auto sphere =
       std::make_shared<const Body>("sphere", build_surface(make_sphere(choice.radius, choice.subdivisions)));
   const auto& bounds = sphere->prepared<MeshBounds>();

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <lmdbench/scene/mover_group.h>
+#include <lmdbench/scene/broad_phase.h>
 
 #include <cstddef>
 #include <cstdint>
@@ -45,7 +45,7 @@ struct PileRow {
   double anchored = 0.0;  ///< Movers that left their slack.
   double node_pairs = 0.0;
   std::size_t candidates = 0, methods = 0;  ///< At the end.
-  double bytes = 0.0;                       ///< Of the heap that the group has at the end, meshes apart.
+  double bytes = 0.0;                       ///< Of the heap that the search has at the end, meshes apart.
 
   /// Of all frames together; NaN where there is no contact.
   double seconds_per_contact_pair() const;
@@ -54,6 +54,6 @@ struct PileRow {
 
 /// Runs a pile of every size, sizes in turns pass by pass.
 std::vector<PileRow> measure_piles(PileMotion motion, const PileChoice& choice,
-                                   const MoverGroup::Tuning& tuning = {});
+                                   const BroadPhase::Tuning& tuning = {});
 
 }  // namespace lmdbench::worlds

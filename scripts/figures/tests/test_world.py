@@ -33,7 +33,7 @@ def write(file, instances=True, lmds=True):
         path["position"] = np.array([[2.0, 1.0, 0.0], [2.5, 1.0, 0.0], [3.0, 1.0, 0.0]])
         path["orientation"] = np.tile([0.0, 0.0, 0.0, 1.0], (3, 1))
         method = h5.create_group("methods/certified")
-        method["counters/instances_touched"] = np.array([0, 2, 1])
+        method["counters/pairs_touched"] = np.array([0, 2, 1])
         if lmds:
             group = method.create_group("lmds")
             group["frame_offset"] = np.array([0, 0, 3, 4])
@@ -55,7 +55,7 @@ class WorldFigure(Scratch):
         self.assertEqual(found.frame_of_most(), 1)
         self.assertEqual(sorted(found.bodies(1)), [1, 1, 5])
         self.assertEqual(list(found.place(5)[1]), [10.0, 1.0, 0.0])
-        self.assertEqual(list(found.counters["instances_touched"]), [0, 2, 1])
+        self.assertEqual(list(found.counters["pairs_touched"]), [0, 2, 1])
         with self.assertRaises(ResultError):
             found.place(6)
 

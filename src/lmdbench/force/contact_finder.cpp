@@ -5,7 +5,6 @@
 #include <lmdbench/mesh/triangle_mesh.h>
 #include <lmdbench/scene/mesh_bounds.h>
 #include <lmdbench/scene/mesh_pair.h>
-#include <lmdbench/scene/mover_method.h>
 
 #include <algorithm>
 #include <map>

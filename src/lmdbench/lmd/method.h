@@ -11,8 +11,9 @@ namespace lmdbench {
 
 struct MethodDescription;
 
-/// One way to find the LMD set of a scene. A method owns its scratch memory and is used by one thread at a
-/// time; the bodies that it reads are immutable and shared.
+/// One way to find the LMD set of two bodies; scene/scene_search.h makes of it one over a scene. A method
+/// owns its scratch memory and is used by one thread at a time; the bodies that it reads are shared, and
+/// immutable but where they deform.
 class Method {
  public:
   virtual ~Method() = default;

@@ -83,14 +83,14 @@ struct MethodDescription {
   /// Whether a search looks at every pair of triangles, so that benchmarks time it only where asked to.
   bool brute_force = false;
 
-  /// Whether `search` keeps what it found of a pair of meshes for the next frame. Then each instance of a world that is near gets a
-  /// method of its own; else one serves all instances of a mesh.
+  /// Whether `search` keeps what it found of a pair of meshes for the next frame. Then each pair of a scene's objects that is near gets a
+  /// method of its own; else one serves all pairs of two meshes.
   bool frame_coherent = false;
 
   /// Whether `Method::find_critical` answers.
   bool finds_critical_pairs = false;
 
-  /// Whether an instance goes on where a body of its scene has deformed (Body::deform); others are made anew (remade_method.h).
+  /// Whether an instance goes on where a body of its scene has deformed (Body::deform); others are made anew (scene/mesh_pair.h).
   bool follows_deformation = false;
 
   /// The options, as "properties" of a draft-07 JSON Schema; each has a description and a default.
@@ -106,7 +106,7 @@ struct MethodDescription {
   /// Its first counters are what is wrong with its answers; the very first one, answers that were lost.
   static constexpr std::size_t MARKS = 8;
 
-  /// Makes an instance.
+  /// Makes an instance for two bodies (`Scene::is_pair`).
   /// @param options checked against `options`, with all defaults filled in
   std::function<std::unique_ptr<Method>(const Scene& scene, const nlohmann::json& options)> make;
 

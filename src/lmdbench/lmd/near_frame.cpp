@@ -34,75 +34,24 @@ std::shared_ptr<const Body> moved(const std::shared_ptr<const Body>& body, const
   return std::make_shared<const Body>(body->name(), std::move(surface));
 }
 
-void move_points(LmdSet& lmds, const Vec3& offset) {
-  for (Lmd& lmd : lmds) {
-    lmd.point_moving += offset;
-    lmd.point_fixed += offset;
-  }
-}
-
-/// A method that works in a near frame.
-class InNearFrame : public Method {
- public:
-  InNearFrame(NearFrame frame, std::unique_ptr<Method> method)
-      : frame_(std::move(frame)), method_(std::move(method)) {}
-
-  const MethodDescription& description() const override { return method_->description(); }
-  void search(const Pose& X_WM, LmdSet& lmds, WorkCounters& counters) override {
-    method_->search(frame_.to_near(X_WM), lmds, counters);
-    frame_.to_world(lmds);
-  }
-  void track(const Pose& X_WM, LmdSet& lmds, WorkCounters& counters) override {
-    frame_.to_near(lmds);
-    method_->track(frame_.to_near(X_WM), lmds, counters);
-    frame_.to_world(lmds);
-  }
-  void find_critical(const Pose& X_WM, CriticalSet& critical, WorkCounters& counters) override {
-    method_->find_critical(frame_.to_near(X_WM), critical, counters);
-    for (CriticalPair& pair : critical) {
-      pair.pair.point_moving += frame_.origin_W();
-      pair.pair.point_fixed += frame_.origin_W();
-    }
-  }
-
- private:
-  NearFrame frame_;
-  std::unique_ptr<Method> method_;
-};
-
 }  // namespace
 
-NearFrame::NearFrame(const Scene& scene) : scene_(scene) {
-  const Eigen::AlignedBox3d moving = box_of(scene.moving->surface().mesh);
-  Eigen::AlignedBox3d fixed;
-  for (const auto& body : scene.fixed) fixed.extend(box_of(body->surface().mesh));
-  origin_M_ = near_origin(moving, half_diagonal(moving));
-  origin_W_ = near_origin(fixed, half_diagonal(fixed) + half_diagonal(moving));
+NearFrame::NearFrame(const Scene& of_pair) : scene_(of_pair) {
+  std::shared_ptr<const Body>& fixed = scene_.fixed.front().body;
+  const Eigen::AlignedBox3d box_M = box_of(scene_.moving->surface().mesh),
+                            box_W = box_of(fixed->surface().mesh);
+  origin_M_ = near_origin(box_M, half_diagonal(box_M));
+  origin_W_ = near_origin(box_W, half_diagonal(box_W) + half_diagonal(box_M));
   differs_ = !origin_M_.isZero(0.0) || !origin_W_.isZero(0.0);
-  scene_.moving = moved(scene.moving, origin_M_);
-  for (FixedBody& body : scene_.fixed) body.body = moved(body.body, origin_W_);
+  scene_.moving = moved(scene_.moving, origin_M_);
+  fixed = moved(fixed, origin_W_);
 }
 
 Pose NearFrame::to_near(const Pose& X_WM) const {
+  if (!differs_) return X_WM;
   Pose near = X_WM;
   near.translation = (X_WM.translation - origin_W_) + X_WM.rotation * origin_M_;
   return near;
-}
-
-void NearFrame::to_world(LmdSet& lmds) const {
-  move_points(lmds, origin_W_);
-}
-
-void NearFrame::to_near(LmdSet& lmds) const {
-  move_points(lmds, -origin_W_);
-}
-
-std::unique_ptr<Method> make_in_near_frame(const Scene& scene,
-                                           const std::function<std::unique_ptr<Method>(const Scene&)>& make) {
-  NearFrame frame(scene);
-  if (!frame.differs()) return make(scene);
-  std::unique_ptr<Method> method = make(frame.scene());
-  return std::make_unique<InNearFrame>(std::move(frame), std::move(method));
 }
 
 }  // namespace lmdbench

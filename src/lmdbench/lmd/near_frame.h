@@ -2,11 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <lmdbench/lmd/method.h>
 #include <lmdbench/lmd/scene.h>
-
-#include <functional>
-#include <memory>
 
 namespace lmdbench {
 
@@ -25,19 +21,16 @@ inline constexpr double FAR_AWAY = 16.0;
 /// which moves the moving mesh as a whole by 1e-16 C and turns nothing.
 class NearFrame {
  public:
-  /// @pre no fixed mesh has a frame of its own (scene/world_method.h makes a scene of each pair)
-  explicit NearFrame(const Scene& scene);
+  /// @param of_pair `Scene::is_pair`
+  explicit NearFrame(const Scene& of_pair);
 
   /// False when no mesh is far from its frame's origin: then the scene is the one that was given.
   bool differs() const { return differs_; }
   const Scene& scene() const { return scene_; }
   Pose to_near(const Pose& X_WM) const;
-  /// Of the near world, in the world: what is to be added to points.
+  /// Of the near world, in the world: what is to be added to points. Distances and directions, which are accurate in the near frame,
+  /// stay, so that they are better than what the world's rounded points give.
   const Vec3& origin_W() const { return origin_W_; }
-  /// Moves the points of a set; distances and directions, which are accurate in the near frame, stay, so that
-  /// they are better than what the world's rounded points give.
-  void to_world(LmdSet& lmds) const;
-  void to_near(LmdSet& lmds) const;
 
  private:
   Scene scene_;
@@ -45,10 +38,5 @@ class NearFrame {
   Vec3 origin_W_ = Vec3::Zero();  ///< Of the near world, in the world.
   bool differs_ = false;
 };
-
-/// What `make` makes of the scene; where a mesh is far from its origin, of the scene in near frames, with poses
-/// and points moved there and back. Every method goes through this, so that all see the same meshes.
-std::unique_ptr<Method> make_in_near_frame(const Scene& scene,
-                                           const std::function<std::unique_ptr<Method>(const Scene&)>& make);
 
 }  // namespace lmdbench

@@ -2,12 +2,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <lmdbench/base/contract.h>
 #include <lmdbench/geometry/pose.h>
 #include <lmdbench/lmd/body.h>
 
 #include <algorithm>
+#include <compare>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <utility>
 #include <vector>
@@ -33,8 +36,8 @@ struct FixedBody {
   }
 };
 
-/// What a method works on: one moving body and the fixed ones, and what else moves. Its objects are numbered: what moves first, then what
-/// stands.
+/// Bodies in which LMDs are looked for: one moving body and the fixed ones, and what else moves. Its objects are numbered: what moves first,
+/// then what stands. Methods work on pairs (`is_pair`); scene/scene_search.h makes of them methods over a scene.
 struct Scene {
   std::shared_ptr<const Body> moving;
   std::vector<FixedBody> fixed;
@@ -60,16 +63,24 @@ struct Scene {
     return object == held ? X_WM : (*mover_poses)[object];
   }
 
-  /// Whether some fixed mesh is not in the world frame: then poses are composed for each of them (scene/world_method.h), and
+  /// Whether some fixed mesh is not in the world frame: then poses are composed for each of them (scene/mesh_pair.h), and
   /// whoever reads vertices has to place them.
   bool is_world() const {
     return std::any_of(fixed.begin(), fixed.end(), [](const FixedBody& body) { return body.is_placed(); });
+  }
+  /// Whether it is what methods work on: two bodies, of which one moves and the other is where its vertices are.
+  bool is_pair() const { return !several_move() && fixed.size() == 1 && !is_world(); }
+  /// Of a pair.
+  const Body& fixed_body() const {
+    LMDBENCH_EXPECTS(is_pair(), "several bodies for a method of two: scene/scene_search.h takes them apart");
+    return *fixed.front().body;
   }
 };
 
 /// Two objects of a scene, of which the first one moves and has the lower number.
 struct ObjectPair {
   std::uint32_t mover = 0, other = 0;
+  auto operator<=>(const ObjectPair&) const = default;
 
   /// `Lmd::fixed_body` of their LMDs: another number for each pair; where one mesh moves, which of the fixed ones.
   std::int32_t number(const Scene& scene) const {
@@ -80,6 +91,11 @@ struct ObjectPair {
     const auto all = static_cast<std::size_t>(number);
     return {static_cast<std::uint32_t>(all / scene.object_count()),
             static_cast<std::uint32_t>(all % scene.object_count())};
+  }
+  /// Whether every pair has one.
+  static bool have_numbers(const Scene& scene) {
+    return scene.object_count() <=
+           static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max()) / scene.mover_count();
   }
   /// The two alone, to be looked at in the frame of the second.
   Scene scene_of(const Scene& scene) const { return {scene.body(mover), {scene.body(other)}, scene.cutoff}; }

@@ -14,9 +14,8 @@ namespace lmdbench {
 /// The nearest points of a triangle pair as an LMD with stable feature ids; `direction` is left unset,
 /// because what a pair at distance 0 gets is the caller's decision (E12).
 /// @param pair distance in world coordinates; a is the moving triangle
-inline Lmd lmd_of_triangle_pair(const Surface& moving, const Surface& fixed, std::int32_t fixed_body,
-                                std::int32_t t_moving, std::int32_t t_fixed,
-                                const TrianglePairDistance& pair) {
+inline Lmd lmd_of_triangle_pair(const Surface& moving, const Surface& fixed, std::int32_t t_moving,
+                                std::int32_t t_fixed, const TrianglePairDistance& pair) {
   Lmd lmd;
   lmd.distance = std::sqrt(pair.squared_distance);
   lmd.point_moving = pair.point_a;
@@ -25,7 +24,6 @@ inline Lmd lmd_of_triangle_pair(const Surface& moving, const Surface& fixed, std
   lmd.feature_fixed = fixed.feature_of(t_fixed, pair.feature_b);
   lmd.triangle_moving = t_moving;
   lmd.triangle_fixed = t_fixed;
-  lmd.fixed_body = fixed_body;
   lmd.intersecting = pair.intersecting;
   return lmd;
 }

@@ -4,9 +4,8 @@
 #include <lmdbench/base/json_schema.h>
 #include <lmdbench/base/limits.h>
 #include <lmdbench/lmd/near_frame.h>
-#include <lmdbench/lmd/remade_method.h>
 #include <lmdbench/methods/registry.h>
-#include <lmdbench/scene/world_method.h>
+#include <lmdbench/scene/scene_search.h>
 
 #include <fmt/format.h>
 
@@ -100,26 +99,13 @@ Json complete_options(const MethodDescription& description, Json options, const 
 
 std::unique_ptr<Method> make_method(std::string_view name, const Scene& scene, const Json& options) {
   const MethodDescription& description = method_description(name);
-  const Json complete = complete_options(description, options, "options of " + description.name);
+  auto make = [&description,
+               complete = complete_options(description, options, "options of " + description.name)](
+                  const Scene& of_pair) { return description.make(of_pair, complete); };
   refuse_two_hubs(scene);
-  const auto make = [&description, complete](const Scene& of_scene) {
-    return make_in_world(of_scene, description,
-                         [&](const Scene& near) { return description.make(near, complete); });
-  };
-  // Among instances, or in a near frame, it would not see the bodies themselves.
-  const bool sees_bodies = !scene.several_move() && !scene.is_world() && !NearFrame(scene).differs();
-  if (description.follows_deformation && sees_bodies) return make(scene);
-  return std::make_unique<RemadeMethod>(scene, make);
-}
-
-std::function<std::unique_ptr<Method>(const Scene&)> method_maker(std::string_view name,
-                                                                  const Json& options) {
-  const MethodDescription& description = method_description(name);
-  const Json complete = complete_options(description, options, "options of " + description.name);
-  return [&description, complete](const Scene& scene) {
-    refuse_two_hubs(scene);
-    return description.make(scene, complete);
-  };
+  // What sees two bodies themselves and follows them has nothing to be brought anywhere, nor made anew.
+  if (scene.is_pair() && description.follows_deformation && !NearFrame(scene).differs()) return make(scene);
+  return std::make_unique<SceneSearch>(scene, description, std::move(make));
 }
 
 std::string methods_help() {

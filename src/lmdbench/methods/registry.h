@@ -51,17 +51,11 @@ std::size_t method_order(std::string_view name);
 nlohmann::json complete_options(const MethodDescription& description, nlohmann::json options,
                                 const std::string& file);
 
-/// Makes a method on a scene.
+/// Makes a method on a scene (scene/scene_search.h).
 /// @param options need not name those that keep their defaults
 /// @throws UsageError for an unknown name or option; InputError for two hubs that may meet (`Limit::VERTEX_PAIRS`)
 std::unique_ptr<Method> make_method(std::string_view name, const Scene& scene,
                                     const nlohmann::json& options = nlohmann::json::object());
-
-/// What makes a method on two meshes that are neither placed nor far from their origins, for those who place meshes themselves
-/// (scene/mover_group.h). Options are checked once.
-/// @throws UsageError as make_method; what it returns InputError
-std::function<std::unique_ptr<Method>(const Scene&)> method_maker(
-    std::string_view name, const nlohmann::json& options = nlohmann::json::object());
 
 /// For `--help`: a paragraph a method, with its options, their values and defaults.
 std::string methods_help();

@@ -82,11 +82,11 @@ ContactJudge::ContactJudge(std::shared_ptr<const Body> a, std::shared_ptr<const 
       tolerance_a_(POINT_TOLERANCE * bounding_box_diagonal(a_->surface().mesh)),
       tolerance_b_(POINT_TOLERANCE * bounding_box_diagonal(b_->surface().mesh)) {}
 
-void ContactJudge::judge(std::span<const lmdbench_contact> contacts, const RigidTransform& X_BA,
-                         std::int32_t fixed_body, LmdSet& lmds, WorkCounters& counters) const {
+void ContactJudge::judge(std::span<const lmdbench_contact> contacts, const RigidTransform& X_BA, LmdSet& lmds,
+                         WorkCounters& counters) const {
+  lmds.clear();
   const RigidTransform identity;
   const Side side_a{a_->surface(), tolerance_a_, X_BA}, side_b{b_->surface(), tolerance_b_, identity};
-  const auto first = static_cast<std::ptrdiff_t>(lmds.size());
   double last = 0.0;
   bool sorted = true;
   for (const lmdbench_contact& contact : contacts) {
@@ -108,7 +108,6 @@ void ContactJudge::judge(std::span<const lmdbench_contact> contacts, const Rigid
     lmd.triangle_fixed = contact.triangle_b;
     lmd.feature_moving = side_a.surface.feature_of(contact.triangle_a, on_a->part);
     lmd.feature_fixed = side_b.surface.feature_of(contact.triangle_b, on_b->part);
-    lmd.fixed_body = fixed_body;
     lmd.distance = (lmd.point_fixed - lmd.point_moving).norm();
     lmd.intersecting = lmd.distance == 0.0;
     if (lmd.distance > 0.0) lmd.direction = (lmd.point_fixed - lmd.point_moving) / lmd.distance;
@@ -122,11 +121,11 @@ void ContactJudge::judge(std::span<const lmdbench_contact> contacts, const Rigid
     return std::tuple(lmd.feature_moving, lmd.feature_fixed, lmd.distance, lmd.triangle_moving,
                       lmd.triangle_fixed);
   };
-  std::sort(lmds.begin() + first, lmds.end(), [&](const Lmd& x, const Lmd& y) { return key(x) < key(y); });
-  const auto end = std::unique(lmds.begin() + first, lmds.end(), same_feature_pair);
+  std::sort(lmds.begin(), lmds.end(), [&](const Lmd& x, const Lmd& y) { return key(x) < key(y); });
+  const auto end = std::unique(lmds.begin(), lmds.end(), same_feature_pair);
   counters[PluginMark::DUPLICATES] += static_cast<std::uint64_t>(std::distance(end, lmds.end()));
   lmds.erase(end, lmds.end());
-  std::sort(lmds.begin() + first, lmds.end(), lmd_less);
+  std::sort(lmds.begin(), lmds.end(), lmd_less);
 }
 
 }  // namespace lmdbench

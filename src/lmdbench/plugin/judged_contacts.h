@@ -42,11 +42,10 @@ class ContactJudge {
   ContactJudge(std::shared_ptr<const Body> a, std::shared_ptr<const Body> b);
 
   /// @param X_BA     pose of A in B's frame
-  /// @param fixed_body of the LMDs
-  /// @param lmds     is appended to, nearest first
+  /// @param lmds     receives them, nearest first
   /// @param counters is added to
-  void judge(std::span<const lmdbench_contact> contacts, const RigidTransform& X_BA, std::int32_t fixed_body,
-             LmdSet& lmds, WorkCounters& counters) const;
+  void judge(std::span<const lmdbench_contact> contacts, const RigidTransform& X_BA, LmdSet& lmds,
+             WorkCounters& counters) const;
 
  private:
   std::shared_ptr<const Body> a_, b_;

@@ -32,23 +32,21 @@ std::array<double, 12> rows_of(const RigidTransform& X) {
   return rows;
 }
 
-/// A plugin's method over a scene: one caller a fixed mesh.
+/// A plugin's method of two bodies.
 class PluginMethod : public Method {
  public:
-  PluginMethod(std::shared_ptr<const MethodDescription> description, Scene scene, std::uint32_t index,
-               PluginTrust trust, const Json& options)
-      : description_(std::move(description)), scene_(std::move(scene)) {
-    for (const FixedBody& fixed : scene_.fixed) {
-      PluginTask task{.file = description_->plugin,
-                      .method = index,
-                      .a = scene_.moving,
-                      .b = fixed.body,
-                      .cutoff = scene_.cutoff,
-                      .options = options.dump()};
-      judges_.emplace_back(scene_.moving, fixed.body);
-      callers_.push_back(trust == PluginTrust::TRUSTED ? make_direct_caller(std::move(task))
-                                                       : make_child_caller(std::move(task)));
-    }
+  /// @param of_pair `Scene::is_pair`
+  PluginMethod(std::shared_ptr<const MethodDescription> description, const Scene& of_pair,
+               std::uint32_t index, PluginTrust trust, const Json& options)
+      : description_(std::move(description)), judge_(of_pair.moving, of_pair.fixed.front().body) {
+    PluginTask task{.file = description_->plugin,
+                    .method = index,
+                    .a = of_pair.moving,
+                    .b = of_pair.fixed.front().body,
+                    .cutoff = of_pair.cutoff,
+                    .options = options.dump()};
+    caller_ = trust == PluginTrust::TRUSTED ? make_direct_caller(std::move(task))
+                                            : make_child_caller(std::move(task));
   }
 
   const MethodDescription& description() const override { return *description_; }
@@ -57,26 +55,23 @@ class PluginMethod : public Method {
     using Clock = std::chrono::steady_clock;
     const auto begin = Clock::now();
     double in_plugin = 0.0;
-    lmds.clear();
     const RigidTransform X(X_WM);
     const std::array<double, 12> X_BA = rows_of(X);
-    for (std::size_t i = 0; i < callers_.size(); ++i) {
-      const PluginAnswer answer = callers_[i]->search(X_BA.data());
-      if (!answer.reply) {
-        ++counters[PluginMark::LOST];
-        description_->faults->tell(answer.lost);
-        continue;
-      }
-      in_plugin += answer.reply->seconds;
+    const PluginAnswer answer = caller_->search(X_BA.data());
+    if (answer.reply) {
+      in_plugin = answer.reply->seconds;
       counters[PluginMark::TOO_MANY] += answer.too_many ? 1U : 0U;
       counters[PluginMark::FLOAT_MODE] += answer.reply->changed_float_mode;
       constexpr auto FIRST = static_cast<std::size_t>(PluginMark::FIRST_OF_ITS_OWN);
       for (std::size_t c = FIRST; c < description_->counters.size(); ++c)
         counters.values[c] += answer.reply->counters[c - FIRST];
-      judges_[i].judge(answer.contacts, X, static_cast<std::int32_t>(i), lmds, counters);
+      judge_.judge(answer.contacts, X, lmds, counters);
+      if (description_->promise == Promise::NEAREST_PAIR && lmds.size() > 1) lmds.resize(1);
+    } else {
+      lmds.clear();
+      ++counters[PluginMark::LOST];
+      description_->faults->tell(answer.lost);
     }
-    std::sort(lmds.begin(), lmds.end(), lmd_less);
-    if (description_->promise == Promise::NEAREST_PAIR && lmds.size() > 1) lmds.resize(1);
     // What a frame of the method costs is what passed in the plugin; bringing poses there and judging the answer is this program's.
     seconds_of_others() +=
         std::max(0.0, std::chrono::duration<double>(Clock::now() - begin).count() - in_plugin);
@@ -88,9 +83,8 @@ class PluginMethod : public Method {
 
  private:
   std::shared_ptr<const MethodDescription> description_;
-  Scene scene_;
-  std::vector<std::unique_ptr<PluginCaller>> callers_;
-  std::vector<ContactJudge> judges_;
+  ContactJudge judge_;
+  std::unique_ptr<PluginCaller> caller_;
 };
 
 /// Of the checks that the registry's own methods keep to by a test.

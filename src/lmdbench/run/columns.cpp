@@ -2,8 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/methods/registry.h>
 #include <lmdbench/run/columns.h>
-#include <lmdbench/scene/mover_method.h>
-#include <lmdbench/scene/world_method.h>
+#include <lmdbench/scene/scene_search.h>
 
 #include <fmt/format.h>
 
@@ -25,8 +24,9 @@ void add_counters(std::vector<Column<Row>>& columns, const std::string& group,
 }  // namespace
 
 MethodDescription described(const Experiment& experiment, const std::string& name) {
-  if (!experiment.movers.empty()) return among_movers(method_description(name));
-  return has_placed_meshes(experiment) ? in_world(method_description(name)) : method_description(name);
+  const bool is_pair =
+      experiment.movers.empty() && experiment.fixed.size() == 1 && !has_placed_meshes(experiment);
+  return is_pair ? method_description(name) : over_scene(method_description(name));
 }
 
 std::vector<Column<FrameRecord>> frame_columns(const MethodDescription& method, bool torque, bool indices) {

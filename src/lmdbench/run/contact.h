@@ -7,7 +7,7 @@
 #include <lmdbench/mesh/triangle_mesh.h>
 #include <lmdbench/run/scene_frames.h>
 #include <lmdbench/scene/broad_phase.h>
-#include <lmdbench/scene/mover_method.h>
+#include <lmdbench/scene/near_pairs.h>
 
 #include <algorithm>
 #include <cstdint>

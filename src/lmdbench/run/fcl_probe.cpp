@@ -3,6 +3,7 @@
 #include <lmdbench/base/build_info.h>
 #include <lmdbench/crosscheck/fcl_crosscheck.h>
 #include <lmdbench/experiment/rules.h>
+#include <lmdbench/lmd/method_description.h>
 #include <lmdbench/run/contact.h>
 #include <lmdbench/run/fcl_probe.h>
 #include <lmdbench/run/nearest_judge.h>

@@ -5,7 +5,6 @@
 #include <lmdbench/force/contact_finder.h>
 #include <lmdbench/phantom/virtual_phantom.h>
 #include <lmdbench/run/records.h>
-#include <lmdbench/scene/mover_method.h>
 
 #include <cstddef>
 #include <cstdint>

@@ -3,8 +3,8 @@
 #include <lmdbench/decision/intersection_polylines.h>
 #include <lmdbench/methods/certified/intersection_tracer.h>
 #include <lmdbench/run/probed_track.h>
-#include <lmdbench/scene/mesh_bounds.h>
-#include <lmdbench/scene/mover_method.h>
+#include <lmdbench/scene/mesh_pair.h>
+#include <lmdbench/scene/near_pairs.h>
 
 #include <fmt/format.h>
 
@@ -24,27 +24,20 @@ struct TracedLine {
   std::int64_t moving_body = 0;
 };
 
-/// Where two objects of a scene of any kind intersect: of instances and movers pair by pair, each in the frame of the second.
+/// Where objects of a scene of any kind intersect: pair by pair, each in the frame of the second.
 class SceneTracer {
  public:
   /// @param scene must outlive this
-  explicit SceneTracer(const Scene& scene) : scene_(scene), near_(scene) {
-    if (!scene.several_move() && !scene.is_world()) all_.emplace(scene);
-  }
+  explicit SceneTracer(const Scene& scene) : scene_(scene), near_(scene) {}
 
   const std::vector<TracedLine>& trace(const Pose& X_WM) {
     lines_.clear();
-    if (all_) {
-      for (const IntersectionPolyline& line : all_->trace(X_WM)) lines_.push_back({line});
-      return lines_;
-    }
     for (const auto& [bound, pair] : near_.within(0.0, X_WM)) {
-      const Pose& X_WB = scene_.pose(pair.other, X_WM);
-      const RigidTransform to_world(X_WB);
-      for (IntersectionPolyline line :
-           tracer_of(pair).trace(relative_pose(X_WB, scene_.pose(pair.mover, X_WM)))) {
+      const PlacedPair place = PlacedPair::of(scene_, pair, X_WM);
+      for (IntersectionPolyline line : tracer_of(pair).trace(place.X_FM)) {
         line.fixed_body = pair.number(scene_);
-        for (Vec3& point : line.points) point = to_world.point(point);
+        if (!place.is_world)
+          for (Vec3& point : line.points) point = place.X_WF.point(point);
         lines_.push_back({std::move(line)});
       }
     }
@@ -61,7 +54,6 @@ class SceneTracer {
 
   const Scene& scene_;
   NearPairs near_;
-  std::optional<IntersectionTracer> all_;  ///< Of fixed meshes that are not placed.
   std::map<std::pair<const Body*, const Body*>, std::unique_ptr<IntersectionTracer>> tracers_;
   std::vector<TracedLine> lines_;
 };

@@ -8,7 +8,6 @@
 #include <lmdbench/run/prepare_movers.h>
 #include <lmdbench/run/realtime_driver.h>
 #include <lmdbench/scene/mesh_bounds.h>
-#include <lmdbench/scene/mover_method.h>
 
 #include <fmt/format.h>
 
@@ -98,7 +97,7 @@ LoadedMovers load_movers(const Experiment& experiment, const Scene& scene, std::
   }
   Scene all = scene;
   all.movers.assign(loaded.movers.size(), scene.moving);
-  if (!pairs_have_numbers(all))
+  if (!ObjectPair::have_numbers(all))
     throw UsageError(experiment.file.string(), "/movers",
                      fmt::format("{} movers among {} objects that stand: more pairs than can be told apart",
                                  loaded.movers.size(), scene.fixed.size()),

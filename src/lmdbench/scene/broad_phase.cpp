@@ -2,33 +2,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/base/contract.h>
 #include <lmdbench/scene/broad_phase.h>
+#include <lmdbench/scene/near_pairs.h>
 #include <lmdbench/snch/minimum_distance.h>
 
 #include <algorithm>
+#include <iterator>
 #include <map>
-#include <tuple>
+#include <utility>
 
 namespace lmdbench {
-namespace {
-
-std::vector<Eigen::AlignedBox3d> boxes_of(const Scene& scene) {
-  std::vector<Eigen::AlignedBox3d> boxes;
-  boxes.reserve(scene.fixed.size());
-  const Body* last = nullptr;
-  const MeshBounds* bounds = nullptr;
-  for (const FixedBody& fixed : scene.fixed) {
-    if (fixed.body.get() != last) bounds = &fixed->prepared<MeshBounds>();
-    last = fixed.body.get();
-    boxes.push_back(bounds->placed(RigidTransform(fixed.X_WF)));
-  }
-  return boxes;
-}
-
-bool has_less_room(const BroadPhase::Candidate& a, const BroadPhase::Candidate& b) {
-  return std::tie(a.room, a.instance) < std::tie(b.room, b.instance);
-}
-
-}  // namespace
 
 double farthest_motion(const MeshBounds& bounds, const Pose& from, const Pose& to) {
   LMDBENCH_EXPECTS(bounds.radius >= 0.0, "bounds of a mesh that was never looked at");
@@ -41,122 +23,173 @@ double farthest_motion(const MeshBounds& bounds, const Pose& from, const Pose& t
   return way + 2.0 * bounds.radius * std::min(half_turn_sine, 1.0) + rounding;
 }
 
-BroadPhase::BroadPhase(const Scene& scene, double slack)
-    : moving_(scene.moving->prepared<MeshBounds>()),
-      moving_outline_(&scene.moving->prepared<MeshOutline>()),
-      slack_(slack * moving_.radius),
-      tree_(boxes_of(scene)) {
+BroadPhase::BroadPhase(std::shared_ptr<const Scene> scene, const Tuning& tuning)
+    : scene_(std::move(scene)), tuning_(tuning), movers_(scene_->mover_count()), grown_(movers_.size()) {
   std::map<const Body*, std::uint32_t> known;
-  mesh_.reserve(scene.fixed.size());
-  poses_.reserve(scene.fixed.size());
-  double known_fixed = 0.0;
-  for (const FixedBody& fixed : scene.fixed) {
-    const auto [place, is_new] =
-        known.try_emplace(fixed.body.get(), static_cast<std::uint32_t>(meshes_.size()));
+  mesh_.reserve(scene_->object_count());
+  for (std::size_t i = 0; i < scene_->object_count(); ++i) {
+    const std::shared_ptr<const Body>& body = scene_->body(i);
+    const auto [place, is_new] = known.try_emplace(body.get(), static_cast<std::uint32_t>(meshes_.size()));
     if (is_new) {
-      meshes_.push_back(fixed.body);
-      bounds_.push_back(&fixed->prepared<MeshBounds>());
-      outlines_.push_back(&fixed->prepared<MeshOutline>());
-      known_fixed = std::max(known_fixed, bounds_.back()->known);
+      meshes_.push_back({body, &body->prepared<MeshBounds>(), &body->prepared<MeshOutline>()});
+      deformations_ += body->deformations();
     }
     mesh_.push_back(place->second);
-    poses_.push_back(fixed.X_WF);
   }
-  reach_ = scene.cutoff + 2.0 * (moving_.known + known_fixed);
-  LMDBENCH_ENSURES(mesh_.size() == poses_.size() && bounds_.size() == meshes_.size(),
-                   "parallel arrays of unlike lengths");
-  LMDBENCH_EXPECTS(scene.cutoff >= 0.0 && slack_ >= 0.0,
+  begin();
+}
+
+void BroadPhase::begin() {
+  reach_ = contact_reach(*scene_);
+  LMDBENCH_EXPECTS(scene_->cutoff >= 0.0 && tuning_.slack >= 0.0,
                    "a cutoff or slack that is negative or not a number");
+  const auto mover_count = static_cast<std::uint32_t>(movers_.size());
+  for (std::uint32_t i = 0; i < mover_count; ++i) movers_[i].slack = tuning_.slack * bounds_of(i).radius;
+  has_anchors_ = false;
+  moving_tree_.reset();
+  std::vector<Eigen::AlignedBox3d> boxes;
+  boxes.reserve(scene_->fixed.size());
+  for (std::uint32_t i = mover_count; i < mesh_.size(); ++i) boxes.push_back(box_of(i));
+  standing_tree_.emplace(boxes);
 }
 
-double BroadPhase::room_of(std::uint32_t instance, const RigidTransform& X_WM,
-                           const Eigen::AlignedBox3d& box) const {
-  LMDBENCH_EXPECTS(instance < mesh_.size(), "an instance of another scene");
-  const MeshBounds& bounds = *bounds_[mesh_[instance]];
-  const RigidTransform X_WF(poses_[instance]);
-  const double between_spheres =
-      (X_WM.point(moving_.centre) - X_WF.point(bounds.centre)).norm() - moving_.radius - bounds.radius;
-  const double between_boxes = box.exteriorDistance(bounds.placed(X_WF));
+void BroadPhase::follow_deformation() {
+  std::uint64_t sum = 0;
+  for (const Mesh& mesh : meshes_) sum += mesh.body->deformations();
+  if (sum == deformations_) return;
+  deformations_ = sum;
+  begin();
+}
+
+const Pose& BroadPhase::anchor_of(std::uint32_t object) const {
+  return object < movers_.size() ? movers_[object].anchor : scene_->fixed[object - movers_.size()].X_WF;
+}
+
+Eigen::AlignedBox3d BroadPhase::box_of(std::uint32_t object) const {
+  return object < movers_.size() ? movers_[object].box
+                                 : bounds_of(object).placed(RigidTransform(anchor_of(object)));
+}
+
+double BroadPhase::rounding_of(std::uint32_t a, std::uint32_t b) const {
   // Also for the pose in which the pair is looked at, which is rounded otherwise.
-  const double rounding = 4.0 * PLACING_ROUNDING * (moving_.coordinates(X_WM) + bounds.coordinates(X_WF));
-  return std::max(between_spheres, between_boxes) - rounding - reach_;
+  return 4.0 * PLACING_ROUNDING *
+         (bounds_of(a).coordinates(RigidTransform(anchor_of(a))) +
+          bounds_of(b).coordinates(RigidTransform(anchor_of(b))));
 }
 
-double BroadPhase::room_by_outline(std::uint32_t instance) const {
-  LMDBENCH_EXPECTS(has_asked_ && instance < mesh_.size(), "candidates of before the first question");
-  const Pose& X_WF = poses_[instance];
-  const std::size_t mesh = mesh_[instance];
-  const RigidTransform X_FM(relative_pose(X_WF, asked_at_));
-  const double rounding =
-      4.0 * PLACING_ROUNDING *
-      (moving_.coordinates(RigidTransform(asked_at_)) + bounds_[mesh]->coordinates(RigidTransform(X_WF)));
-  return outline_distance(*moving_outline_, *outlines_[mesh], X_FM, reach_) - rounding - reach_;
+double BroadPhase::room_of(std::uint32_t a, std::uint32_t b) const {
+  LMDBENCH_EXPECTS(a < mesh_.size() && b < mesh_.size(), "an object of another scene");
+  const double between_spheres = (RigidTransform(anchor_of(a)).point(bounds_of(a).centre) -
+                                  RigidTransform(anchor_of(b)).point(bounds_of(b).centre))
+                                     .norm() -
+                                 bounds_of(a).radius - bounds_of(b).radius;
+  const double between_boxes = box_of(a).exteriorDistance(box_of(b));
+  return std::max(between_spheres, between_boxes) - rounding_of(a, b) - reach_;
 }
 
-void BroadPhase::ask(const Pose& X_WM, Work& work) {
-  const RigidTransform transform(X_WM);
-  const Eigen::AlignedBox3d box = moving_.placed(transform);
-  const Vec3 margin = Vec3::Constant((reach_ + slack_) * (1.0 + PLACING_ROUNDING) +
-                                     8.0 * PLACING_ROUNDING * moving_.coordinates(transform));
-  tree_.touching({box.min() - margin, box.max() + margin}, found_);
-  candidates_.clear();
-  for (const std::uint32_t instance : found_) {
-    const double room = room_of(instance, transform, box);
-    if (room <= slack_) candidates_.push_back({instance, std::max(room, 0.0), false});
-  }
-  std::sort(candidates_.begin(), candidates_.end(), has_less_room);
-  asked_at_ = X_WM;
-  has_asked_ = true;
-  near_count_ = 0;
-  ++work.queries;
-  work.touched += found_.size();
+double BroadPhase::room_by_outline(std::uint32_t a, std::uint32_t b) const {
+  const RigidTransform X_FM(relative_pose(anchor_of(b), anchor_of(a)));
+  return outline_distance(*mesh_of(a).outline, *mesh_of(b).outline, X_FM, reach_) - rounding_of(a, b) -
+         reach_;
 }
 
-bool BroadPhase::advance(const Pose& X_WM, Work& work) {
-  double motion = has_asked_ ? farthest_motion(moving_, asked_at_, X_WM) : 0.0;
-  const bool asks = !has_asked_ || !(motion <= slack_);
-  if (asks) {
-    ask(X_WM, work);
-    motion = 0.0;
-  }
-  near_count_ = 0;
-  while (near_count_ < candidates_.size() && candidates_[near_count_].room <= motion) {
-    Candidate candidate = candidates_[near_count_];
+Eigen::AlignedBox3d BroadPhase::grown_box(std::uint32_t mover, double more) const {
+  const Mover& one = movers_[mover];
+  const Vec3 margin =
+      Vec3::Constant((more + one.slack) * (1.0 + PLACING_ROUNDING) +
+                     8.0 * PLACING_ROUNDING * bounds_of(mover).coordinates(RigidTransform(one.anchor)));
+  return {one.box.min() - margin, one.box.max() + margin};
+}
+
+void BroadPhase::find_candidates(std::uint32_t mover, Work& work) {
+  LMDBENCH_EXPECTS(mover < movers_.size(), "an object that stands asked as a mover");
+  const auto look_at = [&](std::uint32_t object) {
     ++work.touched;
-    if (candidate.by_outline) {
-      ++near_count_;
-      continue;
+    const double room = room_of(mover, object);
+    if (room > slack_of(mover) + slack_of(object)) return;
+    found_.push_back({{std::min(mover, object), std::max(mover, object)}, std::max(room, 0.0)});
+  };
+  if (moving_tree_) {
+    moving_tree_->touching(grown_[mover], touching_);
+    for (const std::uint32_t other : touching_) {
+      // Of two that are anchored in this frame the first one finds the second.
+      if (other == mover || (is_stale(other) && other < mover)) continue;
+      look_at(other);
     }
-    candidate.by_outline = true;
-    candidate.room = std::max(candidate.room, room_by_outline(candidate.instance));
-    // To its new place; those between move forward.
-    auto place = candidates_.begin() + static_cast<std::ptrdiff_t>(near_count_);
-    for (; place + 1 != candidates_.end() && has_less_room(place[1], candidate); ++place) *place = place[1];
-    *place = candidate;
   }
-  return asks;
+  standing_tree_->touching(grown_box(mover, reach_), touching_);
+  for (const std::uint32_t place : touching_) look_at(static_cast<std::uint32_t>(movers_.size()) + place);
+}
+
+void BroadPhase::anchor(const Pose& X_WM, Work& work) {
+  const bool packs = !moving_tree_ || static_cast<double>(stale_.size()) >
+                                          tuning_.pack_share * static_cast<double>(movers_.size());
+  for (const std::uint32_t i : stale_) {
+    Mover& mover = movers_[i];
+    mover.anchor = scene_->pose(i, X_WM);
+    mover.motion = 0.0;
+    mover.box = bounds_of(i).placed(RigidTransform(mover.anchor));
+    const Eigen::AlignedBox3d before = grown_[i];
+    grown_[i] = grown_box(i, 0.5 * reach_);
+    if (!packs) moving_tree_->move(i, before, grown_[i]);
+  }
+  if (packs && movers_.size() > 1) moving_tree_.emplace(grown_);
+  has_anchors_ = true;
+  work.queries += stale_.size();
+  found_.clear();
+  for (const std::uint32_t i : stale_) find_candidates(i, work);
+  std::ranges::sort(found_, [](const Candidate& a, const Candidate& b) { return a < b; });
+  merge_found();
+}
+
+void BroadPhase::merge_found() {
+  merged_.clear();
+  auto next = found_.begin();
+  for (Candidate& kept : candidates_) {
+    for (; next != found_.end() && *next < kept; ++next) merged_.push_back(std::move(*next));
+    if (!is_stale(kept.mover) && !is_stale(kept.other)) {
+      merged_.push_back(std::move(kept));
+    } else if (next != found_.end() && !(kept < *next)) {  // the same pair
+      next->method = std::move(kept.method);
+    } else if (kept.method) {
+      dropped_.push_back(std::move(kept));
+    }
+  }
+  std::move(next, found_.end(), std::back_inserter(merged_));
+  std::swap(candidates_, merged_);
+}
+
+void BroadPhase::advance(const Pose& X_WM, Work& work) {
+  follow_deformation();
+  stale_.clear();
+  for (std::uint32_t i = 0; i < movers_.size(); ++i) {
+    Mover& mover = movers_[i];
+    if (has_anchors_) mover.motion = farthest_motion(bounds_of(i), mover.anchor, scene_->pose(i, X_WM));
+    mover.is_stale = !has_anchors_ || !(mover.motion <= mover.slack);
+    if (mover.is_stale) stale_.push_back(i);
+  }
+  if (!stale_.empty()) anchor(X_WM, work);
+}
+
+bool BroadPhase::is_near(Candidate& candidate, Work& work) const {
+  const double used = motion_of(candidate.mover) + motion_of(candidate.other);
+  if (candidate.room > used) return false;
+  ++work.touched;
+  if (!candidate.by_outline) {
+    candidate.by_outline = true;
+    candidate.room = std::max(candidate.room, room_by_outline(candidate.mover, candidate.other));
+  }
+  return candidate.room <= used;
 }
 
 void BroadPhase::by_distance(const Pose& X_WM,
                              const std::function<bool(std::uint32_t instance, double bound)>& visit) const {
   const RigidTransform transform(X_WM);
-  const double radius = moving_.radius + 8.0 * PLACING_ROUNDING * moving_.coordinates(transform);
-  tree_.by_distance(transform.point(moving_.centre), [&](std::uint32_t instance, double bound) {
+  const auto& moving = scene_->moving->prepared<MeshBounds>();
+  const double radius = moving.radius + 8.0 * PLACING_ROUNDING * moving.coordinates(transform);
+  standing_tree_->by_distance(transform.point(moving.centre), [&](std::uint32_t instance, double bound) {
     return visit(instance, std::max(0.0, bound - radius));
   });
-}
-
-void BroadPhase::look_at_all(const Pose& X_WM, std::vector<std::uint32_t>& near) const {
-  near.clear();
-  const Vec3 centre = RigidTransform(X_WM).point(moving_.centre);
-  for (std::uint32_t i = 0; i < size(); ++i) {
-    const MeshBounds& bounds = *bounds_[mesh_[i]];
-    const double distance = (poses_[i].translation + poses_[i].rotation * bounds.centre - centre).norm();
-    const double rounding = 8.0 * PLACING_ROUNDING *
-                            (centre.norm() + poses_[i].translation.norm() + bounds.centre.norm() +
-                             bounds.radius + moving_.radius);
-    if (distance - rounding <= reach_ + moving_.radius + bounds.radius) near.push_back(i);
-  }
 }
 
 NearestInstance nearest_instance(const Scene& scene, const BroadPhase& phase, const Pose& X_WM,
@@ -165,10 +198,10 @@ NearestInstance nearest_instance(const Scene& scene, const BroadPhase& phase, co
   nearest.distance = bound;
   phase.by_distance(X_WM, [&](std::uint32_t instance, double at_least) {
     if (at_least > nearest.distance) return false;
-    const Body& fixed = *scene.fixed[instance];
-    const NearestPair pair = nearest_pair(scene.moving->surface(), scene.moving->prepared<Hierarchy>(),
-                                          fixed.surface(), fixed.prepared<Hierarchy>(),
-                                          relative_pose(phase.pose_of(instance), X_WM), nearest.distance);
+    const FixedBody& fixed = scene.fixed[instance];
+    const NearestPair pair =
+        nearest_pair(scene.moving->surface(), scene.moving->prepared<Hierarchy>(), fixed->surface(),
+                     fixed->prepared<Hierarchy>(), relative_pose(fixed.X_WF, X_WM), nearest.distance);
     if (pair.triangle_moving < 0 || !(pair.distance <= nearest.distance)) return true;
     const auto index = static_cast<std::int32_t>(instance);
     if (nearest.instance < 0 || pair.distance < nearest.distance || index < nearest.instance)

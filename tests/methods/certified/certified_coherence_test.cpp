@@ -23,7 +23,6 @@ namespace lmdbench {
 namespace {
 
 using testing::grazing_pose;
-using testing::make_body;
 using testing::make_scene;
 using testing::random_direction;
 using testing::uniform;
@@ -140,15 +139,6 @@ TEST(CertifiedCoherence, FindsTheTruthWhereCoplanarFacesComeToTouch) {
     poses.push_back(pose);
   }
   expect_truth_along(scene, 0.02, poses);
-}
-
-TEST(CertifiedCoherence, FindsTheTruthWithSeveralFixedBodies) {
-  Scene scene = make_scene(make_blob(1.0, 0.3, 2), make_box({0.5, 2.0, 2.0}), 0.0);
-  scene.fixed.push_back(make_body("other", translated(make_torus(1.0, 0.3, 20, 10), {0.0, 2.2, 0.4})));
-  std::mt19937_64 random(6);
-  Pose pose;
-  pose.translation = {1.3, 1.0, 0.0};
-  expect_truth_along(scene, 0.3, swing(pose, 2.0, 0.002, 300, random));
 }
 
 TEST(CertifiedCoherence, AJumpLeavesNoWorkBehind) {

@@ -19,7 +19,6 @@ namespace lmdbench {
 namespace {
 
 using testing::grazing_pose;
-using testing::make_body;
 using testing::make_scene;
 using testing::moved;
 
@@ -267,20 +266,6 @@ TEST(Certified, FindsTheTruthBesideEdgesAsShortAsRounding) {
     }
   }
   EXPECT_GT(comparison.lmds(), 800u);
-}
-
-TEST(Certified, FindsTheTruthWithSeveralFixedBodies) {
-  Scene scene = make_scene(make_blob(1.0, 0.3, 2), make_box({0.5, 2.0, 2.0}), 0.0);
-  scene.fixed.push_back(make_body("other", translated(make_torus(1.0, 0.3, 20, 10), {0.0, 2.2, 0.4})));
-  scene.fixed.push_back(make_body("far", translated(make_box({1.0, 1.0, 1.0}), {50.0, 0.0, 0.0})));
-  std::mt19937_64 random(14);
-  KernelComparison comparison;
-  for (int i = 0; i < 20; ++i) {
-    Pose pose = moved(1.2, 1.0, 0.0);
-    pose.rotation = testing::random_rotation(random);
-    comparison.check(scene, pose, 0.3);
-  }
-  EXPECT_GT(comparison.lmds(), 20u);
 }
 
 TEST(Certified, FindsEverythingWithoutCutoff) {

@@ -323,7 +323,7 @@ LmdSet track_without_memory(const Scene& scene, const Pose& pose, LmdSet lmds, b
     const auto evaluate = [&](std::int32_t a, std::int32_t b) {
       const auto [entry, is_new] = cache.try_emplace({a, b});
       if (is_new)
-        entry->second = {lmd_of_triangle_pair(moving, fixed, 0, a, b,
+        entry->second = {lmd_of_triangle_pair(moving, fixed, a, b,
                                               triangle_distance(X_WM.triangle(moving.mesh.triangle(a)),
                                                                 fixed.mesh.triangle(b))),
                          number};

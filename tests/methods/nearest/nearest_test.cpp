@@ -90,24 +90,6 @@ TEST(Nearest, IsTheNearestOfTheTrueSet) {
   }
 }
 
-TEST(Nearest, TakesTheNearerOfTwoFixedMeshes) {
-  Scene scene = corner_over_plate(0.2);
-  TriangleMesh above = make_box({1.0, 1.0, 0.1}, 1);
-  for (Vec3& vertex : above.vertices) vertex.z() += 0.6;
-  scene.fixed.push_back(testing::make_body("above", std::move(above)));
-  Nearest nearest(scene);
-  WorkCounters counters;
-  LmdSet lmds;
-  nearest.search(on_corner(0.01), lmds, counters);
-  ASSERT_EQ(lmds.size(), 1u);
-  EXPECT_EQ(lmds[0].fixed_body, 0);
-  nearest.search(on_corner(0.14), lmds, counters);
-  ASSERT_EQ(lmds.size(), 1u);
-  EXPECT_EQ(lmds[0].fixed_body, 1) << "the opposite corner is 0.0136 m below the upper plate";
-  EXPECT_EQ(counters[Nearest::Counter::FCL_QUERIES], 4u);
-  EXPECT_EQ(counters[Nearest::Counter::TRIANGLE_DISTANCES], 2u);
-}
-
 /// A centimetre given in metres: without the scaling FCL overlooks faces and reports contact.
 TEST(Nearest, SmallMeshesAreNoContact) {
   const Scene scene = testing::make_scene(make_blob(0.0005, 0.1, 4), make_blob(0.0005, 0.1, 4), 0.0001);

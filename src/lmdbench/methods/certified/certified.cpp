@@ -114,33 +114,30 @@ struct Certified::Frame {
   }
 };
 
-Certified::Certified(Scene scene, const CertifiedOptions& options, WideKernel kernel)
-    : Certified(std::move(scene), options, kernel, false) {}
+Certified::Certified(Scene of_pair, const CertifiedOptions& options, WideKernel kernel)
+    : Certified(std::move(of_pair), options, kernel, false) {}
 
-Certified::Certified(Scene scene, const CertifiedOptions& options, WideKernel kernel, bool with_critical)
-    : scene_(std::move(scene)),
+Certified::Certified(Scene of_pair, const CertifiedOptions& options, WideKernel kernel, bool with_critical)
+    : scene_(std::move(of_pair)),
       hierarchy_moving_(with_critical ? scene_.moving->prepared<SignedHierarchy>().hierarchy
                                       : scene_.moving->prepared<WideHierarchy>()),
       shape_moving_(scene_.moving->prepared<ShapeComplex>()),
       signs_moving_(with_critical ? &scene_.moving->prepared<SignedFeatures>() : nullptr),
       options_(options),
+      fixed_{scene_.fixed_body().surface(),
+             scene_.fixed_body().prepared<ShapeComplex>(),
+             with_critical ? scene_.fixed_body().prepared<SignedHierarchy>().hierarchy
+                           : scene_.fixed_body().prepared<WideHierarchy>(),
+             with_critical ? &scene_.fixed_body().prepared<SignedFeatures>() : nullptr,
+             {},
+             {}},
       coherent_(options.frame_coherence),
       target_(options.kernel),
       kernel_(kernel) {
   const UseVectorTarget refused_here_if_not_available(target_);
-  double extent = hierarchy_moving_.radius;
-  for (const auto& body : scene_.fixed) {
-    fixed_.push_back(
-        {body->surface(),
-         body->prepared<ShapeComplex>(),
-         with_critical ? body->prepared<SignedHierarchy>().hierarchy : body->prepared<WideHierarchy>(),
-         with_critical ? &body->prepared<SignedFeatures>() : nullptr,
-         {},
-         {}});
-    extent = std::max(extent, fixed_.back().hierarchy.radius);
-  }
   // Without a cutoff that means something there is nothing to save, and lever arms would be without bound.
-  coherent_ = coherent_ && scene_.cutoff <= 10.0 * extent;
+  coherent_ =
+      coherent_ && scene_.cutoff <= 10.0 * std::max(hierarchy_moving_.radius, fixed_.hierarchy.radius);
 }
 
 /// Brings the forecast to a frame.
@@ -166,10 +163,9 @@ void Certified::follow_deformations() {
   if (hierarchy_moving_.changes.frame > seen_frame_) {
     seen_frame_ = hierarchy_moving_.changes.now;
     has_last_ = false;
-    for (FixedBody& body : fixed_) body.front.clear();
+    fixed_.front.clear();
   }
-  for (FixedBody& body : fixed_)
-    if (body.hierarchy.changes.frame > body.seen_fixed) body.front.clear();
+  if (fixed_.hierarchy.changes.frame > fixed_.seen_fixed) fixed_.front.clear();
 }
 
 void Certified::enumerate_from_scratch(Frame& frame) {
@@ -189,20 +185,20 @@ void Certified::enumerate_from_scratch(Frame& frame) {
   touching_.decide(frame.touching, scratch.touch_pairs);
 }
 
-void Certified::enumerate_coherently(Frame& frame, FixedBody& body) {
-  TraversalFront& front = body.front;
-  if (frame.longest != body.reach) front.clear();
-  front.follow(frame.moving, body.seen_moving, frame.fixed, body.seen_fixed, motion_);
-  body.reach = frame.longest;
-  body.seen_moving = frame.moving.changes.now;
-  body.seen_fixed = frame.fixed.changes.now;
+void Certified::enumerate_coherently(Frame& frame) {
+  TraversalFront& front = fixed_.front;
+  if (frame.longest != fixed_.reach) front.clear();
+  front.follow(frame.moving, fixed_.seen_moving, frame.fixed, fixed_.seen_fixed, motion_);
+  fixed_.reach = frame.longest;
+  fixed_.seen_moving = frame.moving.changes.now;
+  fixed_.seen_fixed = frame.fixed.changes.now;
   if (front.empty()) {
     front.start(frame.moving, frame.fixed, frame.query, motion_, frame.pair.moving.X_WS, frame.longest,
                 frame.work);
   } else {
     front.advance(frame.moving, frame.fixed, frame.query, motion_, frame.pair.moving.X_WS, frame.longest,
                   frame.work);
-    body.policy.note(frame.work.node_tests, front.test_count());
+    fixed_.policy.note(frame.work.node_tests, front.test_count());
   }
   front.collect_due(motion_);
   front.for_each_due(
@@ -232,62 +228,52 @@ void Certified::find(const Pose& X_WM, WorkCounters& counters, Join&& join) {
   intersections_.clear();
   crossing_pairs_.clear();
   follow_deformations();
-  double coordinates =
-      transform.point(hierarchy_moving_.origin).cwiseAbs().maxCoeff() + hierarchy_moving_.radius;
-  double where_anything_is_near = 0.0;
-  for (const FixedBody& body : fixed_) {
-    const double of_fixed = body.hierarchy.origin.cwiseAbs().maxCoeff() + body.hierarchy.radius;
-    coordinates = std::max(coordinates, of_fixed);
-    where_anything_is_near =
-        std::max(where_anything_is_near, of_fixed + 2.0 * hierarchy_moving_.radius + scene_.cutoff);
-  }
+  const double of_fixed = fixed_.hierarchy.origin.cwiseAbs().maxCoeff() + fixed_.hierarchy.radius;
+  const double coordinates = std::max(
+      transform.point(hierarchy_moving_.origin).cwiseAbs().maxCoeff() + hierarchy_moving_.radius, of_fixed);
+  const double where_anything_is_near = of_fixed + 2.0 * hierarchy_moving_.radius + scene_.cutoff;
   // The same wherever something can be found, so that what was kept with it stays valid.
   const double touch =
       RELATIVE_TOUCH * std::exp2(std::ceil(std::log2(std::max(coordinates, where_anything_is_near))));
   const bool keep = follow_motion(transform, touch);
   const ShapeSide moving{scene_.moving->surface(), shape_moving_, transform, true};
-  for (std::size_t i = 0; i < fixed_.size(); ++i) {
-    FixedBody& body = fixed_[i];
-    const ShapeSide fixed{body.surface, body.shape, identity, false};
-    const ShapePair pair{moving, fixed,
-                         ContactTolerance::of(moving.surface, moving.shape, fixed.surface, fixed.shape,
-                                              transform, scene_.cutoff)};
-    const double reach = kept_reach(pair.tolerance, hierarchy_moving_, body.hierarchy);
-    const PairFilter filter{pair, reach, touch, FILTER_MARGIN, RELATIVE_TINY * coordinates};
-    const WideQuery query(hierarchy_moving_, body.hierarchy, transform, reach, touch);
-    contacts_.clear();
-    std::optional<SignedPair> signs;
-    if (signs_moving_ != nullptr) signs.emplace(pair, *signs_moving_, *body.signs);
-    const bool keeps = keep && query.possible && body.policy.keep();
-    Frame frame{
-        hierarchy_moving_,
-        body.hierarchy,
-        pair,
-        filter,
-        query,
-        std::max(reach, touch),
-        {pair, static_cast<std::int32_t>(i), touch, keeps, contacts_, intersections_, crossing_pairs_},
-        contacts_,
-        counters,
-        signs ? &*signs : nullptr};
-    if (keeps) {
-      enumerate_coherently(frame, body);
-    } else {
-      body.front.clear();
-      enumerate_from_scratch(frame);
-    }
-    add_traversal<Counter>(counters, frame.work);
-    counters[Counter::LEAF_PAIRS] += frame.touching.triangle_pairs;
-    counters[Counter::TRIANGLE_DISTANCES] += frame.touching.triangle_distances;
-    join(pair, i);
+  const ShapeSide fixed{fixed_.surface, fixed_.shape, identity, false};
+  const ShapePair pair{moving, fixed,
+                       ContactTolerance::of(moving.surface, moving.shape, fixed.surface, fixed.shape,
+                                            transform, scene_.cutoff)};
+  const double reach = kept_reach(pair.tolerance, hierarchy_moving_, fixed_.hierarchy);
+  const PairFilter filter{pair, reach, touch, FILTER_MARGIN, RELATIVE_TINY * coordinates};
+  const WideQuery query(hierarchy_moving_, fixed_.hierarchy, transform, reach, touch);
+  contacts_.clear();
+  std::optional<SignedPair> signs;
+  if (signs_moving_ != nullptr) signs.emplace(pair, *signs_moving_, *fixed_.signs);
+  const bool keeps = keep && query.possible && fixed_.policy.keep();
+  Frame frame{hierarchy_moving_,
+              fixed_.hierarchy,
+              pair,
+              filter,
+              query,
+              std::max(reach, touch),
+              {pair, 0, touch, keeps, contacts_, intersections_, crossing_pairs_},
+              contacts_,
+              counters,
+              signs ? &*signs : nullptr};
+  if (keeps) {
+    enumerate_coherently(frame);
+  } else {
+    fixed_.front.clear();
+    enumerate_from_scratch(frame);
   }
+  add_traversal<Counter>(counters, frame.work);
+  counters[Counter::LEAF_PAIRS] += frame.touching.triangle_pairs;
+  counters[Counter::TRIANGLE_DISTANCES] += frame.touching.triangle_distances;
+  join(pair);
 }
 
 void Certified::search(const Pose& X_WM, LmdSet& lmds, WorkCounters& counters) {
   lmds.clear();
-  find(X_WM, counters, [&](const ShapePair& pair, std::size_t body) {
-    join_contacts(pair, static_cast<std::int32_t>(body), contacts_, intersections_, lmds);
-  });
+  find(X_WM, counters,
+       [&](const ShapePair& pair) { join_contacts(pair, 0, contacts_, intersections_, lmds); });
   append_contacts(scene_, intersections_, lmds);
   std::sort(lmds.begin(), lmds.end(), lmd_less);
   LMDBENCH_ENSURES(is_well_formed(lmds, scene_), "a contact whose point or name is of another place");
@@ -300,9 +286,8 @@ void Certified::find_critical(const Pose& X_WM, CriticalSet& critical, WorkCount
     return;
   }
   critical.clear();
-  find(X_WM, counters, [&](const ShapePair& pair, std::size_t body) {
-    join_critical(pair, *signs_moving_, *fixed_[body].signs, static_cast<std::int32_t>(body), contacts_,
-                  intersections_, critical);
+  find(X_WM, counters, [&](const ShapePair& pair) {
+    join_critical(pair, *signs_moving_, *fixed_.signs, 0, contacts_, intersections_, critical);
   });
   finish_critical(scene_, intersections_, critical);
 }

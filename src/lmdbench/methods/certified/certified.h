@@ -22,7 +22,7 @@ namespace lmdbench {
 
 const MethodDescription& certified_method();
 
-/// The third algorithm: the exact and complete LMD set in every frame, without a second rate. For each fixed body
+/// The third algorithm: the exact and complete LMD set in every frame, without a second rate.
 ///
 /// 1. *enumerate*: both meshes have a wide hierarchy over the features of their shapes (wide_hierarchy.h). Descending both
 ///    finds every pair of features that bounds cannot reject (wide_traversal.h); a closed-form test in double precision
@@ -53,8 +53,9 @@ class Certified : public Method {
     TRIANGLE_DISTANCES
   };
 
+  /// @param of_pair `Scene::is_pair`
   /// @param kernel form of the node test where the frame is searched from scratch
-  explicit Certified(Scene scene, const CertifiedOptions& options = {},
+  explicit Certified(Scene of_pair, const CertifiedOptions& options = {},
                      WideKernel kernel = WideKernel::VECTOR);
 
   const MethodDescription& description() const override { return certified_method(); }
@@ -73,7 +74,7 @@ class Certified : public Method {
   }
 
  private:
-  /// A fixed body, what is prepared for it and what is kept of it.
+  /// The fixed body, what is prepared for it and what is kept of the pair.
   struct FixedBody {
     const Surface& surface;
     const ShapeComplex& shape;
@@ -87,8 +88,8 @@ class Certified : public Method {
   struct Frame;
 
   /// @param with_critical  looks for critical pairs
-  Certified(Scene scene, const CertifiedOptions& options, WideKernel kernel, bool with_critical);
-  /// Calls join(pair, fixed body, contacts) for each fixed body.
+  Certified(Scene of_pair, const CertifiedOptions& options, WideKernel kernel, bool with_critical);
+  /// Steps 1 and 2; calls join(the two at the pose).
   template <class Join>
   void find(const Pose& X_WM, WorkCounters& counters, Join&& join);
 
@@ -96,14 +97,14 @@ class Certified : public Method {
   bool follow_motion(const RigidTransform& X_WM, double touch);
   void follow_deformations();
   void enumerate_from_scratch(Frame& frame);
-  void enumerate_coherently(Frame& frame, FixedBody& body);
+  void enumerate_coherently(Frame& frame);
 
   Scene scene_;
   const WideHierarchy& hierarchy_moving_;
   const ShapeComplex& shape_moving_;
   const SignedFeatures* signs_moving_;  ///< Where critical pairs are looked for.
   CertifiedOptions options_;
-  std::vector<FixedBody> fixed_;
+  FixedBody fixed_;
   bool coherent_;
   VectorTarget target_;
   WideKernel kernel_;

@@ -35,30 +35,21 @@ FeatureId lead_of(const ShapeComplex& shape, const FeatureId& feature) {
 
 }  // namespace
 
-Exhaustive::Exhaustive(Scene scene) : scene_(std::move(scene)) {
-  grids_.reserve(scene_.fixed.size());
-  std::size_t vertices = 0, edges = 0, faces = 0;
-  for (const auto& body : scene_.fixed) {
-    const Surface& surface = body->surface();
-    grids_.emplace_back(surface);
-    vertices = std::max(vertices, surface.mesh.vertices.size());
-    edges = std::max(edges, surface.adjacency.edges.size());
-    faces = std::max(faces, surface.mesh.triangles.size());
-  }
-  asked_vertex_.assign(vertices, 0);
-  asked_edge_.assign(edges, 0);
-  asked_face_.assign(faces, 0);
+Exhaustive::Exhaustive(Scene of_pair) : scene_(std::move(of_pair)), grid_(scene_.fixed_body().surface()) {
+  const Surface& fixed = scene_.fixed_body().surface();
+  asked_vertex_.assign(fixed.mesh.vertices.size(), 0);
+  asked_edge_.assign(fixed.adjacency.edges.size(), 0);
+  asked_face_.assign(fixed.mesh.triangles.size(), 0);
 }
 
 template <class Ask>
-void Exhaustive::for_each_feature_pair(const ShapePair& pair, FeatureGrid& grid, WorkCounters& counters,
-                                       Ask&& ask_pair) {
+void Exhaustive::for_each_feature_pair(const ShapePair& pair, WorkCounters& counters, Ask&& ask_pair) {
   const ShapeSide &moving = pair.moving, &fixed = pair.fixed;
   // @param parts faces or edges that the feature consists of
   const auto ask = [&](const FeatureId& lead, std::span<const std::int32_t> parts) {
     ++asking_;
     for (const std::int32_t part : parts)
-      grid.for_each_near(
+      grid_.for_each_near(
           placed_box(moving, {lead.kind, part}), pair.tolerance.reach, [&](const FeatureId& near) {
             const FeatureId other = lead_of(fixed.shape, near);
             if (other.index < 0) return;
@@ -81,12 +72,11 @@ void Exhaustive::for_each_feature_pair(const ShapePair& pair, FeatureGrid& grid,
     ask({FeatureKind::FACE, moving.shape.lead_of_region(r)}, regions.region_triangles[r]);
 }
 
-void Exhaustive::find_intersections(const ShapePair& pair, std::int32_t body, FeatureGrid& grid,
-                                    WorkCounters& counters) {
+void Exhaustive::find_intersections(const ShapePair& pair, WorkCounters& counters) {
   const Surface &moving = pair.moving.surface, &fixed = pair.fixed.surface;
   for (std::int32_t t = 0; t < static_cast<std::int32_t>(moving.mesh.triangles.size()); ++t) {
     const Triangle a = pair.moving.X_WS.triangle(moving.mesh.triangle(t));
-    grid.for_each_near(
+    grid_.for_each_near(
         placed_box(pair.moving, {FeatureKind::FACE, t}), pair.tolerance.rounding, [&](const FeatureId& near) {
           if (near.kind != FeatureKind::FACE) return;
           ++counters[Counter::TRIANGLE_DISTANCES];
@@ -94,44 +84,35 @@ void Exhaustive::find_intersections(const ShapePair& pair, std::int32_t body, Fe
           if (!distance.intersecting) return;
           intersections_.push_back(
               {moving.feature_of(t, distance.feature_a), fixed.feature_of(near.index, distance.feature_b), t,
-               near.index, body, distance.minimiser_dimension, distance.minimiser_measure, distance.point_a});
+               near.index, 0, distance.minimiser_dimension, distance.minimiser_measure, distance.point_a});
         });
   }
 }
 
-template <class Decide, class Join>
-void Exhaustive::for_each_body(const Pose& X_WM, WorkCounters& counters, Decide&& decide_body,
-                               Join&& join_body) {
+template <class With>
+void Exhaustive::at_pose(const Pose& X_WM, WorkCounters& counters, With&& with) {
   static const RigidTransform identity;
   const RigidTransform transform(X_WM);
-  const ShapeComplex& moving_shape = scene_.moving->prepared<ShapeComplex>();
-  const ShapeSide moving{scene_.moving->surface(), moving_shape, transform, true};
+  const Body &a = *scene_.moving, &b = scene_.fixed_body();
+  const ShapeSide moving{a.surface(), a.prepared<ShapeComplex>(), transform, true};
+  const ShapeSide fixed{b.surface(), b.prepared<ShapeComplex>(), identity, false};
+  const ShapePair pair{moving, fixed,
+                       ContactTolerance::of(moving.surface, moving.shape, fixed.surface, fixed.shape,
+                                            transform, scene_.cutoff)};
   intersections_.clear();
-  for (std::size_t i = 0; i < scene_.fixed.size(); ++i) {
-    const ShapeSide fixed{scene_.fixed[i]->surface(), scene_.fixed[i]->prepared<ShapeComplex>(), identity,
-                          false};
-    const ShapePair pair{moving, fixed,
-                         ContactTolerance::of(moving.surface, moving_shape, fixed.surface, fixed.shape,
-                                              transform, scene_.cutoff)};
-    contacts_.clear();
-    find_intersections(pair, static_cast<std::int32_t>(i), grids_[i], counters);
-    decide_body(i, pair);
-    counters[Counter::CONTACTS] += contacts_.contacts.size();
-    join_body(static_cast<std::int32_t>(i), pair);
-  }
+  contacts_.clear();
+  find_intersections(pair, counters);
+  with(pair);
 }
 
 void Exhaustive::search(const Pose& X_WM, LmdSet& lmds, WorkCounters& counters) {
   lmds.clear();
-  for_each_body(
-      X_WM, counters,
-      [&](std::size_t i, const ShapePair& pair) {
-        for_each_feature_pair(pair, grids_[i], counters,
-                              [&](const FeatureId& f, const FeatureId& g) { decide(pair, f, g, contacts_); });
-      },
-      [&](std::int32_t body, const ShapePair& pair) {
-        join_contacts(pair, body, contacts_, intersections_, lmds);
-      });
+  at_pose(X_WM, counters, [&](const ShapePair& pair) {
+    for_each_feature_pair(pair, counters,
+                          [&](const FeatureId& f, const FeatureId& g) { decide(pair, f, g, contacts_); });
+    counters[Counter::CONTACTS] += contacts_.contacts.size();
+    join_contacts(pair, 0, contacts_, intersections_, lmds);
+  });
   append_contacts(scene_, intersections_, lmds);
   std::sort(lmds.begin(), lmds.end(), lmd_less);
   LMDBENCH_ENSURES(is_well_formed(lmds, scene_), "a contact whose point or name is of another place");
@@ -140,21 +121,15 @@ void Exhaustive::search(const Pose& X_WM, LmdSet& lmds, WorkCounters& counters) 
 void Exhaustive::find_critical(const Pose& X_WM, CriticalSet& critical, WorkCounters& counters) {
   critical.clear();
   const auto& signs_moving = scene_.moving->prepared<SignedFeatures>();
-  const auto signs_fixed = [&](std::size_t i) -> const SignedFeatures& {
-    return scene_.fixed[i]->prepared<SignedFeatures>();
-  };
-  for_each_body(
-      X_WM, counters,
-      [&](std::size_t i, const ShapePair& pair) {
-        const SignedPair signs(pair, signs_moving, signs_fixed(i));
-        for_each_feature_pair(pair, grids_[i], counters, [&](const FeatureId& f, const FeatureId& g) {
-          decide_critical(pair, signs, f, g, contacts_);
-        });
-      },
-      [&](std::int32_t body, const ShapePair& pair) {
-        join_critical(pair, signs_moving, signs_fixed(static_cast<std::size_t>(body)), body, contacts_,
-                      intersections_, critical);
-      });
+  const auto& signs_fixed = scene_.fixed_body().prepared<SignedFeatures>();
+  at_pose(X_WM, counters, [&](const ShapePair& pair) {
+    const SignedPair signs(pair, signs_moving, signs_fixed);
+    for_each_feature_pair(pair, counters, [&](const FeatureId& f, const FeatureId& g) {
+      decide_critical(pair, signs, f, g, contacts_);
+    });
+    counters[Counter::CONTACTS] += contacts_.contacts.size();
+    join_critical(pair, signs_moving, signs_fixed, 0, contacts_, intersections_, critical);
+  });
   finish_critical(scene_, intersections_, critical);
 }
 

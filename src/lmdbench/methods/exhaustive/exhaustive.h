@@ -24,7 +24,8 @@ class Exhaustive : public Method {
   /// What it counts.
   enum class Counter : std::uint8_t { FEATURE_PAIRS, CONTACTS, TRIANGLE_DISTANCES };
 
-  explicit Exhaustive(Scene scene);
+  /// @param of_pair `Scene::is_pair`
+  explicit Exhaustive(Scene of_pair);
 
   const MethodDescription& description() const override { return exhaustive_method(); }
   void search(const Pose& X_WM, LmdSet& lmds, WorkCounters& counters) override;
@@ -36,15 +37,14 @@ class Exhaustive : public Method {
  private:
   /// Calls ask(lead of the moving mesh, lead of the fixed one) for every pair near enough.
   template <class Ask>
-  void for_each_feature_pair(const ShapePair& pair, FeatureGrid& grid, WorkCounters& counters, Ask&& ask);
-  /// Calls decide(fixed body, pair) and then join(fixed body, pair) for each fixed body.
-  template <class Decide, class Join>
-  void for_each_body(const Pose& X_WM, WorkCounters& counters, Decide&& decide, Join&& join);
-  void find_intersections(const ShapePair& pair, std::int32_t body, FeatureGrid& grid,
-                          WorkCounters& counters);
+  void for_each_feature_pair(const ShapePair& pair, WorkCounters& counters, Ask&& ask);
+  /// Finds what intersects and calls with(the two at the pose).
+  template <class With>
+  void at_pose(const Pose& X_WM, WorkCounters& counters, With&& with);
+  void find_intersections(const ShapePair& pair, WorkCounters& counters);
 
   Scene scene_;
-  std::vector<FeatureGrid> grids_;  ///< One a fixed body.
+  FeatureGrid grid_;  ///< Of the fixed body.
   std::vector<std::uint64_t> asked_vertex_, asked_edge_,
       asked_face_;  ///< Last feature that was asked with each.
   std::uint64_t asking_ = 0;

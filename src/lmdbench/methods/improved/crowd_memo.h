@@ -8,7 +8,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <map>
-#include <tuple>
+#include <utility>
 
 namespace lmdbench {
 
@@ -35,15 +35,14 @@ class CrowdMemo {
   /// @param look () -> Entry, called where nothing is known yet
   /// @return the entry, and whether it was there
   template <class Look>
-  std::pair<const Entry&, bool> find_or_look(std::int32_t fixed_body, const FeatureId& moving,
-                                             const FeatureId& fixed, Look&& look) {
-    const Key key{fixed_body, moving, fixed};
+  std::pair<const Entry&, bool> find_or_look(const FeatureId& moving, const FeatureId& fixed, Look&& look) {
+    const Key key{moving, fixed};
     if (const auto found = entries_.find(key); found != entries_.end()) return {found->second, true};
     return {entries_.emplace(key, look()).first->second, false};
   }
 
  private:
-  using Key = std::tuple<std::int32_t, FeatureId, FeatureId>;
+  using Key = std::pair<FeatureId, FeatureId>;
   std::map<Key, Entry> entries_;
 };
 

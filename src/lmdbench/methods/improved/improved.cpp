@@ -19,15 +19,6 @@ namespace lmdbench {
 
 namespace {
 
-Triangle world_triangle(const Surface& surface, const RigidTransform& X_WS, std::int32_t triangle) {
-  return X_WS.triangle(surface.mesh.triangle(triangle));
-}
-
-Lmd exact_pair(const Surface& moving, const Surface& fixed, std::int32_t fixed_body, std::int32_t t_moving,
-               std::int32_t t_fixed, const Triangle& a, const Triangle& b) {
-  return lmd_of_triangle_pair(moving, fixed, fixed_body, t_moving, t_fixed, triangle_distance(a, b));
-}
-
 /// `shortest_pair`, with whom it was first calculated for.
 template <class Cached>
 CrowdMemo::Entry look_at_crowd(const TriangleList& moving, const TriangleList& fixed, Cached&& cached) {
@@ -48,18 +39,18 @@ CrowdMemo::Entry look_at_crowd(const TriangleList& moving, const TriangleList& f
 }
 
 bool triangles_less(const Lmd& a, const Lmd& b) {
-  return std::tie(a.fixed_body, a.triangle_moving, a.triangle_fixed) <
-         std::tie(b.fixed_body, b.triangle_moving, b.triangle_fixed);
+  return std::tie(a.triangle_moving, a.triangle_fixed) < std::tie(b.triangle_moving, b.triangle_fixed);
 }
 
 }  // namespace
 
-Improved::Improved(Scene scene, const ImprovedOptions& options)
-    : scene_(std::move(scene)),
+Improved::Improved(Scene of_pair, const ImprovedOptions& options)
+    : scene_(std::move(of_pair)),
       options_(options),
-      hierarchy_moving_(prepared_hierarchy(*scene_.moving, options.leaf_cones)) {
-  for (const auto& body : scene_.fixed)
-    hierarchies_fixed_.push_back(&prepared_hierarchy(*body, options.leaf_cones));
+      moving_(scene_.moving->surface()),
+      fixed_(scene_.fixed_body().surface()),
+      hierarchy_moving_(prepared_hierarchy(*scene_.moving, options.leaf_cones)),
+      hierarchy_fixed_(prepared_hierarchy(scene_.fixed_body(), options.leaf_cones)) {
   if (options.search_threads > 1) {
     team_ = std::make_unique<WorkerTeam>(static_cast<std::size_t>(options.search_threads));
     traversals_.resize(team_->size());
@@ -69,24 +60,32 @@ Improved::Improved(Scene scene, const ImprovedOptions& options)
 void Improved::search(const Pose& X_WM, LmdSet& lmds, WorkCounters& counters) {
   lmds.clear();
   const RigidTransform transform(X_WM);
-  for (std::size_t body = 0; body < scene_.fixed.size(); ++body)
-    search_body(transform, static_cast<std::int32_t>(body), lmds, counters);
+  const auto run = [&]<DirectionTest TEST>() {
+    if (team_)
+      search_in_team<TEST>(transform, lmds, counters);
+    else
+      search_alone<TEST>(transform, lmds, counters);
+  };
+  if (options_.literal_g3)
+    run.operator()<DirectionTest::LITERAL>();
+  else if (options_.clamped_sigma)
+    run.operator()<DirectionTest::CLAMPED>();
+  else
+    run.operator()<DirectionTest::RAY>();
   std::sort(lmds.begin(), lmds.end(), lmd_less);
   LMDBENCH_ENSURES(is_well_formed(lmds, scene_), "a pair of triangles named after features of others");
 }
 
-void Improved::visit_leaves(const RigidTransform& X_WM, std::int32_t fixed_body, std::int32_t t_moving,
-                            std::int32_t t_fixed, LmdSet& lmds, WorkCounters& counters) const {
-  const Surface& moving = scene_.moving->surface();
-  const Surface& fixed = scene_.fixed[static_cast<std::size_t>(fixed_body)]->surface();
-  const ShadedTriangle a = to_world(shaded_triangle(moving, t_moving), X_WM);
-  const ShadedTriangle b = shaded_triangle(fixed, t_fixed);
+void Improved::visit_leaves(const RigidTransform& X_WM, std::int32_t t_moving, std::int32_t t_fixed,
+                            LmdSet& lmds, WorkCounters& counters) const {
+  const ShadedTriangle a = to_world(shaded_triangle(moving_, t_moving), X_WM);
+  const ShadedTriangle b = shaded_triangle(fixed_, t_fixed);
   if (!see_each_other(a, b, options_.visibility)) {
     ++counters[Counter::REJECTED_VISIBILITY];
     return;
   }
   ++counters[Counter::TRIANGLE_DISTANCES];
-  Lmd lmd = exact_pair(moving, fixed, fixed_body, t_moving, t_fixed, a.corners, b.corners);
+  Lmd lmd = lmd_of_triangle_pair(moving_, fixed_, t_moving, t_fixed, triangle_distance(a.corners, b.corners));
   if (!(lmd.distance <= scene_.cutoff)) {
     ++counters[Counter::REJECTED_CUTOFF];
     return;
@@ -96,24 +95,19 @@ void Improved::visit_leaves(const RigidTransform& X_WM, std::int32_t fixed_body,
 }
 
 template <DirectionTest TEST>
-void Improved::search_alone(const RigidTransform& X_WM, std::int32_t fixed_body, LmdSet& lmds,
-                            WorkCounters& counters) {
+void Improved::search_alone(const RigidTransform& X_WM, LmdSet& lmds, WorkCounters& counters) {
   const auto visit = [&](std::int32_t t_moving, std::int32_t t_fixed) {
-    visit_leaves(X_WM, fixed_body, t_moving, t_fixed, lmds, counters);
+    visit_leaves(X_WM, t_moving, t_fixed, lmds, counters);
   };
   add_traversal<Counter>(
-      counters,
-      traversal_.run<TEST>(hierarchy_moving_, *hierarchies_fixed_[static_cast<std::size_t>(fixed_body)], X_WM,
-                           scene_.cutoff, visit));
+      counters, traversal_.run<TEST>(hierarchy_moving_, hierarchy_fixed_, X_WM, scene_.cutoff, visit));
 }
 
 template <DirectionTest TEST>
-void Improved::search_in_team(const RigidTransform& X_WM, std::int32_t fixed_body, LmdSet& lmds,
-                              WorkCounters& counters) {
+void Improved::search_in_team(const RigidTransform& X_WM, LmdSet& lmds, WorkCounters& counters) {
   // So many that threads which find little take more of them.
   constexpr std::size_t PLACES_A_THREAD = 16;
-  const Hierarchy& hierarchy_fixed = *hierarchies_fixed_[static_cast<std::size_t>(fixed_body)];
-  TraversalCounters work = traversal_.split<TEST>(hierarchy_moving_, hierarchy_fixed, X_WM, scene_.cutoff,
+  TraversalCounters work = traversal_.split<TEST>(hierarchy_moving_, hierarchy_fixed_, X_WM, scene_.cutoff,
                                                   PLACES_A_THREAD * team_->size(), places_);
   if (found_.size() < places_.size()) found_.resize(places_.size());
   std::vector<TraversalCounters> works(team_->size());
@@ -123,9 +117,9 @@ void Improved::search_in_team(const RigidTransform& X_WM, std::int32_t fixed_bod
     for (std::size_t i = next++; i < places_.size(); i = next++) {
       found_[i].clear();
       const auto visit = [&](std::int32_t t_moving, std::int32_t t_fixed) {
-        visit_leaves(X_WM, fixed_body, t_moving, t_fixed, found_[i], counted[member]);
+        visit_leaves(X_WM, t_moving, t_fixed, found_[i], counted[member]);
       };
-      works[member] += traversals_[member].run_below<TEST>(places_[i], hierarchy_moving_, hierarchy_fixed,
+      works[member] += traversals_[member].run_below<TEST>(places_[i], hierarchy_moving_, hierarchy_fixed_,
                                                            X_WM, scene_.cutoff, visit);
     }
   });
@@ -139,22 +133,6 @@ void Improved::search_in_team(const RigidTransform& X_WM, std::int32_t fixed_bod
   add_traversal<Counter>(counters, work);
 }
 
-void Improved::search_body(const RigidTransform& X_WM, std::int32_t fixed_body, LmdSet& lmds,
-                           WorkCounters& counters) {
-  const auto run = [&]<DirectionTest TEST>() {
-    if (team_)
-      search_in_team<TEST>(X_WM, fixed_body, lmds, counters);
-    else
-      search_alone<TEST>(X_WM, fixed_body, lmds, counters);
-  };
-  if (options_.literal_g3)
-    run.operator()<DirectionTest::LITERAL>();
-  else if (options_.clamped_sigma)
-    run.operator()<DirectionTest::CLAMPED>();
-  else
-    run.operator()<DirectionTest::RAY>();
-}
-
 void Improved::track(const Pose& X_WM, LmdSet& lmds, WorkCounters& counters) {
   if (options_.plain_cache)
     track_with(plain_cache_, X_WM, lmds, counters);
@@ -165,7 +143,6 @@ void Improved::track(const Pose& X_WM, LmdSet& lmds, WorkCounters& counters) {
 template <class Cache>
 void Improved::track_with(Cache& cache, const Pose& X_WM, LmdSet& lmds, WorkCounters& counters) {
   const RigidTransform transform(X_WM);
-  const Surface& moving = scene_.moving->surface();
   std::sort(lmds.begin(), lmds.end(),
             options_.tracking_order == TrackingOrder::NEAREST_FIRST ? lmd_less : triangles_less);
   cache.erase();
@@ -173,16 +150,17 @@ void Improved::track_with(Cache& cache, const Pose& X_WM, LmdSet& lmds, WorkCoun
   kept_.clear();
   std::int32_t number = 0;
   for (const Lmd& lmd : lmds) {
-    const Surface& fixed = scene_.fixed[static_cast<std::size_t>(lmd.fixed_body)]->surface();
     const auto cached = [&](std::int32_t t_moving, std::int32_t t_fixed) -> const ResultCache::Entry& {
-      const auto [entry, known] = cache.find_or_insert(lmd.fixed_body, t_moving, t_fixed);
+      const auto [entry, known] = cache.find_or_insert(t_moving, t_fixed);
       if (known) {
         ++counters[Counter::CACHE_HITS];
       } else {
         ++counters[Counter::TRIANGLE_DISTANCES];
         entry->initiator = number;
-        entry->lmd = exact_pair(moving, fixed, lmd.fixed_body, t_moving, t_fixed,
-                                world_triangle(moving, transform, t_moving), fixed.mesh.triangle(t_fixed));
+        entry->lmd =
+            lmd_of_triangle_pair(moving_, fixed_, t_moving, t_fixed,
+                                 triangle_distance(transform.triangle(moving_.mesh.triangle(t_moving)),
+                                                   fixed_.mesh.triangle(t_fixed)));
       }
       return *entry;
     };
@@ -191,13 +169,12 @@ void Improved::track_with(Cache& cache, const Pose& X_WM, LmdSet& lmds, WorkCoun
       return TrackedPair{entry.lmd, options_.reduction == Reduction::PUBLISHED && entry.initiator != number};
     };
     const auto look = [&](const FeatureId& feature_moving, const FeatureId& feature_fixed) {
-      const TriangleList around_moving = moving.incident_triangles(feature_moving);
-      const TriangleList around_fixed = fixed.incident_triangles(feature_fixed);
+      const TriangleList around_moving = moving_.incident_triangles(feature_moving);
+      const TriangleList around_fixed = fixed_.incident_triangles(feature_fixed);
       const std::size_t pairs = around_moving.size() * around_fixed.size();
       if (pairs < CROWD_PAIRS) return shortest_pair(around_moving, around_fixed, evaluate);
-      const auto [entry, known] = crowds_.find_or_look(lmd.fixed_body, feature_moving, feature_fixed, [&] {
-        return look_at_crowd(around_moving, around_fixed, cached);
-      });
+      const auto [entry, known] = crowds_.find_or_look(
+          feature_moving, feature_fixed, [&] { return look_at_crowd(around_moving, around_fixed, cached); });
       if (known) counters[Counter::CACHE_HITS] += pairs;
       return TrackedPair{entry.lmd,
                          options_.reduction == Reduction::PUBLISHED && entry.seen_by_other(number)};

@@ -49,7 +49,8 @@ class Improved : public Method {
     DROPPED_DUPLICATES
   };
 
-  explicit Improved(Scene scene, const ImprovedOptions& options = {});
+  /// @param of_pair `Scene::is_pair`
+  explicit Improved(Scene of_pair, const ImprovedOptions& options = {});
 
   const MethodDescription& description() const override {
     return options_.second_tracking ? improved_method() : improved_method_tracking_once();
@@ -58,24 +59,20 @@ class Improved : public Method {
   void track(const Pose& X_WM, LmdSet& lmds, WorkCounters& counters) override;
 
  private:
-  void search_body(const RigidTransform& X_WM, std::int32_t fixed_body, LmdSet& lmds, WorkCounters& counters);
-
   /// The search's share of one triangle pair.
-  void visit_leaves(const RigidTransform& X_WM, std::int32_t fixed_body, std::int32_t t_moving,
-                    std::int32_t t_fixed, LmdSet& lmds, WorkCounters& counters) const;
+  void visit_leaves(const RigidTransform& X_WM, std::int32_t t_moving, std::int32_t t_fixed, LmdSet& lmds,
+                    WorkCounters& counters) const;
   template <DirectionTest TEST>
-  void search_alone(const RigidTransform& X_WM, std::int32_t fixed_body, LmdSet& lmds,
-                    WorkCounters& counters);
+  void search_alone(const RigidTransform& X_WM, LmdSet& lmds, WorkCounters& counters);
   template <DirectionTest TEST>
-  void search_in_team(const RigidTransform& X_WM, std::int32_t fixed_body, LmdSet& lmds,
-                      WorkCounters& counters);
+  void search_in_team(const RigidTransform& X_WM, LmdSet& lmds, WorkCounters& counters);
   template <class Cache>
   void track_with(Cache& cache, const Pose& X_WM, LmdSet& lmds, WorkCounters& counters);
 
   Scene scene_;
   ImprovedOptions options_;
-  const Hierarchy& hierarchy_moving_;
-  std::vector<const Hierarchy*> hierarchies_fixed_;  ///< One a fixed body.
+  const Surface &moving_, &fixed_;
+  const Hierarchy &hierarchy_moving_, &hierarchy_fixed_;
   DualTraversal traversal_;
   // With several threads: who they are, where each place's search goes on, and what it found.
   std::unique_ptr<WorkerTeam> team_;

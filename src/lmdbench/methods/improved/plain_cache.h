@@ -6,7 +6,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <tuple>
 #include <unordered_map>
 #include <utility>
 
@@ -21,20 +20,16 @@ class PlainCache {
   void erase() { entries_.clear(); }
 
   /// As `ResultCache::find_or_insert`.
-  std::pair<Entry*, bool> find_or_insert(std::int32_t fixed_body, std::int32_t t_moving,
-                                         std::int32_t t_fixed) {
-    const auto [place, is_new] = entries_.try_emplace(Key{fixed_body, t_moving, t_fixed});
+  std::pair<Entry*, bool> find_or_insert(std::int32_t t_moving, std::int32_t t_fixed) {
+    const auto [place, is_new] = entries_.try_emplace(Key{t_moving, t_fixed});
     return {&place->second, !is_new};
   }
 
  private:
-  using Key = std::tuple<std::int32_t, std::int32_t, std::int32_t>;
+  using Key = std::pair<std::int32_t, std::int32_t>;
   struct Hash {
     std::size_t operator()(const Key& key) const {
-      const auto [body, moving, fixed] = key;
-      std::size_t hash = std::hash<std::int32_t>()(body);
-      for (const std::int32_t part : {moving, fixed}) hash = 31 * hash + std::hash<std::int32_t>()(part);
-      return hash;
+      return 31 * std::hash<std::int32_t>()(key.first) + std::hash<std::int32_t>()(key.second);
     }
   };
   std::unordered_map<Key, Entry, Hash> entries_;

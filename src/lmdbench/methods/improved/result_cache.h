@@ -31,12 +31,11 @@ class ResultCache {
   }
 
   /// Returns the entry of a triangle pair and whether it was there; a new one is empty.
-  std::pair<Entry*, bool> find_or_insert(std::int32_t fixed_body, std::int32_t t_moving,
-                                         std::int32_t t_fixed) {
+  std::pair<Entry*, bool> find_or_insert(std::int32_t t_moving, std::int32_t t_fixed) {
     if (2 * (size_ + 1) > slots_.size()) grow();
-    Slot& slot = slots_[position(fixed_body, t_moving, t_fixed)];
+    Slot& slot = slots_[position(t_moving, t_fixed)];
     if (slot.update == update_) return {&slot.entry, true};
-    slot = {update_, fixed_body, t_moving, t_fixed, {}};
+    slot = {update_, t_moving, t_fixed, {}};
     ++size_;
     return {&slot.entry, false};
   }
@@ -46,21 +45,19 @@ class ResultCache {
 
   struct Slot {
     std::uint64_t update = 0;
-    std::int32_t fixed_body = 0, t_moving = 0, t_fixed = 0;
+    std::int32_t t_moving = 0, t_fixed = 0;
     Entry entry;
   };
 
   /// Slot that holds the pair, or the free one where it belongs (linear probing).
-  std::size_t position(std::int32_t fixed_body, std::int32_t t_moving, std::int32_t t_fixed) const {
+  std::size_t position(std::int32_t t_moving, std::int32_t t_fixed) const {
     const std::uint64_t key = (static_cast<std::uint64_t>(static_cast<std::uint32_t>(t_moving)) << 32) ^
-                              static_cast<std::uint32_t>(t_fixed) ^
-                              (static_cast<std::uint64_t>(static_cast<std::uint32_t>(fixed_body)) << 16);
+                              static_cast<std::uint32_t>(t_fixed);
     // Fibonacci hashing: 2^64 over the golden ratio spreads neighbouring indices.
     std::size_t i = (key * 0x9E3779B97F4A7C15ull) >> 32;
     for (;; ++i) {
       const Slot& slot = slots_[i & (slots_.size() - 1)];
-      if (slot.update != update_ ||
-          (slot.t_moving == t_moving && slot.t_fixed == t_fixed && slot.fixed_body == fixed_body))
+      if (slot.update != update_ || (slot.t_moving == t_moving && slot.t_fixed == t_fixed))
         return i & (slots_.size() - 1);
     }
   }
@@ -69,7 +66,7 @@ class ResultCache {
     std::vector<Slot> old(2 * slots_.size());
     old.swap(slots_);
     for (const Slot& slot : old)
-      if (slot.update == update_) slots_[position(slot.fixed_body, slot.t_moving, slot.t_fixed)] = slot;
+      if (slot.update == update_) slots_[position(slot.t_moving, slot.t_fixed)] = slot;
   }
 
   std::vector<Slot> slots_;

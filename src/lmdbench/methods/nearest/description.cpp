@@ -18,8 +18,7 @@ const MethodDescription& nearest_method() {
             {{"type", "boolean"},
              {"description", "begin each search with the bound that the last frame's pair gives"}}}},
           NearestOptions{}),
-      .counters = {{Counter::FCL_QUERIES, "fcl_queries", "distance queries of FCL, one a fixed mesh",
-                    CountedBy::SEARCH},
+      .counters = {{Counter::FCL_QUERIES, "fcl_queries", "distance queries of FCL", CountedBy::SEARCH},
                    {Counter::TRIANGLE_DISTANCES, "triangle_distances",
                     "exact triangle distances, for the features of the pair", CountedBy::SEARCH}},
       .make = [](const Scene& scene, const nlohmann::json& options) -> std::unique_ptr<Method> {

@@ -5,38 +5,27 @@
 #include <lmdbench/methods/nearest/nearest.h>
 
 #include <utility>
-#include <vector>
 
 namespace lmdbench {
-namespace {
 
-std::vector<const Surface*> fixed_surfaces(const Scene& scene) {
-  std::vector<const Surface*> surfaces;
-  for (const auto& body : scene.fixed) surfaces.push_back(&body->surface());
-  return surfaces;
-}
-
-}  // namespace
-
-Nearest::Nearest(Scene scene, const NearestOptions& options)
-    : scene_(std::move(scene)),
+Nearest::Nearest(Scene of_pair, const NearestOptions& options)
+    : scene_(std::move(of_pair)),
       warm_start_(options.warm_start),
-      fcl_(scene_.moving->surface(), fixed_surfaces(scene_)) {}
+      fcl_(scene_.moving->surface(), {&scene_.fixed_body().surface()}) {}
 
 void Nearest::search(const Pose& X_WM, LmdSet& lmds, WorkCounters& counters) {
   lmds.clear();
-  counters[Counter::FCL_QUERIES] += scene_.fixed.size();
+  ++counters[Counter::FCL_QUERIES];
   const FclResult found = warm_start_ ? fcl_.distance_warm(X_WM) : fcl_.distance(X_WM);
   if (!(found.distance <= scene_.cutoff)) return;
 
   const Surface& moving = scene_.moving->surface();
-  const Surface& fixed = scene_.fixed[static_cast<std::size_t>(found.fixed_body)]->surface();
+  const Surface& fixed = scene_.fixed_body().surface();
   ++counters[Counter::TRIANGLE_DISTANCES];
   const TrianglePairDistance exact =
       triangle_distance(RigidTransform(X_WM).triangle(moving.mesh.triangle(found.triangle_moving)),
                         fixed.mesh.triangle(found.triangle_fixed));
-  Lmd lmd = lmd_of_triangle_pair(moving, fixed, found.fixed_body, found.triangle_moving, found.triangle_fixed,
-                                 exact);
+  Lmd lmd = lmd_of_triangle_pair(moving, fixed, found.triangle_moving, found.triangle_fixed, exact);
   if (found.separated) {
     lmd.point_moving = found.point_moving;
     lmd.point_fixed = found.point_fixed;

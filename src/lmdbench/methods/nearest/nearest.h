@@ -33,8 +33,9 @@ class Nearest : public Method {
   /// What it counts.
   enum class Counter : std::uint8_t { FCL_QUERIES, TRIANGLE_DISTANCES };
 
+  /// @param of_pair `Scene::is_pair`
   /// @throws InputError for a mesh without triangles
-  explicit Nearest(Scene scene, const NearestOptions& options = {});
+  explicit Nearest(Scene of_pair, const NearestOptions& options = {});
 
   const MethodDescription& description() const override { return nearest_method(); }
   void search(const Pose& X_WM, LmdSet& lmds, WorkCounters& counters) override;

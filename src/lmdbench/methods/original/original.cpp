@@ -80,85 +80,72 @@ double radians(double degrees) {
 
 }  // namespace
 
-Original::Original(Scene scene, const OriginalOptions& options)
-    : scene_(std::move(scene)),
+Original::Original(Scene of_pair, const OriginalOptions& options)
+    : scene_(std::move(of_pair)),
       options_(options),
+      moving_(scene_.moving->surface()),
+      fixed_(scene_.fixed_body().surface()),
       hierarchy_moving_(prepared_hierarchy(*scene_.moving, options.leaf_cones)),
-      verify_moving_(scene_.moving->surface(), radians(options.g5_tolerance_deg)) {
-  for (const auto& body : scene_.fixed) {
-    hierarchies_fixed_.push_back(&prepared_hierarchy(*body, options.leaf_cones));
-    verify_fixed_.emplace_back(body->surface(), radians(options.g5_tolerance_deg));
-  }
+      hierarchy_fixed_(prepared_hierarchy(scene_.fixed_body(), options.leaf_cones)),
+      verify_moving_(moving_, radians(options.g5_tolerance_deg)),
+      verify_fixed_(fixed_, radians(options.g5_tolerance_deg)) {
   if (options.face_neighbourhood == FaceNeighbourhood::OWN) return;
-  faces_moving_.emplace(scene_.moving->surface());
-  for (const auto& body : scene_.fixed) faces_fixed_.emplace_back(body->surface());
+  faces_moving_.emplace(moving_);
+  faces_fixed_.emplace(fixed_);
 }
 
-Lmd Original::feature_point_pair(const RigidTransform& X_WM, std::int32_t fixed_body, std::int32_t t_moving,
-                                 std::int32_t t_fixed, WorkCounters& counters) const {
+Lmd Original::feature_point_pair(const RigidTransform& X_WM, std::int32_t t_moving, std::int32_t t_fixed,
+                                 WorkCounters& counters) const {
   switch (options_.feature_points) {
     case 3:
-      return nearest_of<3>(X_WM, fixed_body, t_moving, t_fixed, counters);
+      return nearest_of<3>(X_WM, t_moving, t_fixed, counters);
     case 13:
-      return nearest_of<13>(X_WM, fixed_body, t_moving, t_fixed, counters);
+      return nearest_of<13>(X_WM, t_moving, t_fixed, counters);
     case 25:
-      return nearest_of<25>(X_WM, fixed_body, t_moving, t_fixed, counters);
+      return nearest_of<25>(X_WM, t_moving, t_fixed, counters);
     default:
-      return nearest_of<7>(X_WM, fixed_body, t_moving, t_fixed, counters);
+      return nearest_of<7>(X_WM, t_moving, t_fixed, counters);
   }
 }
 
 template <std::size_t N>
-Lmd Original::nearest_of(const RigidTransform& X_WM, std::int32_t fixed_body, std::int32_t t_moving,
-                         std::int32_t t_fixed, WorkCounters& counters) const {
-  const Surface& moving = scene_.moving->surface();
-  const Surface& fixed = scene_.fixed[static_cast<std::size_t>(fixed_body)]->surface();
-  const FeaturePoints<N> a = feature_points<N>(X_WM.triangle(moving.mesh.triangle(t_moving)));
-  const FeaturePoints<N> b = feature_points<N>(fixed.mesh.triangle(t_fixed));
+Lmd Original::nearest_of(const RigidTransform& X_WM, std::int32_t t_moving, std::int32_t t_fixed,
+                         WorkCounters& counters) const {
+  const FeaturePoints<N> a = feature_points<N>(X_WM.triangle(moving_.mesh.triangle(t_moving)));
+  const FeaturePoints<N> b = feature_points<N>(fixed_.mesh.triangle(t_fixed));
   const FeaturePointPair nearest = nearest_feature_points<N>(a, b);
   counters[Counter::FEATURE_POINT_DISTANCES] += N * N;
   Lmd lmd;
   lmd.distance = std::sqrt(nearest.squared_distance);
   lmd.point_moving = a[nearest.index_a];
   lmd.point_fixed = b[nearest.index_b];
-  lmd.feature_moving = moving.feature_of(t_moving, part_of_feature_point<N>(nearest.index_a));
-  lmd.feature_fixed = fixed.feature_of(t_fixed, part_of_feature_point<N>(nearest.index_b));
+  lmd.feature_moving = moving_.feature_of(t_moving, part_of_feature_point<N>(nearest.index_a));
+  lmd.feature_fixed = fixed_.feature_of(t_fixed, part_of_feature_point<N>(nearest.index_b));
   lmd.triangle_moving = t_moving;
   lmd.triangle_fixed = t_fixed;
-  lmd.fixed_body = fixed_body;
   return lmd;
 }
 
 void Original::search(const Pose& X_WM, LmdSet& lmds, WorkCounters& counters) {
   lmds.clear();
   const RigidTransform transform(X_WM);
-  for (std::size_t body = 0; body < scene_.fixed.size(); ++body)
-    search_body(transform, static_cast<std::int32_t>(body), lmds, counters);
-  drop_duplicates(lmds, options_.merge_duplicates, counters);
-  LMDBENCH_ENSURES(is_well_formed(lmds, scene_), "a pair of triangles named after features of others");
-}
-
-void Original::search_body(const RigidTransform& X_WM, std::int32_t fixed_body, LmdSet& lmds,
-                           WorkCounters& counters) {
-  const DirectionVerification& verify_fixed = verify_fixed_[static_cast<std::size_t>(fixed_body)];
   const auto visit_leaves = [&](std::int32_t t_moving, std::int32_t t_fixed) {
-    Lmd lmd = feature_point_pair(X_WM, fixed_body, t_moving, t_fixed, counters);
+    Lmd lmd = feature_point_pair(transform, t_moving, t_fixed, counters);
     if (!(lmd.distance <= scene_.cutoff)) {
       ++counters[Counter::REJECTED_CUTOFF];
       return;
     }
     set_direction(lmd, lmd.direction);
     if (lmd.distance > 0.0 &&
-        !(verify_moving_.accepts(lmd.feature_moving, X_WM.rotation.transpose() * lmd.direction) &&
-          verify_fixed.accepts(lmd.feature_fixed, -lmd.direction))) {
+        !(verify_moving_.accepts(lmd.feature_moving, transform.rotation.transpose() * lmd.direction) &&
+          verify_fixed_.accepts(lmd.feature_fixed, -lmd.direction))) {
       ++counters[Counter::REJECTED_G5];
       return;
     }
     lmds.push_back(lmd);
   };
-  const Hierarchy& hierarchy_fixed = *hierarchies_fixed_[static_cast<std::size_t>(fixed_body)];
   const auto run = [&]<DirectionTest TEST>() {
-    return traversal_.run<TEST>(hierarchy_moving_, hierarchy_fixed, X_WM, scene_.cutoff, visit_leaves);
+    return traversal_.run<TEST>(hierarchy_moving_, hierarchy_fixed_, transform, scene_.cutoff, visit_leaves);
   };
   if (options_.literal_g3) {
     add_traversal<Counter>(counters, run.operator()<DirectionTest::LITERAL>());
@@ -167,25 +154,21 @@ void Original::search_body(const RigidTransform& X_WM, std::int32_t fixed_body, 
   } else {
     add_traversal<Counter>(counters, run.operator()<DirectionTest::RAY>());
   }
+  drop_duplicates(lmds, options_.merge_duplicates, counters);
+  LMDBENCH_ENSURES(is_well_formed(lmds, scene_), "a pair of triangles named after features of others");
 }
 
 void Original::track(const Pose& X_WM, LmdSet& lmds, WorkCounters& counters) {
   const RigidTransform transform(X_WM);
-  for (Lmd& lmd : lmds) {
-    const Surface& fixed = scene_.fixed[static_cast<std::size_t>(lmd.fixed_body)]->surface();
-    const auto evaluate = [&](std::int32_t t_moving, std::int32_t t_fixed) {
-      return TrackedPair{feature_point_pair(transform, lmd.fixed_body, t_moving, t_fixed, counters)};
-    };
-    const auto neighbours = [&](const Surface& surface, const FeatureId& feature) {
-      if (!faces_moving_ || feature.kind != FeatureKind::FACE) return surface.incident_triangles(feature);
-      const bool is_moving = &surface == &scene_.moving->surface();
-      return (is_moving ? *faces_moving_ : faces_fixed_[static_cast<std::size_t>(lmd.fixed_body)])
-          .of(feature.index);
-    };
-    lmd = walk_to_minimum(scene_.moving->surface(), fixed, lmd, evaluate, counters[Counter::TRACKING_STEPS],
-                          neighbours)
-              .lmd;
-  }
+  const auto evaluate = [&](std::int32_t t_moving, std::int32_t t_fixed) {
+    return TrackedPair{feature_point_pair(transform, t_moving, t_fixed, counters)};
+  };
+  const auto neighbours = [&](const Surface& surface, const FeatureId& feature) {
+    if (!faces_moving_ || feature.kind != FeatureKind::FACE) return surface.incident_triangles(feature);
+    return (&surface == &moving_ ? *faces_moving_ : *faces_fixed_).of(feature.index);
+  };
+  for (Lmd& lmd : lmds)
+    lmd = walk_to_minimum(moving_, fixed_, lmd, evaluate, counters[Counter::TRACKING_STEPS], neighbours).lmd;
   drop_duplicates(lmds, options_.merge_duplicates, counters);
 }
 

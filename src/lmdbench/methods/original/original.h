@@ -70,28 +70,26 @@ class Original : public Method {
     DROPPED_DUPLICATES
   };
 
-  explicit Original(Scene scene, const OriginalOptions& options = {});
+  /// @param of_pair `Scene::is_pair`
+  explicit Original(Scene of_pair, const OriginalOptions& options = {});
 
   const MethodDescription& description() const override { return original_method(); }
   void search(const Pose& X_WM, LmdSet& lmds, WorkCounters& counters) override;
   void track(const Pose& X_WM, LmdSet& lmds, WorkCounters& counters) override;
 
  private:
-  void search_body(const RigidTransform& X_WM, std::int32_t fixed_body, LmdSet& lmds, WorkCounters& counters);
   template <std::size_t N>
-  Lmd nearest_of(const RigidTransform& X_WM, std::int32_t fixed_body, std::int32_t t_moving,
-                 std::int32_t t_fixed, WorkCounters& counters) const;
-  Lmd feature_point_pair(const RigidTransform& X_WM, std::int32_t fixed_body, std::int32_t t_moving,
-                         std::int32_t t_fixed, WorkCounters& counters) const;
+  Lmd nearest_of(const RigidTransform& X_WM, std::int32_t t_moving, std::int32_t t_fixed,
+                 WorkCounters& counters) const;
+  Lmd feature_point_pair(const RigidTransform& X_WM, std::int32_t t_moving, std::int32_t t_fixed,
+                         WorkCounters& counters) const;
 
   Scene scene_;
   OriginalOptions options_;
-  const Hierarchy& hierarchy_moving_;
-  std::vector<const Hierarchy*> hierarchies_fixed_;  ///< One a fixed body.
-  DirectionVerification verify_moving_;
-  std::vector<DirectionVerification> verify_fixed_;  ///< One a fixed body.
-  std::optional<FaceNeighbours> faces_moving_;       ///< Set where the option asks for them, as the next.
-  std::vector<FaceNeighbours> faces_fixed_;          ///< One a fixed body.
+  const Surface &moving_, &fixed_;
+  const Hierarchy &hierarchy_moving_, &hierarchy_fixed_;
+  DirectionVerification verify_moving_, verify_fixed_;
+  std::optional<FaceNeighbours> faces_moving_, faces_fixed_;  ///< Set where the option asks for them.
   DualTraversal traversal_;
 };
 

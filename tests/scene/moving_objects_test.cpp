@@ -1,18 +1,15 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include <lmdbench/base/error.h>
 #include <lmdbench/methods/registry.h>
-#include <lmdbench/scene/mover_group.h>
 #include <lmdbench/scene/scatter.h>
+#include <lmdbench/scene/scene_search.h>
 
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <support/message_of.h>
 #include <support/scenes.h>
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <list>
 #include <map>
 #include <memory>
 #include <numeric>
@@ -24,12 +21,9 @@
 namespace lmdbench {
 namespace {
 
-using ::testing::HasSubstr;
 using testing::make_body;
-using testing::message_of;
 using testing::moved;
 using testing::random_direction;
-using testing::random_rotation;
 using testing::uniform;
 
 using Bodies = std::vector<std::shared_ptr<const Body>>;
@@ -41,10 +35,50 @@ struct Play {
   std::vector<std::vector<Pose>> frames;
 };
 
-MoverGroup group_of(const Play& play, double cutoff, const MoverGroup::Tuning& tuning = {},
-                    const std::string& method = "certified") {
-  return {play.movers, play.standing, cutoff, method_maker(method), tuning};
-}
+/// The set of every pair of objects that has one.
+using Sets = std::map<ObjectPair, LmdSet>;
+
+/// A method over the objects of a play.
+class Player {
+ public:
+  explicit Player(const Play& play, double cutoff, const BroadPhase::Tuning& tuning = {},
+                  const std::string& method = "certified", const nlohmann::json& options = {})
+      : poses_(std::make_shared<std::vector<Pose>>(play.movers.size())),
+        scene_{play.movers[0], play.standing, cutoff, play.movers, 0, poses_},
+        search_(
+            scene_, method_description(method),
+            [&of = method_description(method),
+             all = complete_options(method_description(method), options, "")](const Scene& of_pair) {
+              return of.make(of_pair, all);
+            },
+            tuning) {}
+
+  const LmdSet& at(const std::vector<Pose>& poses) {
+    *poses_ = poses;
+    search_.search(poses[scene_.held], lmds_, counters_);
+    return lmds_;
+  }
+  Sets sets_at(const std::vector<Pose>& poses) {
+    Sets sets;
+    for (const Lmd& lmd : at(poses)) sets[ObjectPair::of(lmd.fixed_body, scene_)].push_back(lmd);
+    return sets;
+  }
+  /// Since the last time that somebody asked.
+  std::uint64_t take_count(const std::string& name) {
+    for (const CounterDescription& counter : search_.description().counters)
+      if (counter.name == name) return std::exchange(counters_.values[counter.index], 0);
+    ADD_FAILURE() << "no counter " << name;
+    return 0;
+  }
+  const SceneSearch& search() const { return search_; }
+
+ private:
+  std::shared_ptr<std::vector<Pose>> poses_;
+  Scene scene_;
+  SceneSearch search_;
+  LmdSet lmds_;
+  WorkCounters counters_;
+};
 
 /// Places on a grid of 2^-20 m: what is added to them, up to kilometres, changes none of their differences.
 Vec3 on_grid(const Vec3& p) {
@@ -115,61 +149,46 @@ struct Judged {
   std::size_t of_movers = 0, with_standing = 0;  ///< LMDs.
 };
 
-/// Expects the true set of every pair, in every `stride`th frame, in the order of pairs.
-Judged judge(const Play& play, double cutoff, MoverGroup& group, MoverGroup::Work& work,
-             std::size_t stride = 1) {
+/// Expects the true set of every pair, in every `stride`th frame.
+Judged judge(const Play& play, double cutoff, Player& player, std::size_t stride = 1) {
   Truth truth(play, cutoff);
-  MoverContacts contacts;
   Judged judged;
   for (std::size_t frame = 0; frame < play.frames.size(); ++frame) {
     const std::vector<Pose>& poses = play.frames[frame];
-    group.search(poses, contacts, work);
+    Sets sets = player.sets_at(poses);
     if (frame % stride != 0) continue;
-    std::size_t at = 0, end = 0;
-    for (std::size_t a = 0; a < play.movers.size(); ++a)
-      for (std::size_t b = a + 1; b < play.movers.size() + play.standing.size(); ++b) {
+    for (std::uint32_t a = 0; a < play.movers.size(); ++a)
+      for (std::uint32_t b = a + 1; b < play.movers.size() + play.standing.size(); ++b) {
         const LmdSet expected = truth.of(a, b, poses);
-        if (expected.empty()) continue;
+        const LmdSet& found = sets[{a, b}];
         const std::string where =
             "frame " + std::to_string(frame) + ", " + std::to_string(a) + " and " + std::to_string(b);
-        EXPECT_LT(at, contacts.pairs.size()) << where;
-        if (at >= contacts.pairs.size()) return judged;
-        const MoverContacts::Pair& pair = contacts.pairs[at++];
-        EXPECT_TRUE(pair.mover == a && pair.other == b) << where << ": " << pair.mover << " " << pair.other;
-        EXPECT_EQ(pair.count, expected.size()) << where;
-        EXPECT_EQ(pair.begin, end) << where;
-        end += pair.count;
+        EXPECT_EQ(found.size(), expected.size()) << where;
         if (::testing::Test::HasFailure()) return judged;
         for (std::size_t i = 0; i < expected.size(); ++i) {
-          const Lmd& lmd = contacts.of(pair)[i];
-          EXPECT_EQ(lmd.feature_moving, expected[i].feature_moving) << where;
-          EXPECT_EQ(lmd.feature_fixed, expected[i].feature_fixed) << where;
-          EXPECT_NEAR(lmd.distance, expected[i].distance, 1e-12) << where;
-          EXPECT_EQ(lmd.fixed_body, static_cast<std::int32_t>(b)) << where;
+          EXPECT_EQ(found[i].feature_moving, expected[i].feature_moving) << where;
+          EXPECT_EQ(found[i].feature_fixed, expected[i].feature_fixed) << where;
+          EXPECT_NEAR(found[i].distance, expected[i].distance, 1e-12) << where;
         }
         (b < play.movers.size() ? judged.of_movers : judged.with_standing) += expected.size();
       }
-    EXPECT_EQ(at, contacts.pairs.size()) << "frame " << frame;
-    EXPECT_EQ(end, contacts.lmds.size()) << "frame " << frame;
-    if (::testing::Test::HasFailure()) return judged;
   }
   return judged;
 }
 
-TEST(MoverGroup, FindsTheTruthOfEveryPair) {
+TEST(MovingObjects, FindsTheTruthOfEveryPair) {
   for (const double away : {0.0, 1.0})
     for (const double cutoff : {0.01, 0.1, 0.4}) {
       const Play play = drifting(12, 200, 5, away * Vec3(1024.0, -2048.0, 512.0));
-      MoverGroup group = group_of(play, cutoff);
-      MoverGroup::Work work;
-      const Judged judged = judge(play, cutoff, group, work, 4);
+      Player player(play, cutoff);
+      const Judged judged = judge(play, cutoff, player, 4);
       EXPECT_GT(judged.of_movers, 150u);
       EXPECT_GT(judged.with_standing, 50u);
-      EXPECT_LT(work.anchored, 12u * 200u / 5u);
+      EXPECT_LT(player.take_count("broad_phase_queries"), 12u * 200u / 5u);
     }
 }
 
-TEST(MoverGroup, FindsWhatIsNestedAndCoincident) {
+TEST(MovingObjects, FindsWhatIsNestedAndCoincident) {
   // A hollow that turns, what tumbles inside of it and what is outside; each of the small ones twice at the same place, one pair of them at rest.
   TriangleMesh inwards = make_sphere(1.5, 2);
   for (auto& corners : inwards.triangles) std::swap(corners[1], corners[2]);
@@ -192,28 +211,21 @@ TEST(MoverGroup, FindsWhatIsNestedAndCoincident) {
     play.frames.push_back(poses);
   }
   for (const double cutoff : {0.05, 0.4}) {
-    MoverGroup group = group_of(play, cutoff);
-    MoverGroup::Work work;
-    const Judged judged = judge(play, cutoff, group, work, 10);
+    Player player(play, cutoff);
+    const Judged judged = judge(play, cutoff, player, 10);
     EXPECT_GT(judged.of_movers, 100u);
     EXPECT_GT(judged.with_standing, 0u);
     // What coincides has the same LMDs.
-    MoverContacts contacts;
-    group.search(play.frames.back(), contacts, work);
-    std::map<std::uint32_t, std::size_t> with_wall;
-    for (const MoverContacts::Pair& pair : contacts.pairs)
-      if (pair.mover == 0) with_wall[pair.other] = pair.count;
-    EXPECT_GT(with_wall[2], 0u);
-    EXPECT_EQ(with_wall[2], with_wall[3]);
+    Sets sets = player.sets_at(play.frames.back());
+    EXPECT_GT((sets[{0, 2}].size()), 0u);
+    EXPECT_EQ((sets[{0, 2}].size()), (sets[{0, 3}].size()));
   }
 }
 
-TEST(MoverGroup, IsTheWorldWithEveryMeshInPlace) {
+TEST(MovingObjects, IsTheWorldWithEveryMeshInPlace) {
   const Play play = drifting(10, 60, 6);
   constexpr double CUTOFF = 0.2;
-  MoverGroup group = group_of(play, CUTOFF);
-  MoverGroup::Work work;
-  MoverContacts contacts;
+  Player player(play, CUTOFF);
   const auto in_place = [](const Body& body, const Pose& pose) {
     TriangleMesh mesh = body.surface().mesh;
     for (Vec3& vertex : mesh.vertices) vertex = RigidTransform(pose).point(vertex);
@@ -222,9 +234,9 @@ TEST(MoverGroup, IsTheWorldWithEveryMeshInPlace) {
   std::size_t lmds = 0;
   for (std::size_t frame = 0; frame < play.frames.size(); ++frame) {
     const std::vector<Pose>& poses = play.frames[frame];
-    group.search(poses, contacts, work);
+    const Sets sets = player.sets_at(poses);
     if (frame % 20 != 7) continue;
-    for (const MoverContacts::Pair& pair : contacts.pairs) {
+    for (const auto& [pair, found] : sets) {
       const bool moves = pair.other < play.movers.size();
       const auto fixed = moves ? FixedBody(play.movers[pair.other], poses[pair.other])
                                : play.standing[pair.other - play.movers.size()];
@@ -234,9 +246,9 @@ TEST(MoverGroup, IsTheWorldWithEveryMeshInPlace) {
       LmdSet expected;
       WorkCounters ignored;
       method->search(Pose{}, expected, ignored);
-      ASSERT_EQ(pair.count, expected.size());
+      ASSERT_EQ(found.size(), expected.size());
       for (std::size_t i = 0; i < expected.size(); ++i) {
-        const Lmd& lmd = contacts.of(pair)[i];
+        const Lmd& lmd = found[i];
         EXPECT_NEAR(lmd.distance, expected[i].distance, 1e-9);
         if (lmd.intersecting || lmd.distance < 1e-3) continue;
         const Vec3 between = lmd.point_fixed - lmd.point_moving;
@@ -250,7 +262,7 @@ TEST(MoverGroup, IsTheWorldWithEveryMeshInPlace) {
   EXPECT_GT(lmds, 50u);
 }
 
-TEST(MoverGroup, OfOneMoverIsAWorld) {
+TEST(MovingObjects, OfOneMoverIsAWorld) {
   Play play = drifting(1, 0, 7);
   play.movers = {make_body("moving", make_blob(0.5, 0.15, 2))};
   for (int frame = 0; frame < 300; ++frame) {
@@ -258,48 +270,32 @@ TEST(MoverGroup, OfOneMoverIsAWorld) {
     pose.rotation = Eigen::Quaterniond(Eigen::AngleAxisd(0.02 * frame, Vec3(0.0, 0.6, 0.8)));
     play.frames.push_back({pose});
   }
-  MoverGroup group = group_of(play, 0.2);
+  Player player(play, 0.2);
   const auto world = make_method("certified", {play.movers[0], play.standing, 0.2});
-  MoverGroup::Work work;
-  MoverContacts contacts;
   LmdSet lmds;
   WorkCounters counters;
   std::size_t all = 0;
   for (const std::vector<Pose>& poses : play.frames) {
-    group.search(poses, contacts, work);
+    const LmdSet& found = player.at(poses);
     world->search(poses[0], lmds, counters);
-    std::sort(contacts.lmds.begin(), contacts.lmds.end(), lmd_less);
-    ASSERT_EQ(contacts.lmds.size(), lmds.size());
+    ASSERT_EQ(found.size(), lmds.size());
     for (std::size_t i = 0; i < lmds.size(); ++i) {
-      EXPECT_EQ(contacts.lmds[i].fixed_body, lmds[i].fixed_body + 1);
-      EXPECT_EQ(contacts.lmds[i].distance, lmds[i].distance);
-      EXPECT_EQ(contacts.lmds[i].point_moving, lmds[i].point_moving);
-      EXPECT_EQ(contacts.lmds[i].point_fixed, lmds[i].point_fixed);
+      EXPECT_EQ(found[i].fixed_body, lmds[i].fixed_body + 1);
+      EXPECT_EQ(found[i].distance, lmds[i].distance);
+      EXPECT_EQ(found[i].point_moving, lmds[i].point_moving);
+      EXPECT_EQ(found[i].point_fixed, lmds[i].point_fixed);
     }
     all += lmds.size();
   }
   EXPECT_GT(all, 200u);
 }
 
-/// The set of every pair of objects that has one.
-using Sets = std::map<std::pair<std::size_t, std::size_t>, LmdSet>;
-
-Sets sets_of(const MoverContacts& contacts, const std::vector<std::size_t>& named) {
-  Sets sets;
-  for (const MoverContacts::Pair& pair : contacts.pairs) {
-    const auto lmds = contacts.of(pair);
-    sets[{named[pair.mover], named[pair.other]}] = LmdSet(lmds.begin(), lmds.end());
-  }
-  return sets;
-}
-
-TEST(MoverGroup, NeitherOrderNorTuningChangesASet) {
+TEST(MovingObjects, NeitherOrderNorTuningChangesASet) {
   const Play play = drifting(9, 150, 8);
   Play shuffled = play;
   std::mt19937_64 random(3);
-  std::vector<std::size_t> same(play.movers.size() + play.standing.size());
-  std::iota(same.begin(), same.end(), 0);
-  std::vector<std::size_t> named = same;
+  std::vector<std::uint32_t> named(play.movers.size() + play.standing.size());
+  std::iota(named.begin(), named.end(), 0);
   const auto standing = named.begin() + static_cast<std::ptrdiff_t>(play.movers.size());
   std::shuffle(named.begin(), standing, random);
   std::shuffle(standing, named.end(), random);
@@ -312,33 +308,28 @@ TEST(MoverGroup, NeitherOrderNorTuningChangesASet) {
     for (std::size_t frame = 0; frame < play.frames.size(); ++frame)
       shuffled.frames[frame][i] = play.frames[frame][named[i]];
   }
-  MoverGroup group = group_of(play, 0.2), other = group_of(shuffled, 0.2);
-  std::vector<MoverGroup> tuned;
+  Player player(play, 0.2), other(shuffled, 0.2);
+  std::list<Player> tuned;
   for (const auto& [slack, share] : {std::pair{0.05, 0.0}, std::pair{0.05, 1.0}, std::pair{1.0, 0.5}})
-    tuned.push_back(group_of(play, 0.2, {.slack = slack, .pack_share = share}));
-  MoverGroup::Work work;
-  MoverContacts contacts;
+    tuned.emplace_back(play, 0.2, BroadPhase::Tuning{.slack = slack, .pack_share = share});
   std::size_t swapped = 0, kept = 0;
   for (std::size_t frame = 0; frame < play.frames.size(); ++frame) {
-    group.search(play.frames[frame], contacts, work);
-    const Sets first = sets_of(contacts, same);
-    for (MoverGroup& one : tuned) {
-      MoverContacts again;
-      one.search(play.frames[frame], again, work);
-      ASSERT_EQ(again.pairs.size(), contacts.pairs.size());
-      ASSERT_EQ(again.lmds.size(), contacts.lmds.size());
-      for (std::size_t i = 0; i < again.lmds.size(); ++i) {
-        EXPECT_TRUE(same_feature_pair(again.lmds[i], contacts.lmds[i]));
-        EXPECT_EQ(again.lmds[i].point_moving, contacts.lmds[i].point_moving);
-        EXPECT_EQ(again.lmds[i].distance, contacts.lmds[i].distance);
+    const LmdSet found = player.at(play.frames[frame]);
+    for (Player& one : tuned) {
+      const LmdSet& again = one.at(play.frames[frame]);
+      ASSERT_EQ(again.size(), found.size());
+      for (std::size_t i = 0; i < again.size(); ++i) {
+        EXPECT_TRUE(same_feature_pair(again[i], found[i]));
+        EXPECT_EQ(again[i].point_moving, found[i].point_moving);
+        EXPECT_EQ(again[i].distance, found[i].distance);
       }
     }
-    other.search(shuffled.frames[frame], contacts, work);
-    const Sets second = sets_of(contacts, named);
+    const Sets first = player.sets_at(play.frames[frame]), second = other.sets_at(shuffled.frames[frame]);
     ASSERT_EQ(first.size(), second.size());
     for (const auto& [pair, lmds] : second) {
-      const bool swaps = pair.first > pair.second;
-      const auto twin = first.find(swaps ? std::pair{pair.second, pair.first} : pair);
+      const std::uint32_t a = named[pair.mover], b = named[pair.other];
+      const bool swaps = a > b;
+      const auto twin = first.find({std::min(a, b), std::max(a, b)});
       ASSERT_NE(twin, first.end());
       ASSERT_EQ(twin->second.size(), lmds.size());
       for (std::size_t i = 0; i < lmds.size(); ++i) {
@@ -363,23 +354,20 @@ TEST(MoverGroup, NeitherOrderNorTuningChangesASet) {
   EXPECT_GT(kept, 300u);
 }
 
-TEST(MoverGroup, IsTheSameAKilometreAway) {
+TEST(MovingObjects, IsTheSameAKilometreAway) {
   const Vec3 offset(1024.0, -2048.0, 512.0);
   const Play here = drifting(10, 120, 9), there = drifting(10, 120, 9, offset);
-  MoverGroup a = group_of(here, 0.2), b = group_of(there, 0.2);
-  MoverGroup::Work work;
-  MoverContacts near, far;
+  Player a(here, 0.2), b(there, 0.2);
   std::size_t lmds = 0;
   for (std::size_t frame = 0; frame < here.frames.size(); ++frame) {
-    a.search(here.frames[frame], near, work);
-    b.search(there.frames[frame], far, work);
-    ASSERT_EQ(near.lmds.size(), far.lmds.size());
-    for (std::size_t i = 0; i < near.lmds.size(); ++i) {
-      ASSERT_TRUE(same_feature_pair(near.lmds[i], far.lmds[i]));
-      ASSERT_EQ(near.lmds[i].distance, far.lmds[i].distance);
-      ASSERT_LT((near.lmds[i].point_fixed + offset - far.lmds[i].point_fixed).norm(), 1e-11);
+    const LmdSet &near = a.at(here.frames[frame]), &far = b.at(there.frames[frame]);
+    ASSERT_EQ(near.size(), far.size());
+    for (std::size_t i = 0; i < near.size(); ++i) {
+      ASSERT_TRUE(same_feature_pair(near[i], far[i]));
+      ASSERT_EQ(near[i].distance, far[i].distance);
+      ASSERT_LT((near[i].point_fixed + offset - far[i].point_fixed).norm(), 1e-11);
     }
-    lmds += near.lmds.size();
+    lmds += near.size();
   }
   EXPECT_GT(lmds, 500u);
 }
@@ -393,150 +381,103 @@ Play row_of_balls(std::size_t count, double step) {
   return play;
 }
 
-TEST(MoverGroup, AtRestNothingIsTouched) {
+TEST(MovingObjects, AtRestNothingIsTouched) {
   const Play play = row_of_balls(40, 1.2);
-  MoverGroup group = group_of(play, 0.05);
-  MoverContacts contacts;
-  MoverGroup::Work first, work;
-  group.search(play.frames[0], contacts, first);
-  EXPECT_EQ(first.anchored, 40u);
-  EXPECT_EQ(group.candidate_count(), 39u);  // the neighbours, 0.15 from reach
-  for (int frame = 0; frame < 50; ++frame) group.search(play.frames[0], contacts, work);
-  EXPECT_EQ(work.anchored, 0u);
-  EXPECT_EQ(work.pairs_touched, 0u);
-  EXPECT_EQ(work.pairs_searched, 0u);
-  EXPECT_EQ(work.of_methods, WorkCounters{});
-  EXPECT_EQ(group.method_count(), 0u);
-  EXPECT_TRUE(contacts.pairs.empty());
+  Player player(play, 0.05);
+  player.at(play.frames[0]);
+  EXPECT_EQ(player.take_count("broad_phase_queries"), 40u);
+  EXPECT_EQ(player.search().candidate_count(), 39u);  // the neighbours, 0.15 from reach
+  player.take_count("pairs_touched");
+  for (int frame = 0; frame < 50; ++frame) EXPECT_TRUE(player.at(play.frames[0]).empty());
+  for (const CounterDescription& counter : player.search().description().counters)
+    EXPECT_EQ(player.take_count(counter.name), 0u) << counter.name;
+  EXPECT_EQ(player.search().method_count(), 1u);  // the first one, for pairs that come near
   // Both of a pair come nearer by 0.08, within their slack of 0.125: together they use up its room.
   std::vector<Pose> poses = play.frames[0];
   poses[7].translation.x() += 0.08;
-  group.search(poses, contacts, work);
-  EXPECT_EQ(work.pairs_searched, 0u);
+  player.at(poses);
+  EXPECT_EQ(player.take_count("pairs_searched"), 0u);
   poses[8].translation.x() -= 0.08;
-  group.search(poses, contacts, work);
-  EXPECT_EQ(work.anchored, 0u);
-  EXPECT_EQ(work.pairs_searched, 1u);
-  EXPECT_GE(work.pairs_touched, work.pairs_searched);
-  EXPECT_LE(work.pairs_touched, 3u);
-  ASSERT_EQ(contacts.pairs.size(), 1u);
-  EXPECT_EQ(contacts.pairs[0].mover, 7u);
-  EXPECT_EQ(contacts.pairs[0].other, 8u);
-  EXPECT_EQ(group.method_count(), 1u);
+  const Sets sets = player.sets_at(poses);
+  EXPECT_EQ(player.take_count("broad_phase_queries"), 0u);
+  EXPECT_EQ(player.take_count("pairs_searched"), 1u);
+  const std::uint64_t touched = player.take_count("pairs_touched");
+  EXPECT_GE(touched, 1u);
+  EXPECT_LE(touched, 3u);
+  ASSERT_EQ(sets.size(), 1u);
+  EXPECT_EQ(sets.begin()->first, (ObjectPair{7, 8}));
+  EXPECT_EQ(player.search().method_count(), 1u);
 }
 
-TEST(MoverGroup, OnlyWhoLeavesItsSlackIsAnchored) {
+TEST(MovingObjects, OnlyWhoLeavesItsSlackIsAnchored) {
   const Play play = row_of_balls(200, 1.5);
-  MoverGroup group = group_of(play, 0.05);
-  MoverContacts contacts;
-  MoverGroup::Work first, work;
+  Player player(play, 0.05);
   std::vector<Pose> poses = play.frames[0];
-  group.search(poses, contacts, first);
-  const std::size_t candidates = group.candidate_count();
+  player.at(poses);
+  player.take_count("broad_phase_queries");
+  player.take_count("pairs_touched");
+  const std::size_t candidates = player.search().candidate_count();
   // Ball 0 flies along the row, well out of reach, by 30 m: 0.1 a frame, slack 0.125.
   poses[0].translation.z() = 1.3;
   for (int frame = 0; frame < 300; ++frame) {
     poses[0].translation.x() += 0.1;
-    group.search(poses, contacts, work);
-    EXPECT_TRUE(contacts.pairs.empty());
+    EXPECT_TRUE(player.at(poses).empty());
   }
-  EXPECT_GE(work.anchored, 150u);
-  EXPECT_LE(work.anchored, 300u);
-  EXPECT_LE(work.pairs_touched, 4u * work.anchored);
-  EXPECT_NEAR(static_cast<double>(group.candidate_count()), static_cast<double>(candidates), 3.0);
+  const std::uint64_t anchored = player.take_count("broad_phase_queries");
+  EXPECT_GE(anchored, 150u);
+  EXPECT_LE(anchored, 300u);
+  EXPECT_LE(player.take_count("pairs_touched"), 4u * anchored);
+  EXPECT_NEAR(static_cast<double>(player.search().candidate_count()), static_cast<double>(candidates), 3.0);
 }
 
-TEST(MoverGroup, MethodsGoFromPairToPair) {
+TEST(MovingObjects, MethodsGoFromPairToPair) {
   // One ball along a row of others, near one or two of them at a time.
   Play play{{make_body("a", make_blob(0.5, 0.1, 2))}, {}, {}};
   const auto ball = make_body("ball", make_sphere(0.5, 2));
   for (int k = 0; k < 60; ++k) play.standing.emplace_back(ball, moved(1.5 * k, 0.0, 0.0));
   for (int frame = 0; frame < 900; ++frame) play.frames.push_back({moved(0.1 * frame, 1.05, 0.0)});
-  MoverGroup group = group_of(play, 0.1), scratch(play.movers, play.standing, 0.1,
-                                                  method_maker("certified", {{"frame_coherence", false}}));
-  MoverContacts contacts, fresh;
-  MoverGroup::Work work, ignored;
-  std::size_t met = 0;
+  Player player(play, 0.1), scratch(play, 0.1, {}, "certified", {{"frame_coherence", false}});
+  std::uint32_t met = 0;
   for (const std::vector<Pose>& poses : play.frames) {
-    group.search(poses, contacts, work);
-    scratch.search(poses, fresh, ignored);
-    ASSERT_EQ(contacts.pairs.size(), fresh.pairs.size());
-    ASSERT_EQ(contacts.lmds.size(), fresh.lmds.size());
-    for (std::size_t i = 0; i < fresh.lmds.size(); ++i)
-      ASSERT_EQ(contacts.lmds[i].point_fixed, fresh.lmds[i].point_fixed);
-    for (const MoverContacts::Pair& pair : contacts.pairs) met = std::max<std::size_t>(met, pair.other);
+    const Sets sets = player.sets_at(poses);
+    const LmdSet &found = player.at(poses), &fresh = scratch.at(poses);
+    ASSERT_EQ(found.size(), fresh.size());
+    for (std::size_t i = 0; i < fresh.size(); ++i) ASSERT_EQ(found[i].point_fixed, fresh[i].point_fixed);
+    for (const auto& [pair, lmds] : sets) met = std::max(met, pair.other);
   }
   EXPECT_EQ(met, 60u);
-  EXPECT_LE(group.method_count(), 4u);
+  EXPECT_LE(player.search().method_count(), 4u);
 }
 
-TEST(MoverGroup, OneMethodServesAllThatKeepNothing) {
+TEST(MovingObjects, OneMethodServesAllThatKeepNothing) {
   const Play play = drifting(6, 20, 10);
-  MoverGroup certified = group_of(play, 0.2), exhaustive = group_of(play, 0.2, {}, "exhaustive");
-  MoverContacts found, truth;
-  MoverGroup::Work work;
+  Player certified(play, 0.2), exhaustive(play, 0.2, {}, "exhaustive");
+  std::size_t lmds = 0;
   for (const std::vector<Pose>& poses : play.frames) {
-    certified.search(poses, found, work);
-    exhaustive.search(poses, truth, work);
-    ASSERT_EQ(found.lmds.size(), truth.lmds.size());
-    for (std::size_t i = 0; i < truth.lmds.size(); ++i)
-      EXPECT_TRUE(same_feature_pair(found.lmds[i], truth.lmds[i]));
+    const LmdSet &found = certified.at(poses), &truth = exhaustive.at(poses);
+    ASSERT_EQ(found.size(), truth.size());
+    for (std::size_t i = 0; i < truth.size(); ++i) EXPECT_TRUE(same_feature_pair(found[i], truth[i]));
+    lmds += truth.size();
   }
-  EXPECT_FALSE(truth.lmds.empty());
-  EXPECT_LE(exhaustive.method_count(), 9u);  // ordered pairs of three meshes
+  EXPECT_GT(lmds, 0u);
+  EXPECT_LE(exhaustive.search().method_count(), 9u);  // ordered pairs of three meshes
 }
 
-TEST(MoverGroup, FollowsMeshesThatDeform) {
+TEST(MovingObjects, FollowsMeshesThatDeform) {
   const auto ball = std::make_shared<Body>("ball", build_surface(make_sphere(0.5, 2)));
   const Play play{{ball, ball}, {FixedBody(ball, moved(0.0, 3.0, 0.0))}, {}};
-  MoverGroup group = group_of(play, 0.1);
-  MoverContacts contacts;
-  MoverGroup::Work work;
+  Player player(play, 0.1);
   const std::vector<Pose> poses{moved(0.0, 0.0, 0.0), moved(1.5, 0.0, 0.0)};
-  group.search(poses, contacts, work);
-  EXPECT_TRUE(contacts.pairs.empty());
+  EXPECT_TRUE(player.at(poses).empty());
   std::vector<Vec3> vertices = ball->surface().mesh.vertices;
   for (Vec3& vertex : vertices) vertex *= 1.45;
   ball->deform(vertices);
-  group.search(poses, contacts, work);
-  ASSERT_EQ(contacts.pairs.size(), 1u);
-  EXPECT_NEAR(contacts.lmds[0].distance, 0.05, 0.02);
+  Sets sets = player.sets_at(poses);
+  ASSERT_EQ(sets.size(), 1u);
+  EXPECT_NEAR((sets[{0, 1}].at(0).distance), 0.05, 0.02);
   for (Vec3& vertex : vertices) vertex *= 2.03;
   ball->deform(vertices);
-  group.search(poses, contacts, work);
-  const auto with_standing = [](const MoverContacts::Pair& pair) {
-    return pair.mover == 0 && pair.other == 2;
-  };
-  EXPECT_EQ(std::count_if(contacts.pairs.begin(), contacts.pairs.end(), with_standing), 1);
-}
-
-TEST(MoverGroup, MayBeEmpty) {
-  MoverGroup group({}, {FixedBody(make_body("ball", make_sphere(0.5, 1)))}, 0.1, method_maker("certified"));
-  MoverContacts contacts;
-  MoverGroup::Work work;
-  group.search({}, contacts, work);
-  EXPECT_TRUE(contacts.pairs.empty());
-  EXPECT_EQ(group.mover_count(), 0u);
-  EXPECT_EQ(group.object_count(), 1u);
-}
-
-TEST(MoverGroup, RefusesWhatIsNoPose) {
-  const Play play = row_of_balls(2, 1.2);
-  MoverGroup group = group_of(play, 0.1);
-  const auto message = [&](const std::vector<Pose>& poses) {
-    return message_of<UsageError>([&] {
-      MoverContacts contacts;
-      MoverGroup::Work work;
-      group.search(poses, contacts, work);
-    });
-  };
-  EXPECT_THAT(message({Pose{}}), HasSubstr("1 poses of 2 movers"));
-  Pose scaled, lost;
-  scaled.rotation.coeffs() *= 2.0;
-  lost.translation.y() = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_THAT(message({Pose{}, scaled}), HasSubstr("pose 1"));
-  EXPECT_THAT(message({lost, Pose{}}), HasSubstr("pose 0"));
-  EXPECT_THAT(message({moved(1e300, 0.0, 0.0), Pose{}}), HasSubstr("pose 0"));
+  EXPECT_EQ((player.sets_at(poses).count({0, 2})), 1u);
 }
 
 }  // namespace
