@@ -4,8 +4,8 @@
 #include <lmdbench/methods/registry.h>
 #include <lmdbench/metrics/summary.h>
 #include <lmdbench/motion/tum_file.h>
-#include <lmdbench/run/new_experiment.h>
-#include <lmdbench/run/prepare.h>
+#include <lmdbench/prepare/new_experiment.h>
+#include <lmdbench/prepare/prepare.h>
 #include <lmdbench/run/run.h>
 
 #include <fmt/format.h>

@@ -4,10 +4,10 @@
 #include <lmdbench/catalogue/off_file.h>
 #include <lmdbench/catalogue/shapes.h>
 #include <lmdbench/methods/registry.h>
+#include <lmdbench/prepare/contact.h>
+#include <lmdbench/prepare/frame_vertices.h>
 #include <lmdbench/result/result_scene.h>
 #include <lmdbench/result/run_to_file.h>
-#include <lmdbench/run/contact.h>
-#include <lmdbench/run/frame_vertices.h>
 #include <lmdbench/run/run.h>
 #include <lmdbench/view/export_frames.h>
 

@@ -2,11 +2,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/base/error.h>
 #include <lmdbench/experiment/instance_choice.h>
+#include <lmdbench/prepare/contact.h>
+#include <lmdbench/prepare/load_body.h>
+#include <lmdbench/prepare/prepare.h>
 #include <lmdbench/result/result_scene.h>
 #include <lmdbench/result/run_to_file.h>
-#include <lmdbench/run/contact.h>
-#include <lmdbench/run/load_body.h>
-#include <lmdbench/run/prepare.h>
 #include <lmdbench/run/run.h>
 #include <lmdbench/view/export_frames.h>
 

@@ -4,7 +4,7 @@
 #include <lmdbench/lmd/near_frame.h>
 #include <lmdbench/methods/certified/certified.h>
 #include <lmdbench/motion/tum_file.h>
-#include <lmdbench/run/prepare.h>
+#include <lmdbench/prepare/prepare.h>
 
 #include <fmt/format.h>
 #include <study/completeness/study.h>

@@ -96,7 +96,7 @@ struct MethodChoice {
   bool counts_indices() const;
 };
 
-/// How searches and frames share the clock, see `lockstep.h`.
+/// How searches and frames share the clock, see `drivers/lockstep.h`.
 struct DriverChoice {
   std::int64_t search_every_frames = 0;
   std::int64_t search_latency_frames = 0;
@@ -122,7 +122,7 @@ struct Experiment {
   /// With named profiles each method is there once a profile, under the label METHOD-PROFILE.
   std::vector<MethodChoice> methods;
   DriverChoice driver;
-  std::optional<RealtimeChoice> realtime;  ///< Set: the driver is `realtime_driver.h`'s, not lockstep's.
+  std::optional<RealtimeChoice> realtime;  ///< Set: the driver is `realtime/`'s, not lockstep.
   std::string device;
   LoopChoice loop;
   std::map<std::string, ProbeChoice, std::less<>> probes;  ///< By name.

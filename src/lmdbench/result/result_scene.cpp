@@ -4,9 +4,9 @@
 #include <lmdbench/base/file_hash.h>
 #include <lmdbench/experiment/experiment.h>
 #include <lmdbench/methods/registry.h>
+#include <lmdbench/prepare/prepare.h>
+#include <lmdbench/prepare/prepare_movers.h>
 #include <lmdbench/result/result_scene.h>
-#include <lmdbench/run/prepare.h>
-#include <lmdbench/run/prepare_movers.h>
 #include <lmdbench/scene/broad_phase.h>
 
 #include <algorithm>
