@@ -26,7 +26,7 @@ RecordedPath load_path(const PathChoice& choice) {
   PreparedRun prepared = prepare(experiment);
   std::vector<Pose>& poses = prepared.input.poses;
   if (poses.size() < choice.first_frame + choice.frame_count)
-    throw InputError(experiment.path_file.string(), "",
+    throw InputError(experiment.held().motion.path_file.string(), "",
                      fmt::format("has {} frames, which is not enough", poses.size()),
                      "generate the path again");
   const auto first = poses.begin() + static_cast<std::ptrdiff_t>(choice.first_frame);

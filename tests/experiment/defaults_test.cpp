@@ -71,8 +71,7 @@ TEST(Defaults, DenseMeshesGetACutoffOfTenEdges) {
   std::vector<DefaultNote> notes;
   const Experiment experiment =
       two_meshes(R"({"mesh": "plate", "diagonal_m": 0.1})", R"({"mesh": "plate", "diagonal_m": 0.1})");
-  std::vector<MeshNote> meshes;
-  const Scene scene = load_scene(experiment, meshes);
+  const Scene scene = load_scene(experiment).scene;
   const double cutoff = default_cutoff(scene, notes);
   const double edge = mean_edge_length(scene.moving->surface().mesh);
   EXPECT_NEAR(cutoff, std::min(0.002, 10.0 * edge), 0.01 * cutoff);

@@ -97,8 +97,7 @@ TEST_F(InitTest, SizesThatTellOfAnotherUnitAreTold) {
     const Experiment bare = parse_experiment(
         fmt::format(R"({{"moving": {{"mesh": "{}"}}, "fixed": [{{"mesh": "{}"}}]}})", moving, fixed),
         scratch_ / "two.json");
-    std::vector<MeshNote> notes;
-    load_scene(bare, notes);
+    const std::vector<MeshNote> notes = load_scene(bare).notes;
     std::vector<std::string> texts;
     for (const SceneWarning& warning : size_warnings(bare, notes)) texts.push_back(to_text(warning));
     return texts;

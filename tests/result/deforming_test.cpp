@@ -255,11 +255,10 @@ TEST(Deforming, WhatCannotBeIsRefusedWithItsPlace) {
 
 TEST(Deforming, TwoMeshesOfOneFileAreOneBodyOnlyWhereBothAreRigid) {
   const auto body_count = [](const std::string& deformation) {
-    std::vector<MeshNote> notes;
     const Experiment experiment = load_experiment(
         SHAPES_FILE,
         {R"(/moving={"mesh":"small-blob"})", R"(/fixed=[{"mesh":"small-blob")" + deformation + "}]"});
-    const Scene scene = load_scene(experiment, notes);
+    const Scene scene = load_scene(experiment).scene;
     return scene.moving == scene.fixed[0].body ? 1 : 2;
   };
   EXPECT_EQ(body_count(""), 1);

@@ -4,7 +4,7 @@
 #include <lmdbench/cli/experiment_argument.h>
 #include <lmdbench/mesh/surface.h>
 #include <lmdbench/prepare/contact.h>
-#include <lmdbench/prepare/load_body.h>
+#include <lmdbench/prepare/load_scene.h>
 #include <lmdbench/prepare/prepare.h>
 #include <lmdbench/view/anatomy.h>
 

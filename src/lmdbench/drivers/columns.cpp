@@ -25,7 +25,7 @@ void add_counters(std::vector<Column<Row>>& columns, const std::string& group,
 }  // namespace
 
 MethodDescription described(const Experiment& experiment, const std::string& name) {
-  if (!experiment.movers.empty()) return among_movers(method_description(name));
+  if (experiment.several_move()) return among_movers(method_description(name));
   return has_placed_meshes(experiment) ? in_world(method_description(name)) : method_description(name);
 }
 

@@ -40,8 +40,8 @@ struct DrivenMethod {
 
 /// All that a driver needs to know of the scene.
 struct DriverInput {
-  std::vector<Pose>
-      poses;  ///< The path, one a frame, X_WM; in a closed loop the one that the hand means to take.
+  std::vector<Pose> poses =
+      {};  ///< The path, one a frame, X_WM; in a closed loop the one that the hand means to take.
   double frame_rate_hz = 1000.0;
   LoopChoice loop = {};  ///< Closed: every method moves a device of its own.
   /// Makes the source of a method's poses where that is neither the path nor the loop's device.
@@ -49,7 +49,7 @@ struct DriverInput {
   std::optional<std::int64_t> frames = std::nullopt;  ///< Unset: as many as the path has poses.
   Vec3 reference_M = Vec3::Zero();  ///< Point of the moving mesh about which torque is taken.
   VirtualPhantom device;
-  std::function<bool(std::int64_t frame)> keep_lmds;  ///< Frames whose LMD sets are to be kept.
+  std::function<bool(std::int64_t frame)> keep_lmds = nullptr;  ///< Frames whose LMD sets are to be kept.
   SceneMotion motion = {};  ///< Where there is any every method needs `make_on` and a scene.
 };
 

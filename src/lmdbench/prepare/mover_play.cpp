@@ -24,16 +24,14 @@ std::size_t MoverPlay::moving() const {
   return static_cast<std::size_t>(std::ranges::find(number, std::size_t{0}) - number.begin());
 }
 
-MoverPlay make_play(const std::vector<std::shared_ptr<const Body>>& bodies,
-                    const std::vector<std::string>& names, const std::vector<std::vector<Pose>>& poses) {
+MoverPlay make_play(const std::vector<Mover>& movers, const std::vector<std::vector<Pose>>& poses) {
   MoverPlay play;
-  LMDBENCH_EXPECTS(bodies.size() == names.size() && bodies.size() == poses.size() && !poses.empty(),
-                   "parallel arrays of unlike lengths");
-  play.number.resize(bodies.size());
+  LMDBENCH_EXPECTS(movers.size() == poses.size() && !poses.empty(), "parallel arrays of unlike lengths");
+  play.number.resize(movers.size());
   std::iota(play.number.begin(), play.number.end(), std::size_t{0});
   // Movers that are the same in all of this are one for whoever looks at them.
   std::ranges::stable_sort(play.number, [&](std::size_t a, std::size_t b) {
-    if (names[a] != names[b]) return names[a] < names[b];
+    if (movers[a].name != movers[b].name) return movers[a].name < movers[b].name;
     for (std::size_t frame = 0; frame < poses[a].size(); ++frame) {
       const auto of_a = numbers_of(poses[a][frame]), of_b = numbers_of(poses[b][frame]);
       if (of_a != of_b) return of_a < of_b;
@@ -41,8 +39,8 @@ MoverPlay make_play(const std::vector<std::shared_ptr<const Body>>& bodies,
     return false;
   });
   for (const std::size_t number : play.number) {
-    play.bodies.push_back(bodies[number]);
-    play.references_M.push_back(bounding_box_centre(bodies[number]->surface().mesh));
+    play.bodies.push_back(movers[number].body);
+    play.references_M.push_back(bounding_box_centre(movers[number].body->surface().mesh));
   }
   play.poses.resize(poses.front().size());
   LMDBENCH_EXPECTS(

@@ -10,14 +10,23 @@
 #include <string>
 #include <vector>
 
-/// Several meshes that move in one run: the moving one and those of `/movers`, each on its own path.
+/// Several objects that move in one run, each on its own path: the held one and the others.
 namespace lmdbench {
+
+/// One of them, or an instance of one.
+struct Mover {
+  std::shared_ptr<const Body> body;
+  std::string name;        ///< Tells meshes apart.
+  std::size_t object = 0;  ///< Of the experiment.
+  std::size_t which = 0;   ///< Instance of the object.
+  Pose place;              ///< Frame of its path.
+};
 
 /// All movers with all their poses.
 ///
 /// They stand here in an order that their meshes and paths decide, so that who lists them otherwise in the file gets the same bits: of a
 /// pair the earlier one takes the part of the moving mesh, and forces are summed in this order. `number` says which one of the file each
-/// is: 0 the moving mesh, then the entries of `/movers` one after the other, instance by instance.
+/// is: 0 the held object, then those that move one after the other, instance by instance.
 struct MoverPlay {
   std::vector<std::shared_ptr<const Body>> bodies;
   std::vector<std::size_t> number;
@@ -31,11 +40,9 @@ struct MoverPlay {
   Scene with_movers(Scene scene) const;
 };
 
-/// Movers in the order of the file, to be put into their own.
-/// @param names what tells meshes apart, one a mover
+/// @param movers in the order of the file, to be put into their own
 /// @param poses of a mover of a frame
-MoverPlay make_play(const std::vector<std::shared_ptr<const Body>>& bodies,
-                    const std::vector<std::string>& names, const std::vector<std::vector<Pose>>& poses);
+MoverPlay make_play(const std::vector<Mover>& movers, const std::vector<std::vector<Pose>>& poses);
 
 /// An LMD as files have it: of its two objects the one with the lower number of the file moves.
 struct FiledLmd {

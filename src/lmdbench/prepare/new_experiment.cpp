@@ -250,9 +250,9 @@ NewExperiment new_experiment(const std::string& moving, const std::string& fixed
   Scene scene;
   std::vector<SceneWarning> sizes;
   if (chosen.contact) {
-    std::vector<MeshNote> notes;
-    scene = load_scene(open, notes);
-    sizes = size_warnings(open, notes);
+    LoadedScene loaded = load_scene(open);
+    scene = std::move(loaded.scene);
+    sizes = size_warnings(open, loaded.notes);
     std::copy_if(open.defaults.begin(), open.defaults.end(), std::back_inserter(result.choices),
                  [](const DefaultNote& note) { return note.key != "/methods"; });
     scene.cutoff = default_cutoff(scene, result.choices);
@@ -285,8 +285,8 @@ NewExperiment new_experiment(const std::string& moving, const std::string& fixed
   if (chosen.contact) return result;
 
   PathSpec spec = prepared->made_path->spec;
-  spec.moving = {.mesh = json["moving"]["mesh"], .placement = open.moving.placement};
-  spec.fixed = {.mesh = json["fixed"][0]["mesh"], .placement = open.fixed.front().placement};
+  spec.moving = {.mesh = json["moving"]["mesh"], .placement = open.held().placement};
+  spec.fixed = {.mesh = json["fixed"][0]["mesh"], .placement = open.objects.at(1).placement};
   result.specification_text = path_spec_text(spec);
   result.path_text =
       tum_text(prepared->made_path->path,

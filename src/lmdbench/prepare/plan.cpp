@@ -63,17 +63,17 @@ std::string loop_text(const LoopChoice& loop) {
                      loop.delay_frames);
 }
 
-/// What moves beside the moving mesh.
+/// What moves beside the held object.
 std::string movers_text(const Experiment& experiment) {
   std::vector<std::string> entries;
-  for (std::size_t i = 0; i < experiment.movers.size(); ++i) {
-    const MoverChoice& mover = experiment.movers[i];
-    entries.push_back(
-        fmt::format("mover_{} {}{}", i, mover.mesh.mesh,
-                    mover.path_file.empty()
-                        ? fmt::format(", sways {:g} diagonals and {:g} rad in {:g} s",
-                                      mover.sway.way_diagonals, mover.sway.turn_rad, mover.sway.period_s)
-                        : fmt::format(", path {}", mover.path_file.string())));
+  for (const ObjectChoice& object : experiment.objects) {
+    const ObjectMotion& motion = object.motion;
+    if (motion.kind == MotionKind::PATH)
+      entries.push_back(fmt::format("{} {}, path {}", object.role, object.mesh, motion.path_file.string()));
+    if (motion.kind == MotionKind::SWAYS)
+      entries.push_back(fmt::format("{} {}, sways {:g} diagonals and {:g} rad in {:g} s", object.role,
+                                    object.mesh, motion.sway.way_diagonals, motion.sway.turn_rad,
+                                    motion.sway.period_s));
   }
   return fmt::format("{}; every pair is looked at, each mover has its force", fmt::join(entries, "; "));
 }
@@ -81,13 +81,8 @@ std::string movers_text(const Experiment& experiment) {
 /// Which meshes deform, and what each method makes of it.
 std::string deformation_text(const Experiment& experiment) {
   std::vector<std::string> meshes, following, remade;
-  if (experiment.moving.deformation) meshes.push_back("moving " + to_text(*experiment.moving.deformation));
-  for (std::size_t i = 0; i < experiment.fixed.size(); ++i)
-    if (experiment.fixed[i].deformation)
-      meshes.push_back(fmt::format("fixed_{} {}", i, to_text(*experiment.fixed[i].deformation)));
-  for (std::size_t i = 0; i < experiment.movers.size(); ++i)
-    if (experiment.movers[i].mesh.deformation)
-      meshes.push_back(fmt::format("mover_{} {}", i, to_text(*experiment.movers[i].mesh.deformation)));
+  for (const ObjectChoice& object : experiment.objects)
+    if (object.deformation) meshes.push_back(fmt::format("{} {}", object.role, to_text(*object.deformation)));
   for (const MethodChoice& choice : experiment.methods)
     (method_description(choice.name).follows_deformation ? following : remade).push_back(choice.label);
   std::string text = fmt::format("{}", fmt::join(meshes, "; "));
@@ -120,19 +115,18 @@ Plan make_plan(const Experiment& experiment) {
                        const std::string& why_left_out) {
     plan.items.push_back({part, needed, name, needed ? why_needed : why_left_out});
   };
-  std::vector<std::string> tolerances{
-      fmt::format("moving {}", to_string(experiment.moving.planar_tolerance))};
-  bool flattens = experiment.moving.planar_tolerance != TAKEN_AS_THEY_ARE;
-  for (std::size_t i = 0; i < experiment.fixed.size(); ++i) {
-    tolerances.push_back(fmt::format("fixed_{} {}", i, to_string(experiment.fixed[i].planar_tolerance)));
-    flattens = flattens || experiment.fixed[i].planar_tolerance != TAKEN_AS_THEY_ARE;
+  std::vector<std::string> tolerances;
+  bool flattens = false;
+  for (const ObjectChoice& object : experiment.objects) {
+    tolerances.push_back(fmt::format("{} {}", object.role, to_string(object.planar_tolerance)));
+    flattens = flattens || object.planar_tolerance != TAKEN_AS_THEY_ARE;
   }
   add(Part::FLATTENING, "rounded planes", flattens,
       fmt::format("planar tolerance: {}; `lmdbench mesh info` says what that moves", join_labels(tolerances)),
       "planar_tolerance is off for every mesh");
   add(Part::DEFORMATION, "meshes that deform", experiment.deforms(), deformation_text(experiment),
       "no mesh has a deformation: all are rigid");
-  add(Part::MOVERS, "several meshes that move", !experiment.movers.empty(), movers_text(experiment),
+  add(Part::MOVERS, "several meshes that move", experiment.several_move(), movers_text(experiment),
       "there are no movers: one mesh moves");
   add(Part::LOCAL_TRACKING, "global searches and local tracking", !tracking.empty(),
       experiment.realtime
@@ -196,11 +190,13 @@ Plan make_plan(const Experiment& experiment) {
 
 std::string plan_text(const Plan& plan, const Experiment& experiment) {
   std::string text = fmt::format("{}: {}\n", experiment.name, experiment.title);
-  text += fmt::format("moving {}, fixed", experiment.moving.mesh);
-  for (const MeshChoice& fixed : experiment.fixed) text += " " + fixed.mesh;
+  text += fmt::format("moving {}, fixed", experiment.held().mesh);
+  for (const ObjectChoice& object : experiment.objects)
+    if (object.stands()) text += " " + object.mesh;
+  const std::filesystem::path& path = experiment.held().motion.path_file;
   text += fmt::format(", path {}, {:g} frames a second, {} repetitions\n",
-                      experiment.path_file.empty() ? "made for the scene" : experiment.path_file.string(),
-                      experiment.frame_rate_hz, experiment.driver.repetitions);
+                      path.empty() ? "made for the scene" : path.string(), experiment.frame_rate_hz,
+                      experiment.driver.repetitions);
   for (const bool needed : {true, false}) {
     text += needed ? "needed:\n" : "left out:\n";
     for (const PlanItem& item : plan.items)

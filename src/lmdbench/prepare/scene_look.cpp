@@ -51,7 +51,7 @@ struct FramesOf {
 
 std::vector<SceneLook::Mesh> meshes_of(const Experiment& experiment, const std::vector<MeshNote>& notes) {
   std::vector<SceneLook::Mesh> meshes;
-  const auto add = [&](const MeshChoice& choice) {
+  for (const ObjectChoice& choice : experiment.objects) {
     const MeshNote& note = notes[meshes.size()];
     meshes.push_back({note.role, note.name, note.report.triangles, note.report.diagonal, note.report.closed,
                       static_cast<std::int64_t>(note.instances.size())});
@@ -61,11 +61,7 @@ std::vector<SceneLook::Mesh> meshes_of(const Experiment& experiment, const std::
       meshes.back().unit.reset();
     meshes.back().unit_is_said =
         choice.placement.diagonal || choice.placement.scale || metres_of_format(choice.mesh);
-  };
-  add(experiment.moving);
-  for (const MeshChoice& choice : experiment.fixed) add(choice);
-  for (const MoverChoice& mover : experiment.movers)
-    if (meshes.size() < notes.size()) add(mover.mesh);
+  }
   return meshes;
 }
 
@@ -112,14 +108,14 @@ void look_at_cutoff(SceneLook& look) {
          "lower /force/cutoff_m, which is in metres, or check scale and diagonal_m"});
 }
 
-/// The entry of `fixed` before this one that is the same mesh at the same place.
-std::optional<std::size_t> coincident_entry(const Experiment& experiment, const std::vector<MeshNote>& notes,
-                                            std::size_t entry) {
-  const MeshChoice& choice = experiment.fixed[entry];
-  for (std::size_t i = 0; i < entry; ++i) {
-    const MeshChoice& other = experiment.fixed[i];
-    if (notes[1 + i].sha256 == notes[1 + entry].sha256 && !choice.instances && !other.instances &&
-        other.placement == choice.placement && same_pose(other.pose, choice.pose))
+/// The object before this one that is the same mesh and stands at the same place.
+std::optional<std::size_t> coincident_object(const Experiment& experiment, const std::vector<MeshNote>& notes,
+                                             std::size_t index) {
+  const ObjectChoice& choice = experiment.objects[index];
+  for (std::size_t i = 0; i < index; ++i) {
+    const ObjectChoice& other = experiment.objects[i];
+    if (choice.stands() && other.stands() && notes[i].sha256 == notes[index].sha256 && !choice.instances &&
+        !other.instances && other.placement == choice.placement && same_pose(other.pose, choice.pose))
       return i;
   }
   return std::nullopt;
@@ -129,10 +125,11 @@ std::optional<std::size_t> coincident_entry(const Experiment& experiment, const 
 void look_at_entries(SceneLook& look, const Experiment& experiment, const PreparedRun& prepared) {
   std::int64_t coincident = 0;
   std::string first;
-  for (std::size_t i = 0; i < experiment.fixed.size(); ++i) {
-    const std::optional<std::size_t> other = coincident_entry(experiment, prepared.meshes, i);
+  for (std::size_t i = 0; i < experiment.objects.size(); ++i) {
+    const std::optional<std::size_t> other = coincident_object(experiment, prepared.meshes, i);
     if (other && coincident++ == 0)
-      first = fmt::format("fixed_{} is the mesh of fixed_{}, {}", i, *other, experiment.fixed[i].mesh);
+      first = fmt::format("{} is the mesh of {}, {}", experiment.objects[i].role,
+                          experiment.objects[*other].role, experiment.objects[i].mesh);
   }
   if (coincident > 0)
     look.warnings.push_back(
@@ -196,7 +193,8 @@ void look_inside(SceneLook& look, const Experiment& experiment, const PreparedRu
   }
 }
 
-void look_at_path(SceneLook& look, const PreparedRun& prepared) {
+/// @param path place of its file in the experiment
+void look_at_path(SceneLook& look, const std::string& path, const PreparedRun& prepared) {
   if (!prepared.path_gaps.empty()) {
     const auto longest = std::max_element(
         prepared.path_gaps.begin(), prepared.path_gaps.end(),
@@ -208,7 +206,8 @@ void look_at_path(SceneLook& look, const PreparedRun& prepared) {
              "the path has {} gaps of {:.4g} s together, the longest {:.4g} s from {:.6g} s on: the mesh is "
              "held there",
              prepared.path_gaps.size(), total, longest->duration, longest->start),
-         "record it again, cut it there, or set /path/gap_intervals to 0 to interpolate over gaps"});
+         fmt::format("record it again, cut it there, or set {}/gap_intervals to 0 to interpolate over gaps",
+                     path.substr(0, path.rfind('/')))});
   }
   if (look.frames_in_contact > 0) return;
   double bound = std::numeric_limits<double>::infinity();
@@ -257,7 +256,7 @@ SceneLook look_at(const Experiment& experiment, const PreparedRun& prepared,
   // In a closed loop the path is what the hand means: it may well lie inside.
   if (!experiment.loop.closed) {
     look_inside(look, experiment, prepared);
-    look_at_path(look, prepared);
+    look_at_path(look, experiment.held().motion.path_place, prepared);
   }
   return look;
 }

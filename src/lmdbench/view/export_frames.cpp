@@ -5,7 +5,7 @@
 #include <lmdbench/base/output_guard.h>
 #include <lmdbench/geometry/pose.h>
 #include <lmdbench/methods/query.h>
-#include <lmdbench/prepare/load_body.h>
+#include <lmdbench/prepare/load_scene.h>
 #include <lmdbench/result/result_scene.h>
 #include <lmdbench/result_file/vtu_file.h>
 #include <lmdbench/view/export_frames.h>
