@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/base/error.h>
 #include <lmdbench/prepare/prepare.h>
+#include <lmdbench/result/result_scene.h>
 #include <lmdbench/result/run_to_file.h>
 
 #include <gmock/gmock.h>
@@ -21,6 +22,7 @@ namespace {
 
 using ::testing::AllOf;
 using testing::deterministic_datasets;
+using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using testing::message_of;
 using testing::ScratchDirectory;
@@ -79,6 +81,23 @@ TEST(Objects, TheSameSceneGivesTheSameBitsUnderEitherKeys) {
     EXPECT_GT(expected.size(), 50u);
     EXPECT_EQ(found, expected) << (deforms ? "deforming" : "rigid");
   }
+}
+
+TEST(Objects, TheResultHasATableOfThem) {
+  const ScratchDirectory scratch;
+  const std::string file = scratch / "list.h5";
+  run_experiment_to_file(scene(true, false), file, {"lmdbench", "run"});
+  const ResultReader result(file);
+  EXPECT_THAT(result.texts("/scene/objects/name"), ElementsAre("probe", "mover_0", "fixed_0", "fixed_1"));
+  EXPECT_THAT(result.texts("/scene/objects/role"), ElementsAre("moving", "mover_0", "fixed_0", "fixed_1"));
+  EXPECT_THAT(result.texts("/scene/objects/mesh"), ElementsAre("small-blob", "small-blob", "torus", "ball"));
+  EXPECT_THAT(result.texts("/scene/objects/motion"), ElementsAre("held", "sways", "stands", "stands"));
+  EXPECT_THAT(result.integers("/scene/objects/first"), ElementsAre(0, 1, 0, 1));
+  EXPECT_THAT(result.integers("/scene/objects/instances"), ElementsAre(1, 2, 1, 4));
+  // Read back, the list is the scene that was run.
+  const ResultScene again = scene_of_result(result);
+  EXPECT_EQ(again.rest.mover_count(), 3u);
+  EXPECT_EQ(again.rest.fixed.size(), 5u);
 }
 
 TEST(Objects, AMeshThatIsNotThereNamesItsPlace) {
