@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/base/error.h>
 #include <lmdbench/methods/registry.h>
-#include <lmdbench/run/prepare.h>
+#include <lmdbench/prepare/prepare.h>
 
 #include <benchmarks/frame_loop.h>
 #include <fmt/core.h>
@@ -14,8 +14,8 @@
 
 namespace lmdbench::experiments {
 
-LockstepMethod RecordedPath::method(const std::string& method) const {
-  for (const LockstepMethod& known : methods)
+DrivenMethod RecordedPath::method(const std::string& method) const {
+  for (const DrivenMethod& known : methods)
     if (known.label == method) return known;
   return {method, [method, scene = scene] { return make_method(method, scene); }, profile};
 }
@@ -26,12 +26,12 @@ RecordedPath load_path(const PathChoice& choice) {
   PreparedRun prepared = prepare(experiment);
   std::vector<Pose>& poses = prepared.input.poses;
   if (poses.size() < choice.first_frame + choice.frame_count)
-    throw InputError(experiment.path_file.string(), "",
+    throw InputError(experiment.held().motion.path_file.string(), "",
                      fmt::format("has {} frames, which is not enough", poses.size()),
                      "generate the path again");
   const auto first = poses.begin() + static_cast<std::ptrdiff_t>(choice.first_frame);
   poses = std::vector<Pose>(first, first + static_cast<std::ptrdiff_t>(choice.frame_count));
-  std::vector<LockstepMethod> methods = lockstep_methods(experiment, prepared);
+  std::vector<DrivenMethod> methods = driven_methods(experiment, prepared);
   RecordedPath path{.name = experiment.name,
                     .scene = prepared.scene(),
                     .input = std::move(prepared.input),

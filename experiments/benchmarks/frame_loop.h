@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <lmdbench/run/lockstep.h>
+#include <lmdbench/drivers/lockstep.h>
 
 #include <support/lmd_error.h>
 
@@ -21,9 +21,9 @@ namespace lmdbench::experiments {
 struct RecordedPath {
   std::string name;
   Scene scene;
-  LockstepInput input;  ///< Poses of the frames.
+  DriverInput input;  ///< Poses of the frames.
   DriverChoice driver;
-  std::vector<LockstepMethod> methods;    ///< The experiment's.
+  std::vector<DrivenMethod> methods;      ///< The experiment's.
   ForceProfile profile;                   ///< Of what is no method of the experiment.
   std::vector<LmdSet> lmds = {};          ///< LMDs of every frame, by `certified`.
   std::vector<std::size_t> checked = {};  ///< Frames whose truth is known, ascending.
@@ -31,7 +31,7 @@ struct RecordedPath {
 
   const std::vector<Pose>& poses() const { return input.poses; }
   /// The experiment's method of that label; where it has none, the method of that name with default options.
-  LockstepMethod method(const std::string& method) const;
+  DrivenMethod method(const std::string& method) const;
 };
 
 struct PathChoice {

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/experiment/experiment.h>
 #include <lmdbench/methods/registry.h>
-#include <lmdbench/run/prepare.h>
+#include <lmdbench/prepare/prepare.h>
 
 #include <fmt/format.h>
 #include <judge/exact_scene.h>

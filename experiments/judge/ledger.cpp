@@ -3,8 +3,8 @@
 #include <lmdbench/base/error.h>
 #include <lmdbench/crosscheck/fcl_crosscheck.h>
 #include <lmdbench/experiment/experiment.h>
+#include <lmdbench/prepare/prepare.h>
 #include <lmdbench/result_file/result_reader.h>
-#include <lmdbench/run/prepare.h>
 #include <lmdbench/snch/minimum_distance.h>
 
 #include <judge/exact_distance.h>

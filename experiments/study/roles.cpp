@@ -2,8 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/base/error.h>
 #include <lmdbench/base/statistics.h>
+#include <lmdbench/drivers/lockstep.h>
 #include <lmdbench/force/aggregation.h>
-#include <lmdbench/run/prepare.h>
+#include <lmdbench/prepare/prepare.h>
 
 #include <CLI/CLI.hpp>
 #include <fmt/core.h>
@@ -75,11 +76,12 @@ double sum(const std::vector<double>& values) {
   return total;
 }
 
-RoleRow measure_roles(const LockstepMethod& method, LockstepInput input, const DriverChoice& driver) {
+RoleRow measure_roles(const DrivenMethod& method, DriverInput input, const DriverChoice& driver) {
   RoleRow row;
   row.label = method.label;
-  const auto make_poses = input.make_poses;
-  input.make_poses = [&] { return std::make_unique<TimedPoses>(make_poses(), row.device); };
+  input.make_poses = [&, device = input] {
+    return std::make_unique<TimedPoses>(pose_source(device), row.device);
+  };
   input.keep_lmds = [](std::int64_t) { return true; };
   const MethodRecord record = std::move(run_lockstep({method}, input, driver, {}).front());
   for (std::size_t frame = 0; frame < record.frames.size(); ++frame) {
@@ -154,7 +156,7 @@ int run_roles(const RolesChoice& choice) {
       "99 % | largest | device and local, median [us] | 99 % | largest | above 1 ms | frames with force |\n");
   fmt::print("|---|---|---|---|---|---|---|---|---|---|---|---|---|\n");
   for (int repetition = 0; repetition < choice.repetitions; ++repetition)
-    for (const LockstepMethod& method : lockstep_methods(experiment, prepared)) {
+    for (const DrivenMethod& method : driven_methods(experiment, prepared)) {
       rows.push_back(described(measure_roles(method, prepared.input, driver)));
       print_roles(rows.back());
     }

@@ -274,7 +274,7 @@ MEAN_EDGES = {"bunny-16k": 0.0128, "armadillo": 0.0068}  # of the diagonal: `lmd
 
 
 def cutoff_text(point):
-    force, moving = point.experiment["force"], point.experiment["moving"]["mesh"]
+    force, moving = point.experiment["force"], (point.experiment.get("moving") or point.experiment["objects"][0])["mesh"]
     share = force.get("cutoff_diagonal")
     if share is None:
         return f"Cutoff {1e3 * force['cutoff_m']:g} mm."

@@ -4,8 +4,8 @@
 #include <lmdbench/methods/registry.h>
 #include <lmdbench/metrics/summary.h>
 #include <lmdbench/motion/tum_file.h>
-#include <lmdbench/run/new_experiment.h>
-#include <lmdbench/run/prepare.h>
+#include <lmdbench/prepare/new_experiment.h>
+#include <lmdbench/prepare/prepare.h>
 #include <lmdbench/run/run.h>
 
 #include <fmt/format.h>
@@ -71,8 +71,7 @@ TEST(Defaults, DenseMeshesGetACutoffOfTenEdges) {
   std::vector<DefaultNote> notes;
   const Experiment experiment =
       two_meshes(R"({"mesh": "plate", "diagonal_m": 0.1})", R"({"mesh": "plate", "diagonal_m": 0.1})");
-  std::vector<MeshNote> meshes;
-  const Scene scene = load_scene(experiment, meshes);
+  const Scene scene = load_scene(experiment).scene;
   const double cutoff = default_cutoff(scene, notes);
   const double edge = mean_edge_length(scene.moving->surface().mesh);
   EXPECT_NEAR(cutoff, std::min(0.002, 10.0 * edge), 0.01 * cutoff);

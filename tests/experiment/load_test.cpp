@@ -54,7 +54,7 @@ TEST(LoadExperiment, FillsDefaultsFromTheSchema) {
   EXPECT_EQ(experiment.probe_stride("fcl"), 0);
   EXPECT_EQ(experiment.probes.at("fcl").options["tolerance_relative"], 1e-6);
   EXPECT_FALSE(experiment.record_lmds);
-  EXPECT_TRUE(experiment.fixed[0].pose.translation.isZero(0.0));
+  EXPECT_TRUE(experiment.objects[1].pose.translation.isZero(0.0));
   ASSERT_EQ(experiment.methods.size(), 2u);
   EXPECT_EQ(experiment.methods[0].label, "original");
   EXPECT_EQ(experiment.methods[0].force_law, ForceLaw::LINEAR);
@@ -71,8 +71,8 @@ TEST(LoadExperiment, ResolvedJsonHasTheDefaultsAndResolvesToItself) {
 }
 
 TEST(LoadExperiment, PathIsRelativeToTheExperimentFile) {
-  EXPECT_EQ(parse(MINIMAL).path_file, std::filesystem::path("/data/paths/p.tum"));
-  EXPECT_EQ(parse(MINIMAL, {R"(/path/file="/elsewhere/q.tum")"}).path_file,
+  EXPECT_EQ(parse(MINIMAL).held().motion.path_file, std::filesystem::path("/data/paths/p.tum"));
+  EXPECT_EQ(parse(MINIMAL, {R"(/path/file="/elsewhere/q.tum")"}).held().motion.path_file,
             std::filesystem::path("/elsewhere/q.tum"));
 }
 
@@ -260,19 +260,19 @@ TEST(LoadExperiment, FixedPoseIsAUnitQuaternion) {
   EXPECT_THAT(message({"/fixed/0/pose/translation_m=[0,0]"}), HasSubstr("/fixed/0/pose/translation_m: "));
   const Experiment experiment =
       parse(MINIMAL, {"/fixed/0/pose/rotation_xyzw=[0,0,1,0]", "/fixed/0/pose/translation_m=[1,2,3]"});
-  EXPECT_EQ(experiment.fixed[0].pose.rotation.z(), 1.0);
-  EXPECT_EQ(experiment.fixed[0].pose.translation, Vec3(1, 2, 3));
+  EXPECT_EQ(experiment.objects[1].pose.rotation.z(), 1.0);
+  EXPECT_EQ(experiment.objects[1].pose.translation, Vec3(1, 2, 3));
 }
 
 TEST(LoadExperiment, PlanarTolerancesAreOfEachMesh) {
   using Kind = PlanarTolerance::Kind;
   const Experiment untouched = parse(MINIMAL);
-  EXPECT_EQ(untouched.moving.planar_tolerance.kind, Kind::AUTO);
+  EXPECT_EQ(untouched.held().planar_tolerance.kind, Kind::AUTO);
   const Experiment experiment =
       parse(MINIMAL, {"/moving/planar_tolerance=1e-6", "/fixed/0/planar_tolerance=off"});
-  EXPECT_EQ(experiment.moving.planar_tolerance, (PlanarTolerance{Kind::LENGTH, 1e-6}));
-  EXPECT_EQ(experiment.fixed[0].planar_tolerance, (PlanarTolerance{Kind::LENGTH, 0.0}));
-  EXPECT_EQ(parse(MINIMAL, {"/moving/planar_tolerance=0.01%"}).moving.planar_tolerance.kind, Kind::DIAGONAL);
+  EXPECT_EQ(experiment.held().planar_tolerance, (PlanarTolerance{Kind::LENGTH, 1e-6}));
+  EXPECT_EQ(experiment.objects[1].planar_tolerance, (PlanarTolerance{Kind::LENGTH, 0.0}));
+  EXPECT_EQ(parse(MINIMAL, {"/moving/planar_tolerance=0.01%"}).held().planar_tolerance.kind, Kind::DIAGONAL);
   EXPECT_THAT(message({"/fixed/0/planar_tolerance=wide"}),
               HasSubstr("/fixed/0/planar_tolerance: 'wide' is no planar tolerance"));
   EXPECT_THAT(message({"/moving/planar_tolerance=-1"}), HasSubstr("/moving/planar_tolerance"));

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/base/error.h>
+#include <lmdbench/drivers/contact_finder.h>
 #include <lmdbench/force/aggregation.h>
-#include <lmdbench/force/contact_finder.h>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/catalogue/sleeve.h>
-#include <lmdbench/force/contact_finder.h>
+#include <lmdbench/drivers/contact_finder.h>
 #include <lmdbench/methods/registry.h>
 
 #include <gtest/gtest.h>

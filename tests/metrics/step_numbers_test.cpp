@@ -3,7 +3,7 @@
 #include <lmdbench/catalogue/shapes.h>
 #include <lmdbench/metrics/step_numbers.h>
 #include <lmdbench/phantom/device.h>
-#include <lmdbench/run/truth_probe.h>
+#include <lmdbench/probes/truth_probe.h>
 
 #include <gtest/gtest.h>
 #include <support/scenes.h>

@@ -4,7 +4,7 @@
 
 #include <lmdbench/lmd/method_description.h>
 #include <lmdbench/methods/registry.h>
-#include <lmdbench/run/realtime_driver.h>
+#include <lmdbench/realtime/driver.h>
 
 #include <support/scenes.h>
 
@@ -49,15 +49,14 @@ class ClockMethod : public Method {
   MethodDescription description_;
 };
 
-inline LockstepMethod clock_method(bool tracks, ClockMethod::Plant in_search = {}) {
+inline DrivenMethod clock_method(bool tracks, ClockMethod::Plant in_search = {}) {
   return {"clock", [=] { return std::make_unique<ClockMethod>(tracks, in_search); },
           ForceProfile{ForceLaw::LINEAR, 1.0, 0.0, 1.0, 4.0}};
 }
 
 /// A path along x from 0.1 m, a millimetre a second.
-inline LockstepInput straight_path(std::int64_t frames) {
-  LockstepInput input{
-      .poses = {}, .device = VirtualPhantom(device_named("phantom-desktop")), .keep_lmds = {}};
+inline DriverInput straight_path(std::int64_t frames) {
+  DriverInput input{.poses = {}, .device = VirtualPhantom(device_named("phantom-desktop")), .keep_lmds = {}};
   for (std::int64_t i = 0; i < frames; ++i) {
     Pose pose;
     pose.translation.x() = 0.1 + 1e-6 * static_cast<double>(i);
@@ -80,7 +79,7 @@ inline double force_at(std::int64_t frame) {
 /// Two bodies and a path that slides along their contact; for the registry's methods.
 struct BlobRun {
   Scene scene = make_scene(make_blob(1.0, 0.3, 4), make_blob(0.9, 0.3, 4), 0.0);
-  LockstepInput input{.poses = {}, .device = VirtualPhantom(device_named("ideal")), .keep_lmds = {}};
+  DriverInput input{.poses = {}, .device = VirtualPhantom(device_named("ideal")), .keep_lmds = {}};
 
   explicit BlobRun(std::int64_t frames) {
     std::mt19937_64 random(1);
@@ -93,7 +92,7 @@ struct BlobRun {
     }
     scene.cutoff = 0.1;
   }
-  LockstepMethod method(const std::string& name) const {
+  DrivenMethod method(const std::string& name) const {
     return {name, [this, name] { return make_method(name, scene); },
             ForceProfile{ForceLaw::LINEAR, 0.1, 0.0, 1.0, 4.0}};
   }

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/base/error.h>
-#include <lmdbench/run/realtime_driver.h>
+#include <lmdbench/realtime/driver.h>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -39,7 +39,7 @@ void expect_grid(const RealtimeRecord& clock, std::int64_t frames) {
 
 TEST(RealtimeDriver, EveryFrameIsATickOrAKnownSkip) {
   constexpr std::int64_t FRAMES = 400;
-  LockstepInput input = straight_path(FRAMES);
+  DriverInput input = straight_path(FRAMES);
   input.keep_lmds = [](std::int64_t frame) { return frame % 10 == 0; };
   const RealtimeRun run = run_realtime({clock_method(false)}, input, quick(), {});
   const MethodRecord& record = run.records.at(0);
@@ -116,7 +116,7 @@ TEST(RealtimeDriver, PredictionLooksAheadByTheAge) {
 TEST(RealtimeDriver, CertifiedGivesTheLockstepsForces) {
   constexpr std::int64_t FRAMES = 300;
   const testing::BlobRun blobs(FRAMES);
-  const LockstepMethod certified = blobs.method("certified");
+  const DrivenMethod certified = blobs.method("certified");
   const RealtimeRun run = run_realtime({certified}, blobs.input, quick(), {});
   const std::vector<MethodRecord> lockstep = run_lockstep({certified}, blobs.input, {1, 0, 1, 100}, {});
   std::int64_t compared = 0;
@@ -132,7 +132,7 @@ TEST(RealtimeDriver, CertifiedGivesTheLockstepsForces) {
 TEST(RealtimeDriver, TheImprovedMethodsForcesAreThoseOfAFewTicksAgo) {
   constexpr std::int64_t FRAMES = 400;
   const testing::BlobRun blobs(FRAMES);
-  const LockstepMethod improved = blobs.method("improved");
+  const DrivenMethod improved = blobs.method("improved");
   const RealtimeRun run = run_realtime({improved}, blobs.input, quick(), {});
   std::int64_t with_force = 0;
   for (const FrameRecord& frame : run.records[0].frames) with_force += frame.lmd_count > 0 ? 1 : 0;

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include <lmdbench/run/realtime_driver.h>
+#include <lmdbench/realtime/driver.h>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -23,11 +23,11 @@ TEST(LongRun, FourThreadsOfTheImprovedMethodHandOverAllAlong) {
   const auto frames = static_cast<std::int64_t>(1000.0 * seconds_asked());
   testing::BlobRun blobs(frames);
   blobs.input.keep_lmds = [](std::int64_t frame) { return frame % 7 == 0; };
-  const LockstepMethod improved{"improved",
-                                [&] {
-                                  return make_method("improved", blobs.scene, {{"search_threads", 2}});
-                                },
-                                ForceProfile{ForceLaw::EXPONENTIAL, 0.1, 0.0, 1.0, 4.0}};
+  const DrivenMethod improved{"improved",
+                              [&] {
+                                return make_method("improved", blobs.scene, {{"search_threads", 2}});
+                              },
+                              ForceProfile{ForceLaw::EXPONENTIAL, 0.1, 0.0, 1.0, 4.0}};
   RealtimeSettings settings = testing::quick();
   settings.predict = true;
   const RealtimeRun run = run_realtime({improved}, blobs.input, settings, {});

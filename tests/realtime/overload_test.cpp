@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/realtime/driver.h>
 #include <lmdbench/realtime/servo_clock.h>
-#include <lmdbench/run/realtime_driver.h>
 
 #include <gtest/gtest.h>
 #include <realtime/clock_scene.h>
@@ -51,7 +51,7 @@ TEST(Overload, AStalledRecorderLosesRecordsAndSaysHowMany) {
   RealtimeSettings settings = quick();
   settings.choice.plant.recorder_stall_s = 0.7;
   settings.choice.queue_ticks = 32;
-  LockstepInput input = straight_path(FRAMES);
+  DriverInput input = straight_path(FRAMES);
   input.keep_lmds = [](std::int64_t) { return true; };
   const RealtimeRun run = run_realtime({clock_method(false)}, input, settings, {});
   expect_nothing_uncounted(run, FRAMES);

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include <lmdbench/run/servo_device.h>
+#include <lmdbench/realtime/servo_device.h>
 
 #include <gtest/gtest.h>
 

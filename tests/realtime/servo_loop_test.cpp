@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include <lmdbench/run/realtime_driver.h>
+#include <lmdbench/realtime/driver.h>
 
 #include <gtest/gtest.h>
 #include <realtime/clock_scene.h>
@@ -22,7 +22,7 @@ using testing::counted_calls;
 using testing::quick;
 using testing::straight_path;
 
-RealtimeRecord run_counted(const LockstepMethod& method, const LockstepInput& input,
+RealtimeRecord run_counted(const DrivenMethod& method, const DriverInput& input,
                            const RealtimeSettings& settings = quick()) {
   testing::reset_counted_calls();
   return run_realtime({method}, input, settings, {}).clocks.at(0);
@@ -49,7 +49,7 @@ TEST(ServoLoop, IsCleanBehindLocalTracking) {
 }
 
 TEST(ServoLoop, IsCleanWithListsToKeep) {
-  LockstepInput input = straight_path(400);
+  DriverInput input = straight_path(400);
   input.keep_lmds = [](std::int64_t) { return true; };
   expect_clean(run_counted(clock_method(false), input));
 }
@@ -61,12 +61,12 @@ TEST(ServoLoop, IsCleanWithCertifiedInIt) {
 
 TEST(ServoLoop, IsCleanWithTheSimulatedDeviceInIt) {
   const testing::BlobRun blobs(400);
-  RealtimeSettings settings = quick();
-  settings.loop.closed = true;
-  settings.loop.dynamics = {0.1, 1.0, 0.05, std::nullopt};
-  settings.loop.resolution_m = 1e-5;
-  settings.loop.delay_frames = 1;
-  expect_clean(run_counted(blobs.method("improved"), blobs.input, settings));
+  DriverInput input = blobs.input;
+  input.loop.closed = true;
+  input.loop.dynamics = {0.1, 1.0, 0.05, std::nullopt};
+  input.loop.resolution_m = 1e-5;
+  input.loop.delay_frames = 1;
+  expect_clean(run_counted(blobs.method("improved"), input));
 }
 
 TEST(ServoLoop, APlantedAllocationIsSeen) {

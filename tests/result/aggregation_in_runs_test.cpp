@@ -3,8 +3,8 @@
 #include <lmdbench/base/error.h>
 #include <lmdbench/experiment/experiment.h>
 #include <lmdbench/force/aggregation.h>
+#include <lmdbench/prepare/plan.h>
 #include <lmdbench/result/run_to_file.h>
-#include <lmdbench/run/plan.h>
 #include <lmdbench/run/run.h>
 #include <lmdbench/stability/stability_map.h>
 #include <lmdbench/sweep/sweep.h>

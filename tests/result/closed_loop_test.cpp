@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/base/error.h>
+#include <lmdbench/drivers/pose_source.h>
 #include <lmdbench/metrics/summary.h>
 #include <lmdbench/motion/tum_file.h>
 #include <lmdbench/result/run_to_file.h>
-#include <lmdbench/run/pose_source.h>
 #include <lmdbench/run/record_path.h>
 #include <lmdbench/run/run.h>
 

@@ -4,10 +4,10 @@
 #include <lmdbench/catalogue/off_file.h>
 #include <lmdbench/catalogue/shapes.h>
 #include <lmdbench/methods/registry.h>
+#include <lmdbench/prepare/contact.h>
+#include <lmdbench/prepare/frame_vertices.h>
 #include <lmdbench/result/result_scene.h>
 #include <lmdbench/result/run_to_file.h>
-#include <lmdbench/run/contact.h>
-#include <lmdbench/run/frame_vertices.h>
 #include <lmdbench/run/run.h>
 #include <lmdbench/view/export_frames.h>
 
@@ -255,11 +255,10 @@ TEST(Deforming, WhatCannotBeIsRefusedWithItsPlace) {
 
 TEST(Deforming, TwoMeshesOfOneFileAreOneBodyOnlyWhereBothAreRigid) {
   const auto body_count = [](const std::string& deformation) {
-    std::vector<MeshNote> notes;
     const Experiment experiment = load_experiment(
         SHAPES_FILE,
         {R"(/moving={"mesh":"small-blob"})", R"(/fixed=[{"mesh":"small-blob")" + deformation + "}]"});
-    const Scene scene = load_scene(experiment, notes);
+    const Scene scene = load_scene(experiment).scene;
     return scene.moving == scene.fixed[0].body ? 1 : 2;
   };
   EXPECT_EQ(body_count(""), 1);

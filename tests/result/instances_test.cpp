@@ -2,11 +2,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/base/error.h>
 #include <lmdbench/experiment/instance_choice.h>
+#include <lmdbench/prepare/contact.h>
+#include <lmdbench/prepare/load_scene.h>
+#include <lmdbench/prepare/prepare.h>
 #include <lmdbench/result/result_scene.h>
 #include <lmdbench/result/run_to_file.h>
-#include <lmdbench/run/contact.h>
-#include <lmdbench/run/load_body.h>
-#include <lmdbench/run/prepare.h>
 #include <lmdbench/run/run.h>
 #include <lmdbench/view/export_frames.h>
 
@@ -92,13 +92,11 @@ Experiment three_entries(std::vector<Override> overrides = {}) {
 }
 
 TEST(Instances, EntriesOfOneMeshShareItAndFindWhatInstancesFind) {
-  std::vector<MeshNote> notes;
-  const Scene scene = load_scene(three_entries(), notes);
+  const auto [scene, notes, movers] = load_scene(three_entries());
   ASSERT_EQ(scene.fixed.size(), 3u);
   EXPECT_EQ(scene.fixed[0].body, scene.fixed[2].body);
   EXPECT_EQ(notes.size(), 4u);
-  notes.clear();
-  const Scene apart = load_scene(three_entries({"/plan/shared_mesh=off"}), notes);
+  const Scene apart = load_scene(three_entries({"/plan/shared_mesh=off"})).scene;
   EXPECT_NE(apart.fixed[0].body, apart.fixed[2].body);
 
   const ScratchDirectory scratch;
@@ -131,8 +129,7 @@ TEST(Instances, EntriesOfOneMeshShareItAndFindWhatInstancesFind) {
 TEST(Instances, ContactIsWithAnyOfThem) {
   const ScratchDirectory scratch;
   const Experiment world = shapes_with(list_of_four(scratch));
-  std::vector<MeshNote> notes;
-  Scene scene = load_scene(world, notes);
+  auto [scene, notes, movers] = load_scene(world);
   ASSERT_EQ(scene.fixed.size(), 4u);
   EXPECT_EQ(scene.fixed[0].body, scene.fixed[3].body);
   EXPECT_EQ(notes.size(), 2u);

@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/base/error.h>
+#include <lmdbench/prepare/prepare.h>
 #include <lmdbench/result/result_scene.h>
 #include <lmdbench/result/run_to_file.h>
-#include <lmdbench/run/prepare.h>
 #include <lmdbench/view/export_frames.h>
 #include <lmdbench/view/report.h>
 

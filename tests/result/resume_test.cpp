@@ -161,7 +161,7 @@ TEST(Resume, WithoutAPartTheRunBegins) {
 TEST(Resume, ARunThatMeasuredNothingLeavesNothing) {
   const ScratchDirectory scratch;
   Experiment experiment = open_loop();
-  experiment.path_file = scratch / "missing.tum";
+  experiment.objects.front().motion.path_file = scratch / "missing.tum";
   EXPECT_THROW(run(experiment, scratch / "r.h5"), Error);
   EXPECT_TRUE(std::filesystem::is_empty(scratch / ""));
 }

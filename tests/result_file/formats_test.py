@@ -51,6 +51,13 @@ class Formats(Scratch):
                 self.assertNotEqual(done.returncode, INPUT_DATA, done.stderr)
                 self.assertIn('"differences": []' if '"differences": []' in done.stdout else '"differences":[]', done.stdout)
 
+    def test_the_scene_of_every_version_is_shown(self):
+        for version in range(1, FORMAT_VERSION + 1):
+            for command in ("export",) if version == 1 else ("report", "export"):  # pages show the summary, which 1 has not
+                with self.subTest(version=version, command=command):
+                    done = run(command, kept(version), "--out", self.path(f"{command}-{version}"))
+                    self.assertEqual(done.returncode, 0, done.stderr)
+
     def test_both_hold_the_same_run(self):
         old, new = Result(kept(1)), Result(kept(2))
         for label in new.methods:

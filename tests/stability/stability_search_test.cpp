@@ -151,7 +151,7 @@ TEST(StabilitySearch, IsNearTheBoundaryWhereEncodersCount) {
           testing::WALL_FILE, pressed({counts, fmt::format("/force/maximum_force_n={}", 0.022 * stiffness)}));
       const PreparedRun prepared = prepare(experiment);
       const StabilityTrial trial =
-          try_stiffness(experiment, prepared.input, lockstep_methods(experiment, prepared).at(0), {});
+          try_stiffness(experiment, prepared.input, driven_methods(experiment, prepared).at(0), {});
       EXPECT_NEAR(trial.stiffness_n_per_m, stiffness, 1e-6 * stiffness);
       return trial.outcome.clean();
     };
@@ -186,7 +186,7 @@ TEST(StabilitySearch, DeviceRestsWhereTheContactCarriesThePush) {
           {fmt::format("/methods/0/force_law={}", law), fmt::format("/loop/push_n=[0, 0, {}]", -push)});
       const PreparedRun prepared = prepare(experiment);
       const StabilityTrial trial =
-          try_stiffness(experiment, prepared.input, lockstep_methods(experiment, prepared).at(0), {});
+          try_stiffness(experiment, prepared.input, driven_methods(experiment, prepared).at(0), {});
       ASSERT_TRUE(trial.carried && trial.in_contact);
       EXPECT_NEAR(trial.force_at_rest_W.z(), push, 1e-6 * push) << law;
       // F = F_max (e^(k s) - 1) / (e^k - 1): its slope grows with the force, k (F + F_max / (e^k - 1)) / cutoff.

@@ -72,8 +72,8 @@ TEST_F(LoadSweep, SetsValuesOfTheSweepThenOfTheSeriesThenOfTheAxes) {
   EXPECT_EQ(experiment.profiles.at(0).sharpness, 2.0);
   EXPECT_EQ(experiment.profiles.at(0).maximum_force_n, 7.0);
   EXPECT_EQ(experiment.frames, 40);
-  EXPECT_EQ(experiment.moving.mesh, "blob");
-  EXPECT_EQ(sweep.points[0].truth.moving.mesh, "sphere");
+  EXPECT_EQ(experiment.held().mesh, "blob");
+  EXPECT_EQ(sweep.points[0].truth.held().mesh, "sphere");
   EXPECT_EQ(sweep.points[0].truth.frames, 40);
   EXPECT_EQ(sweep.from_frame, 3);
 }

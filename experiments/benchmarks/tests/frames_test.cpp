@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/drivers/lockstep.h>
 #include <lmdbench/methods/registry.h>
 #include <lmdbench/phantom/device.h>
-#include <lmdbench/run/lockstep.h>
 
 #include <benchmarks/local_tracking/implementation.h>
 #include <benchmarks/whole_frame/implementation.h>
@@ -25,18 +25,18 @@ RecordedPath turning_path() {
   profile.cutoff = setting.scene.cutoff;
   profile.maximum_force = 1.0;
   profile.sharpness = 4.0;
-  LockstepInput input{.poses = {},
-                      .frame_rate_hz = 1000.0,
-                      .reference_M = Vec3(0.1, 0.0, 0.0),
-                      .device = VirtualPhantom(device_named("phantom-desktop", "", "")),
-                      .keep_lmds = {}};
+  DriverInput input{.poses = {},
+                    .frame_rate_hz = 1000.0,
+                    .reference_M = Vec3(0.1, 0.0, 0.0),
+                    .device = VirtualPhantom(device_named("phantom-desktop", "", "")),
+                    .keep_lmds = {}};
   for (std::size_t i = 0; i < FRAME_COUNT; ++i) {
     Pose pose = setting.poses[0];
     const Eigen::Quaterniond turn(Eigen::AngleAxisd(0.0004 * static_cast<double>(i), Vec3::UnitX()));
     pose.rotation = (turn * pose.rotation).normalized();
     input.poses.push_back(pose);
   }
-  std::vector<LockstepMethod> methods;
+  std::vector<DrivenMethod> methods;
   for (const std::string& name : method_names())
     methods.push_back({name, [name, scene = setting.scene] { return make_method(name, scene); }, profile});
   RecordedPath path{

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <lmdbench/run/direction_memory.h>
+#include <lmdbench/drivers/direction_memory.h>
 
 #include <benchmarks/frame_loop.h>
 

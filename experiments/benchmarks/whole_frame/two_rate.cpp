@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include <lmdbench/run/two_rate.h>
+#include <lmdbench/drivers/two_rate.h>
 
 #include <benchmarks/whole_frame/implementation.h>
 #include <benchmarks/whole_frame/rendered.h>
@@ -13,7 +13,7 @@ namespace {
 /// Global and local thread of one method in turns, on the clock of the lockstep driver.
 class TwoRateLoop : public FrameLoop {
  public:
-  TwoRateLoop(const LockstepMethod& method, const RecordedPath& path)
+  TwoRateLoop(const DrivenMethod& method, const RecordedPath& path)
       : path_(path), two_rate_(method.make(), method.make(), path.driver) {}
 
   void step(std::size_t frame) override {
@@ -45,7 +45,7 @@ class TwoRateLoop : public FrameLoop {
 
 FrameImplementation rendered_tracking(const std::string& method) {
   return {method, method_description(method).promise, false, [method](const RecordedPath& path) {
-            const LockstepMethod chosen = path.method(method);
+            const DrivenMethod chosen = path.method(method);
             return std::make_unique<Rendered>(std::make_unique<TwoRateLoop>(chosen, path), chosen.profile,
                                               path);
           }};

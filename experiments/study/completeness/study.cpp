@@ -3,7 +3,7 @@
 #include <lmdbench/experiment/experiment.h>
 #include <lmdbench/methods/certified/certified.h>
 #include <lmdbench/motion/tum_file.h>
-#include <lmdbench/run/prepare.h>
+#include <lmdbench/prepare/prepare.h>
 #include <lmdbench/scene/scene_search.h>
 
 #include <fmt/format.h>

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/experiment/experiment.h>
 #include <lmdbench/metrics/cleanliness.h>
-#include <lmdbench/run/prepare.h>
+#include <lmdbench/prepare/prepare.h>
 
 #include <study/continuous_force/measures.h>
 #include <support/random.h>

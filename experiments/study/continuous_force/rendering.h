@@ -3,7 +3,7 @@
 #pragma once
 
 #include <lmdbench/critical/merges.h>
-#include <lmdbench/force/contact_finder.h>
+#include <lmdbench/drivers/contact_finder.h>
 #include <lmdbench/geometry/pose.h>
 #include <lmdbench/lmd/method.h>
 #include <lmdbench/lmd/scene.h>

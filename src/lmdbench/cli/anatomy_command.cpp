@@ -3,9 +3,9 @@
 #include <lmdbench/cli/commands.h>
 #include <lmdbench/cli/experiment_argument.h>
 #include <lmdbench/mesh/surface.h>
-#include <lmdbench/run/contact.h>
-#include <lmdbench/run/load_body.h>
-#include <lmdbench/run/prepare.h>
+#include <lmdbench/prepare/contact.h>
+#include <lmdbench/prepare/load_scene.h>
+#include <lmdbench/prepare/prepare.h>
 #include <lmdbench/view/anatomy.h>
 
 #include <CLI/CLI.hpp>

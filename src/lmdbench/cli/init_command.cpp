@@ -3,7 +3,7 @@
 #include <lmdbench/catalogue/manifest.h>
 #include <lmdbench/cli/commands.h>
 #include <lmdbench/cli/progress_bar.h>
-#include <lmdbench/run/new_experiment.h>
+#include <lmdbench/prepare/new_experiment.h>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>

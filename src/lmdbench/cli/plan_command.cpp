@@ -5,10 +5,10 @@
 #include <lmdbench/cli/experiment_argument.h>
 #include <lmdbench/cli/progress_bar.h>
 #include <lmdbench/methods/registry.h>
-#include <lmdbench/run/contact.h>
-#include <lmdbench/run/plan.h>
-#include <lmdbench/run/prepare.h>
-#include <lmdbench/run/scene_look.h>
+#include <lmdbench/prepare/contact.h>
+#include <lmdbench/prepare/plan.h>
+#include <lmdbench/prepare/prepare.h>
+#include <lmdbench/prepare/scene_look.h>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>

@@ -47,6 +47,12 @@ nlohmann::json deciding_part(const ResultReader& file) {
     for (nlohmann::json& mover : movers)
       if (mover.is_object() && mover["path"].is_object() && mover["path"].erase("file") > 0)
         mover["path"]["file"] = true;
+  if (nlohmann::json& objects = experiment["objects"]; objects.is_array())
+    for (nlohmann::json& object : objects) {
+      tell_rigid(object);
+      if (object.is_object() && object["motion"].is_object() && object["motion"].contains("path"))
+        object["motion"]["path"] = true;
+    }
   nlohmann::json by_label = nlohmann::json::object();
   for (const nlohmann::json& method : experiment["methods"])
     if (method.is_object()) by_label[method.value("label", method.value("name", ""))] = method;
@@ -110,6 +116,7 @@ void compare_scene(const ResultReader& base, const ResultReader& candidate, cons
       differences.push_back({"", group + ":" + name, std::nullopt, std::move(a), std::move(b), 0});
   }
   for (const std::string& mesh : base.groups(group)) {
+    if (mesh == "objects") continue;  // names; what they are stands in the meshes' groups
     if (candidate.has(group + "/" + mesh))
       compare_scene(base, candidate, group + "/" + mesh, differences);
     else
@@ -127,7 +134,8 @@ std::vector<Difference> experiment_differences(const ResultReader& base, const R
 }
 
 bool is_of_frames(const Difference& difference) {
-  constexpr std::string_view KEYS[] = {"/moving", "/fixed", "/movers", "/path", "/frame_rate_hz", "/frames"};
+  constexpr std::string_view KEYS[] = {"/moving", "/fixed",         "/movers", "/objects",
+                                       "/path",   "/frame_rate_hz", "/frames"};
   const std::string in_experiment = EXPERIMENT + std::string(":");
   if (!difference.dataset.starts_with(in_experiment)) return true;  // a file's SHA-256
   const std::string pointer = difference.dataset.substr(in_experiment.size());

@@ -81,7 +81,8 @@ std::vector<DefaultNote> add_file_defaults(Json& document, const std::filesystem
   if (!document.contains("methods")) add_every_method(document, notes);
   add_force(document, notes);
   // The schema's own defaults are for files that say more; one without path and probes is a first look at two meshes.
-  if (!document.contains("probes") && !document.contains("path"))
+  if (!document.contains("probes") && !document.contains("path") &&
+      !document.contains(Json::json_pointer("/objects/0/motion")))
     for (const Probe& probe : probes())
       if (probe.parent == "/probes")
         document["probes"][probe.name] = {{"stride_frames", probe.first_stride_frames}};

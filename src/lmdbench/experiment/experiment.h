@@ -37,27 +37,55 @@ namespace lmdbench {
 struct Aggregation;
 const Aggregation& sum_law();
 
-/// A mesh of the scene.
-struct MeshChoice {
-  std::string mesh;                  ///< Name in the manifest, generated shape or file.
-  Placement placement;               ///< In its own frame.
-  Pose pose;                         ///< X_WF of a fixed mesh; identity for the moving one.
-  PlanarTolerance planar_tolerance;  ///< Of rounded planes, see flatten.h; a length is in the scene's metres.
-  OrientationChoice orientation = OrientationChoice::KEEP;  ///< Which side is outside.
-  /// Of a fixed mesh: how many of it stand where, about `pose`. The mesh then stays in its own frame.
-  std::optional<InstanceChoice> instances;
-  std::optional<MeshDeformation> deformation;  ///< Unset: the mesh is rigid.
+/// How an object moves.
+enum class MotionKind : std::uint8_t {
+  HELD,    ///< By the device: the first object, along the path of the run.
+  STANDS,  ///< At its pose.
+  PATH,    ///< Along a path of its own.
+  SWAYS    ///< To and fro about its pose.
 };
+/// "held", "stands", "path", "sways".
+std::string_view to_string(MotionKind kind);
 
-/// An entry of `/movers`: a mesh that moves beside the moving one, or several instances of it.
-struct MoverChoice {
-  std::string place;  ///< JSON pointer of the entry.
-  MeshChoice mesh;    ///< Stays in its own frame; its pose and instances are where its paths are.
-  std::filesystem::path path_file;  ///< Empty: it sways.
+struct ObjectMotion {
+  MotionKind kind = MotionKind::STANDS;
+  /// Of a path; empty for the held object: its path is made for the scene (`grazing_path`).
+  std::filesystem::path path_file;
+  std::string path_place = "/path/file";  ///< JSON pointer of that.
   Interpolation interpolation = Interpolation::CUBIC;
-  double gap_intervals = 0.0;
+  double gap_intervals = 0.0;  ///< See PathInterpolator.
   Sway sway;
 };
+
+/// A mesh of the scene with its motion, or several instances of it. One that moves stays in its own frame; its pose and instances are
+/// where its path or sway is.
+struct ObjectChoice {
+  std::string name;  ///< Of the user, else the role.
+  std::string
+      role;  ///< "moving" the held one, "fixed_0", ... what stands, "mover_0", ... what else moves; of the result's groups.
+  std::string place;                 ///< JSON pointer of the entry.
+  std::string mesh;                  ///< Name in the manifest, generated shape or file.
+  Placement placement;               ///< In its own frame.
+  Pose pose;                         ///< Identity for the held one.
+  PlanarTolerance planar_tolerance;  ///< Of rounded planes, see flatten.h; a length is in the scene's metres.
+  OrientationChoice orientation = OrientationChoice::KEEP;  ///< Which side is outside.
+  /// How many of it stand or move where, about `pose`. The mesh then stays in its own frame.
+  std::optional<InstanceChoice> instances;
+  std::optional<MeshDeformation> deformation;  ///< Unset: the mesh is rigid.
+  ObjectMotion motion;
+
+  bool stands() const { return motion.kind == MotionKind::STANDS; }
+};
+
+/// The objects of an experiment, whichever keys it has them under: `objects`, or `moving`, `fixed` and `movers`. The held one is the
+/// first.
+/// @param document checked and with its defaults
+/// @throws UsageError naming the place in the file
+std::vector<ObjectChoice> read_objects(const nlohmann::json& document, const std::filesystem::path& file);
+
+/// What the schema cannot say of the keys that the scene is under; before its check.
+/// @throws UsageError where they are missing, or the held object has two paths
+void check_scene_keys(const nlohmann::json& document, const std::string& file);
 
 /// Constants of the force profile (decision E8: the paper states none of them). Some are relative to the
 /// moving mesh, so the profile exists only once that mesh is loaded.
@@ -96,7 +124,7 @@ struct MethodChoice {
   bool counts_indices() const;
 };
 
-/// How searches and frames share the clock, see `lockstep.h`.
+/// How searches and frames share the clock, see `drivers/lockstep.h`.
 struct DriverChoice {
   std::int64_t search_every_frames = 0;
   std::int64_t search_latency_frames = 0;
@@ -110,19 +138,14 @@ struct Experiment {
   std::string name;
   std::string title;
   std::filesystem::path mesh_folder;  ///< Where the mesh manifest is.
-  MeshChoice moving;
-  std::vector<MeshChoice> fixed;
-  std::vector<MoverChoice> movers;  ///< Beside `moving`; mostly none.
-  std::filesystem::path path_file;  ///< Empty: the path is made for the scene (`grazing_path`).
-  Interpolation interpolation = Interpolation::CUBIC;
-  double gap_intervals = 0.0;  ///< See PathInterpolator.
+  std::vector<ObjectChoice> objects;  ///< At least two: the held one, and one that stands.
   double frame_rate_hz = 0.0;
   std::optional<std::int64_t> frames;  ///< Run only this many frames from the start.
   std::vector<ForceChoice> profiles;   ///< At least one.
   /// With named profiles each method is there once a profile, under the label METHOD-PROFILE.
   std::vector<MethodChoice> methods;
   DriverChoice driver;
-  std::optional<RealtimeChoice> realtime;  ///< Set: the driver is `realtime_driver.h`'s, not lockstep's.
+  std::optional<RealtimeChoice> realtime;  ///< Set: the driver is `realtime/`'s, not lockstep.
   std::string device;
   LoopChoice loop;
   std::map<std::string, ProbeChoice, std::less<>> probes;  ///< By name.
@@ -138,18 +161,22 @@ struct Experiment {
     const auto found = probes.find(probe);
     return found == probes.end() ? 0 : found->second.stride_frames;
   }
-  /// Whether fixed meshes are instances (lmd/scene.h).
+  /// The object that the device holds, and that paths, figures and numbers of one force are about.
+  const ObjectChoice& held() const { return objects.front(); }
+  /// Whether something moves beside the held object.
+  bool several_move() const {
+    return std::ranges::any_of(
+        objects, [this](const ObjectChoice& object) { return &object != &held() && !object.stands(); });
+  }
+  /// Whether what stands are instances (lmd/scene.h).
   bool is_world() const {
-    return std::any_of(fixed.begin(), fixed.end(),
-                       [](const MeshChoice& choice) { return choice.instances.has_value(); });
+    return std::ranges::any_of(
+        objects, [](const ObjectChoice& object) { return object.stands() && object.instances.has_value(); });
   }
   /// Whether the vertices of some mesh move.
   bool deforms() const {
-    return moving.deformation.has_value() ||
-           std::any_of(fixed.begin(), fixed.end(),
-                       [](const MeshChoice& choice) { return choice.deformation.has_value(); }) ||
-           std::any_of(movers.begin(), movers.end(),
-                       [](const MoverChoice& mover) { return mover.mesh.deformation.has_value(); });
+    return std::ranges::any_of(objects,
+                               [](const ObjectChoice& object) { return object.deformation.has_value(); });
   }
   std::vector<DefaultNote> defaults;  ///< What the file leaves open and no mesh is needed for.
   std::vector<std::string> notes;     ///< What overrides replaced beside their own value.
@@ -174,7 +201,7 @@ Experiment parse_experiment(const std::string& text, const std::filesystem::path
 /// @throws UsageError naming the place, where a mesh deforms: for what looks at meshes at rest alone
 void refuse_deformation(const Experiment& experiment);
 
-/// @throws UsageError naming the place, where there are movers beside the moving mesh: for what looks at one mesh that moves
+/// @throws UsageError naming the place, where an object moves beside the held one: for what looks at one mesh that moves
 void refuse_movers(const Experiment& experiment);
 
 /// The JSON Schema (draft 07) of experiment files: experiments/schema/experiment.schema.json, with the names

@@ -8,13 +8,11 @@
 #include <lmdbench/experiment/experiment.h>
 #include <lmdbench/force/aggregation.h>
 #include <lmdbench/methods/registry.h>
-#include <lmdbench/motion/tum_file.h>
 #include <lmdbench/phantom/device.h>
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <set>
 #include <utility>
 
@@ -27,36 +25,6 @@ template <typename Value>
 std::optional<Value> optional_value(const Json& object, const char* key) {
   const auto found = object.find(key);
   return found == object.end() ? std::nullopt : std::optional<Value>(found->get<Value>());
-}
-
-MeshChoice mesh_choice(const Json& entry, const std::string& place, const std::string& file) {
-  const Json& tolerance = entry["planar_tolerance"];
-  // A number's own text is among those that the option takes.
-  const std::string text = tolerance.is_string() ? tolerance.get<std::string>() : tolerance.dump();
-  return {entry["mesh"].get<std::string>(),
-          read_placement(entry),
-          Pose{},
-          parse_planar_tolerance(text, file, place + "/planar_tolerance"),
-          parse_orientation(entry["orient"].get<std::string>(), file, place + "/orient"),
-          std::nullopt,
-          entry.contains("deformation")
-              ? std::optional(read_mesh_deformation(entry["deformation"], place + "/deformation", file))
-              : std::nullopt};
-}
-
-Pose pose_of(const Json& entry, const std::string& place, const std::string& file) {
-  const Json& p = entry["translation_m"];
-  const Json& q = entry["rotation_xyzw"];
-  Pose pose;
-  pose.translation = Vec3(p[0].get<double>(), p[1].get<double>(), p[2].get<double>());
-  pose.rotation =
-      Eigen::Quaterniond(q[3].get<double>(), q[0].get<double>(), q[1].get<double>(), q[2].get<double>());
-  if (!(std::abs(pose.rotation.norm() - 1.0) <= QUATERNION_LENGTH_TOLERANCE))
-    throw UsageError(file, place + "/rotation_xyzw",
-                     fmt::format("quaternion of length {:.6g}", pose.rotation.norm()),
-                     "give a unit quaternion in the order x, y, z, w");
-  pose.rotation.normalize();
-  return pose;
 }
 
 ForceChoice force_choice(const Json& entry, const std::string& place, const std::string& file) {
@@ -77,23 +45,6 @@ ForceChoice force_choice(const Json& entry, const std::string& place, const std:
                                  *force.cutoff_m),
                      "saturate nearer than the cutoff");
   return force;
-}
-
-MoverChoice mover_choice(const Json& entry, const std::string& place, const std::filesystem::path& file) {
-  const Json& path = entry["path"];
-  MoverChoice mover{place, mesh_choice(entry, place, file.string()), {}, Interpolation::CUBIC, 0.0, {}};
-  mover.mesh.pose = pose_of(entry["pose"], place + "/pose", file.string());
-  if (entry.contains("instances"))
-    mover.mesh.instances = read_instance_choice(entry["instances"], place + "/instances", file);
-  if (path.contains("file"))
-    mover.path_file = (file.parent_path() / path["file"].get<std::string>()).lexically_normal();
-  mover.interpolation = path["interpolation"] == "linear" ? Interpolation::LINEAR : Interpolation::CUBIC;
-  mover.gap_intervals = path["gap_intervals"].get<double>();
-  mover.sway.way_diagonals = path.value("way_diagonals", mover.sway.way_diagonals);
-  mover.sway.turn_rad = path.value("turn_rad", mover.sway.turn_rad);
-  mover.sway.period_s = path.value("period_s", mover.sway.period_s);
-  mover.sway.seed = path.value("seed", mover.sway.seed);
-  return mover;
 }
 
 /// `/force`: one profile, or a list of named ones.
@@ -159,17 +110,6 @@ void check_labels(const std::vector<MethodChoice>& methods, std::size_t entries,
   }
 }
 
-/// The first mesh that deforms.
-/// @pre there is one
-const MeshDeformation& first_deformation(const Experiment& experiment) {
-  const MeshChoice* deforming = &experiment.moving;
-  for (const MeshChoice& choice : experiment.fixed)
-    if (!deforming->deformation) deforming = &choice;
-  for (const MoverChoice& mover : experiment.movers)
-    if (!deforming->deformation) deforming = &mover.mesh;
-  return *deforming->deformation;
-}
-
 Experiment from_json(Json document, const std::filesystem::path& path) {
   const std::string file = path.string();
   for (Json& method : document["methods"])
@@ -183,23 +123,7 @@ Experiment from_json(Json document, const std::filesystem::path& path) {
       document.contains("mesh_folder")
           ? (path.parent_path() / document["mesh_folder"].get<std::string>()).lexically_normal()
           : default_mesh_folder((path.parent_path() / ".." / "meshes").lexically_normal());
-  experiment.moving = mesh_choice(document["moving"], "/moving", file);
-  for (std::size_t i = 0; i < document["fixed"].size(); ++i) {
-    experiment.fixed.push_back(mesh_choice(document["fixed"][i], fmt::format("/fixed/{}", i), file));
-    experiment.fixed.back().pose =
-        pose_of(document["fixed"][i]["pose"], fmt::format("/fixed/{}/pose", i), file);
-    if (document["fixed"][i].contains("instances"))
-      experiment.fixed.back().instances = read_instance_choice(document["fixed"][i]["instances"],
-                                                               fmt::format("/fixed/{}/instances", i), path);
-  }
-  for (std::size_t i = 0; i < document["movers"].size(); ++i)
-    experiment.movers.push_back(mover_choice(document["movers"][i], fmt::format("/movers/{}", i), path));
-  if (document["path"].contains("file"))
-    experiment.path_file =
-        (path.parent_path() / document["path"]["file"].get<std::string>()).lexically_normal();
-  experiment.interpolation =
-      document["path"]["interpolation"] == "linear" ? Interpolation::LINEAR : Interpolation::CUBIC;
-  experiment.gap_intervals = document["path"]["gap_intervals"].get<double>();
+  experiment.objects = read_objects(document, path);
   experiment.frame_rate_hz = document["frame_rate_hz"].get<double>();
   experiment.frames = optional_value<std::int64_t>(document, "frames");
   experiment.device = document["device"].get<std::string>();
@@ -245,9 +169,13 @@ Experiment from_json(Json document, const std::filesystem::path& path) {
   experiment.record_timings = document["record"]["timings"].get<bool>();
   experiment.record_torque = document["record"]["torque"].get<bool>();
   experiment.record_lmds = document["record"]["lmds"].get<bool>();
-  if (experiment.is_world() && experiment.path_file.empty())
-    throw UsageError(file, "/path/file", "no path is made among instances", "name a path (paths/README.md)");
-  if (experiment.movers.empty()) document.erase("movers");  // as the files from before there were any
+  const ObjectMotion& held = experiment.held().motion;
+  if (experiment.is_world() && held.path_file.empty())
+    throw UsageError(file, held.path_place, "no path is made among instances",
+                     "name a path (paths/README.md)");
+  // The schema's defaults, which the file does not say.
+  if (document.contains("movers") && document["movers"].empty()) document.erase("movers");
+  if (held.path_place != "/path/file") document.erase("path");
   experiment.resolved_json = document.dump(2);
   return experiment;
 }
@@ -259,17 +187,19 @@ bool MethodChoice::counts_indices() const {
 }
 
 void refuse_deformation(const Experiment& experiment) {
-  if (!experiment.deforms()) return;
-  throw UsageError(experiment.file.string(), first_deformation(experiment).place,
-                   "the mesh deforms, and this looks at meshes at rest",
-                   "leave the deformation out; run, plan, compare, report and export follow it");
+  for (const ObjectChoice& object : experiment.objects)
+    if (object.deformation)
+      throw UsageError(experiment.file.string(), object.deformation->place,
+                       "the mesh deforms, and this looks at meshes at rest",
+                       "leave the deformation out; run, plan, compare, report and export follow it");
 }
 
 void refuse_movers(const Experiment& experiment) {
-  if (experiment.movers.empty()) return;
-  throw UsageError(experiment.file.string(), experiment.movers.front().place,
-                   "a mesh moves beside the moving one, and this looks at one that moves",
-                   "leave movers out; run, plan, compare, report and export know them");
+  for (const ObjectChoice& object : experiment.objects)
+    if (&object != &experiment.held() && !object.stands())
+      throw UsageError(experiment.file.string(), object.place,
+                       "a mesh moves beside the moving one, and this looks at one that moves",
+                       "leave it out; run, plan, compare, report and export know such scenes");
 }
 
 std::optional<double> ForceChoice::cutoff(double moving_diagonal) const {
@@ -287,6 +217,7 @@ Experiment parse_experiment(const std::string& text, const std::filesystem::path
   std::vector<DefaultNote> defaults;
   const JsonDocument document(text, file.string(), experiment_schema(), ExitCode::USAGE, overrides,
                               [&](Json& json) {
+                                check_scene_keys(json, file.string());
                                 check_method_names(json, file.string());
                                 defaults = add_file_defaults(json, file);
                                 add_methods(json, also);

@@ -21,7 +21,7 @@ struct Experiment;
 struct ProbedTrack;
 class ResultWriter;
 
-/// What a probe found along a track, in a type of its own (run/probed_track.h).
+/// What a probe found along a track, in a type of its own (probes/probed_track.h).
 struct ProbeFindings {
   ProbeFindings() = default;
   ProbeFindings(const ProbeFindings&) = delete;

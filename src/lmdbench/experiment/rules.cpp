@@ -16,23 +16,23 @@ constexpr const char* DEFORMS = "a mesh deforms: the same pose is not the same s
 constexpr const char* SEVERAL_MOVE = "several meshes move: the same pose of one is not the same scene";
 
 RuleVerdict shared_mesh(const RuleFacts& facts) {
-  for (std::size_t i = 0; i < facts.experiment.fixed.size(); ++i)
-    if (earlier_body(facts.experiment, i))
-      return {true, fmt::format("fixed_{} and fixed_{} are {}", *earlier_body(facts.experiment, i), i,
-                                facts.experiment.fixed[i].mesh)};
-  for (std::size_t i = 0; i < facts.experiment.fixed.size(); ++i)
-    if (same_body(facts.experiment, i))
-      return {true, fmt::format("the moving mesh and fixed_{} are {}, placed alike", i,
-                                facts.experiment.moving.mesh)};
-  for (const MoverChoice& mover : facts.experiment.movers)
-    if (same_mesh(facts.experiment.moving, mover.mesh))
-      return {true, fmt::format("the moving mesh and that of {} are {}", mover.place,
-                                facts.experiment.moving.mesh)};
+  const std::vector<ObjectChoice>& objects = facts.experiment.objects;
+  for (std::size_t i = 1; i < objects.size(); ++i)
+    if (const auto earlier = earlier_body(facts.experiment, i))
+      return {true,
+              fmt::format("{} and {} are {}", objects[*earlier].role, objects[i].role, objects[i].mesh)};
+  for (const bool stands : {true, false})
+    for (std::size_t i = 1; i < objects.size(); ++i)
+      if (objects[i].stands() == stands && shared_body(facts.experiment, i) == std::size_t{0})
+        return {true, stands ? fmt::format("the moving mesh and {} are {}, placed alike", objects[i].role,
+                                           objects[i].mesh)
+                             : fmt::format("the moving mesh and that of {} are {}", objects[i].place,
+                                           objects[i].mesh)};
   return {false, "no fixed mesh is the moving one, placed alike and unmoved"};
 }
 
 RuleVerdict contact_forecast(const RuleFacts& facts) {
-  if (!facts.experiment.movers.empty()) return {false, SEVERAL_MOVE};
+  if (facts.experiment.several_move()) return {false, SEVERAL_MOVE};
   if (facts.poses.size() < 2) return {false, "the path has one frame"};
   return {true, fmt::format("{} frames follow one another", facts.poses.size())};
 }
@@ -69,7 +69,7 @@ RuleVerdict repeated_pose(const RuleFacts& facts) {
   const auto probed = probed_frames(facts.experiment, "truth", facts.poses.size());
   if (probed.empty() && fcl_frames.empty()) return {false, "no frame is probed"};
   if (facts.experiment.deforms()) return {false, DEFORMS};
-  if (!facts.experiment.movers.empty()) return {false, SEVERAL_MOVE};
+  if (facts.experiment.several_move()) return {false, SEVERAL_MOVE};
   // What a closed loop's encoders will tell nobody knows, but they count in steps.
   if (facts.experiment.loop.closed) {
     const bool steps = facts.experiment.loop.resolution_m > 0.0;
@@ -91,7 +91,7 @@ RuleVerdict warm_crosscheck(const RuleFacts& facts) {
   const std::int64_t stride = facts.experiment.probe_stride("fcl");
   if (stride == 0) return {false, "nothing is compared with FCL"};
   if (facts.experiment.deforms()) return {false, DEFORMS};
-  if (!facts.experiment.movers.empty()) return {false, SEVERAL_MOVE};
+  if (facts.experiment.several_move()) return {false, SEVERAL_MOVE};
   return {true, fmt::format("minimum distances every {} frames of one path", stride)};
 }
 
@@ -188,38 +188,48 @@ nlohmann::ordered_json rules_json(const std::vector<RuleDecision>& decisions) {
   return json;
 }
 
-bool same_mesh(const MeshChoice& a, const MeshChoice& b) {
+bool same_mesh(const ObjectChoice& a, const ObjectChoice& b) {
   return a.mesh == b.mesh && a.placement == b.placement && a.planar_tolerance == b.planar_tolerance &&
          a.orientation == b.orientation && !a.deformation && !b.deformation;
-}
-
-bool same_body(const Experiment& experiment, std::size_t index) {
-  const MeshChoice& fixed = experiment.fixed[index];
-  return same_mesh(experiment.moving, fixed) && (fixed.instances || same_pose(fixed.pose, Pose{}));
 }
 
 std::optional<std::size_t> earlier_body(const Experiment& experiment, std::size_t index) {
   if (!stands_in_own_frame(experiment, index)) return std::nullopt;
   for (std::size_t i = index; i-- > 0;)
-    if (same_mesh(experiment.fixed[i], experiment.fixed[index]) && stands_in_own_frame(experiment, i))
+    if (same_mesh(experiment.objects[i], experiment.objects[index]) && stands_in_own_frame(experiment, i))
       return i;
   return std::nullopt;
 }
 
+std::optional<std::size_t> shared_body(const Experiment& experiment, std::size_t index) {
+  const ObjectChoice& object = experiment.objects[index];
+  if (object.stands()) {
+    if (const auto earlier = earlier_body(experiment, index)) return earlier;
+    const bool in_own_frame = stands_in_own_frame(experiment, index) || same_pose(object.pose, Pose{});
+    return in_own_frame && same_mesh(experiment.held(), object) ? std::optional(std::size_t{0})
+                                                                : std::nullopt;
+  }
+  for (std::size_t i = 0; i < index; ++i)
+    if (!experiment.objects[i].stands() && same_mesh(experiment.objects[i], object)) return i;
+  return std::nullopt;
+}
+
 bool stands_in_own_frame(const Experiment& experiment, std::size_t index) {
-  if (experiment.fixed[index].instances) return true;
+  const ObjectChoice& object = experiment.objects[index];
+  if (!object.stands()) return false;
+  if (object.instances) return true;
   if (experiment.deforms() || experiment.realtime || experiment.probe_stride("polylines") > 0) return false;
   for (const ForceChoice& force : experiment.profiles)
     if (force.aggregation->needs > AggregationNeeds::CRITICAL_PAIRS) return false;
-  for (std::size_t i = 0; i < experiment.fixed.size(); ++i)
-    if (i != index && same_mesh(experiment.fixed[i], experiment.fixed[index])) return true;
-  return false;
+  return std::ranges::any_of(experiment.objects, [&](const ObjectChoice& other) {
+    return &other != &object && other.stands() && same_mesh(other, object);
+  });
 }
 
 bool has_placed_meshes(const Experiment& experiment) {
-  for (std::size_t i = 0; i < experiment.fixed.size(); ++i)
-    if (experiment.fixed[i].instances ||
-        (!same_pose(experiment.fixed[i].pose, Pose{}) && stands_in_own_frame(experiment, i)))
+  for (std::size_t i = 1; i < experiment.objects.size(); ++i)
+    if (stands_in_own_frame(experiment, i) &&
+        (experiment.objects[i].instances || !same_pose(experiment.objects[i].pose, Pose{})))
       return true;
   return false;
 }

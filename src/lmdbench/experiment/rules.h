@@ -21,7 +21,7 @@
 namespace lmdbench {
 
 struct Experiment;
-struct MeshChoice;
+struct ObjectChoice;
 
 /// The same bits.
 inline bool same_pose(const Pose& a, const Pose& b) {
@@ -91,21 +91,21 @@ std::string rules_text(const std::vector<RuleDecision>& decisions);
 /// [{"name", "on", "effect", "saving", "reason"}]
 nlohmann::ordered_json rules_json(const std::vector<RuleDecision>& decisions);
 
-/// Whether two choices make one rigid mesh of the same file in the same way; poses aside.
-bool same_mesh(const MeshChoice& a, const MeshChoice& b);
+/// Whether two choices make one rigid mesh of the same file in the same way; poses and motions aside.
+bool same_mesh(const ObjectChoice& a, const ObjectChoice& b);
 
-/// Whether moving and fixed mesh `index` are one and the same at the same place, so that one preparation serves both.
-bool same_body(const Experiment& experiment, std::size_t index);
-
-/// Whether fixed mesh `index` is kept in its own frame and stands at its pose: it has "instances", or another entry has the same mesh. Not
+/// Whether object `index` stands at its pose in its own frame: it has "instances", or another one that stands has the same mesh. Not
 /// where somebody reads the vertices in the world frame (deformation, polylines, aggregations of surfaces and merges) or the first
 /// frame in which a mesh is near must not prepare anything (the driver realtime).
 bool stands_in_own_frame(const Experiment& experiment, std::size_t index);
 
-/// The last entry of `fixed` before `index` whose preparation serves it, both in their own frame.
+/// The last object before `index` that stands in its own frame, as this one does, with the same mesh.
 std::optional<std::size_t> earlier_body(const Experiment& experiment, std::size_t index);
 
-/// Whether some fixed mesh stands so: its scene is a world (`Scene::is_world`).
+/// The earlier object whose mesh, read and prepared, serves this one.
+std::optional<std::size_t> shared_body(const Experiment& experiment, std::size_t index);
+
+/// Whether some mesh stands so: its scene is a world (`Scene::is_world`).
 bool has_placed_meshes(const Experiment& experiment);
 
 }  // namespace lmdbench

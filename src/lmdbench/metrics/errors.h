@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <lmdbench/drivers/records.h>
 #include <lmdbench/metrics/method_summary.h>
-#include <lmdbench/run/records.h>
-#include <lmdbench/run/truth_probe.h>
+#include <lmdbench/probes/truth_probe.h>
 
 #include <cstdint>
 #include <string>

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <lmdbench/run/records.h>
+#include <lmdbench/drivers/records.h>
 
 #include <span>
 #include <string>

@@ -4,9 +4,9 @@
 #include <lmdbench/base/file_hash.h>
 #include <lmdbench/experiment/experiment.h>
 #include <lmdbench/methods/registry.h>
+#include <lmdbench/prepare/load_scene.h>
+#include <lmdbench/prepare/prepare.h>
 #include <lmdbench/result/result_scene.h>
-#include <lmdbench/run/prepare.h>
-#include <lmdbench/run/prepare_movers.h>
 #include <lmdbench/scene/broad_phase.h>
 
 #include <algorithm>
@@ -81,12 +81,8 @@ std::map<std::string, std::string> recorded_meshes(const ResultReader& result, c
 
 /// Lets the experiment read its meshes where they are.
 void use_files(Experiment& experiment, const std::map<std::string, std::string>& meshes) {
-  const auto use = [&](MeshChoice& choice) {
-    if (const auto found = meshes.find(choice.mesh); found != meshes.end()) choice.mesh = found->second;
-  };
-  use(experiment.moving);
-  for (MeshChoice& fixed : experiment.fixed) use(fixed);
-  for (MoverChoice& mover : experiment.movers) use(mover.mesh);
+  for (ObjectChoice& object : experiment.objects)
+    if (const auto found = meshes.find(object.mesh); found != meshes.end()) object.mesh = found->second;
 }
 
 /// @param row of arrays of positions and of quaternions x, y, z, w
@@ -147,36 +143,29 @@ void check_vertex_files(const std::vector<MeshNote>& notes, const ResultReader& 
 }
 
 /// Movers with the poses that the result has of them.
-std::shared_ptr<const MoverPlay> recorded_play(const LoadedMovers& loaded, const ResultReader& result) {
-  if (loaded.movers.empty()) return nullptr;
+std::shared_ptr<const MoverPlay> recorded_play(const std::vector<Mover>& movers, const ResultReader& result) {
+  if (movers.empty()) return nullptr;
   const std::vector<double> p = result.reals("/path/movers/position");
   const std::vector<double> q = result.reals("/path/movers/orientation");
-  const std::size_t movers = loaded.movers.size(), rows = p.size() / 3;
-  if (rows == 0 || rows % movers != 0 || q.size() != 4 * rows)
+  const std::size_t rows = p.size() / 3;
+  if (rows == 0 || rows % movers.size() != 0 || q.size() != 4 * rows)
     throw InputError(result.file().string(), "/path/movers", "has not one pose a mover and frame",
                      "run the experiment again");
-  std::vector<std::shared_ptr<const Body>> bodies;
-  std::vector<std::string> names;
-  std::vector<std::vector<Pose>> poses(movers);
-  for (const LoadedMovers::Mover& mover : loaded.movers) {
-    bodies.push_back(mover.body);
-    names.push_back(mover.name);
-  }
-  for (std::size_t i = 0; i < rows; ++i) poses[i % movers].push_back(recorded_pose(p, q, i));
-  return std::make_shared<const MoverPlay>(make_play(bodies, names, poses));
+  std::vector<std::vector<Pose>> poses(movers.size());
+  for (std::size_t i = 0; i < rows; ++i) poses[i % movers.size()].push_back(recorded_pose(p, q, i));
+  return std::make_shared<const MoverPlay>(make_play(movers, poses));
 }
 
 ResultScene scene_of_experiment(const Experiment& experiment, const ResultReader& result) {
-  std::vector<MeshNote> notes;
-  Scene scene = load_scene(experiment, notes);
-  const LoadedMovers movers = load_movers(experiment, scene, notes);
-  check_vertex_files(notes, result);
+  const LoadedScene loaded = load_scene(experiment);
+  Scene scene = loaded.scene;
+  check_vertex_files(loaded.notes, result);
   scene.cutoff = result.real_attribute("/scene", "cutoff_m").value();
   for (const std::string& label : result.groups("/methods"))
     scene.cutoff =
         std::max(scene.cutoff, result.real_attribute("/methods/" + label, "cutoff_m").value_or(0.0));
   const auto frames = static_cast<std::int64_t>(result.reals("/path/time").size());
-  const SceneMotion motion{recorded_play(movers, result), deformation_of(notes, frames)};
+  const SceneMotion motion{recorded_play(loaded.movers, result), deformation_of(loaded.notes, frames)};
   return {motion.movers ? motion.movers->with_movers(scene) : scene, motion};
 }
 

@@ -5,8 +5,8 @@
 #include <lmdbench/lmd/method.h>
 #include <lmdbench/lmd/scene.h>
 #include <lmdbench/motion/path.h>
+#include <lmdbench/prepare/scene_frames.h>
 #include <lmdbench/result_file/result_reader.h>
-#include <lmdbench/run/scene_frames.h>
 
 #include <cstddef>
 #include <memory>

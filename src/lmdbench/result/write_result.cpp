@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/drivers/columns.h>
 #include <lmdbench/force/aggregation.h>
 #include <lmdbench/methods/registry.h>
 #include <lmdbench/metrics/summary.h>
 #include <lmdbench/result/write_result.h>
-#include <lmdbench/run/columns.h>
-#include <lmdbench/run/write_column.h>
+#include <lmdbench/result_file/write_column.h>
 
 #include <fmt/format.h>
 

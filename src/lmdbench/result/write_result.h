@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <lmdbench/prepare/mover_play.h>
+#include <lmdbench/realtime/record.h>
 #include <lmdbench/result_file/result_writer.h>
-#include <lmdbench/run/mover_play.h>
-#include <lmdbench/run/realtime_record.h>
 #include <lmdbench/run/run.h>
 
 #include <nlohmann/json_fwd.hpp>

@@ -4,6 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <cstdint>
 #include <span>
 #include <string>
@@ -60,6 +61,30 @@ void write_deformation(ResultWriter& writer, const std::string& group, const Mes
                std::span<const double>(moves), {moves.size()});
 }
 
+/// The table of objects, in the order of the file.
+void write_objects(ResultWriter& writer, const std::vector<MeshNote>& meshes) {
+  const auto texts = [&](const char* name, const char* long_name, const auto& value) {
+    std::vector<std::string> values;
+    for (const MeshNote& mesh : meshes) values.emplace_back(value(mesh));
+    writer.write({std::string("/scene/objects/") + name, "1", long_name}, values);
+  };
+  texts("name", "of the object: its own, else its role", [](const MeshNote& mesh) { return mesh.object; });
+  texts("role", "the group of its mesh in /scene", [](const MeshNote& mesh) { return mesh.role; });
+  texts("mesh", "name or file of its mesh", [](const MeshNote& mesh) { return mesh.name; });
+  texts("motion", "held, stands, path or sways", [](const MeshNote& mesh) { return to_string(mesh.motion); });
+  std::vector<std::int64_t> first, count;
+  for (const MeshNote& mesh : meshes) {
+    first.push_back(mesh.motion == MotionKind::STANDS ? mesh.first_fixed_body : mesh.first_mover);
+    count.push_back(
+        std::max<std::int64_t>(1, mesh.movers + static_cast<std::int64_t>(mesh.instances.size())));
+  }
+  writer.write(
+      {"/scene/objects/first", "1", "number of its first instance, among what stands or among what moves"},
+      std::span<const std::int64_t>(first), {first.size()});
+  writer.write({"/scene/objects/instances", "1", "how many of it there are"},
+               std::span<const std::int64_t>(count), {count.size()});
+}
+
 }  // namespace
 
 void write_scene(ResultWriter& writer, const RunResult& result) {
@@ -92,6 +117,7 @@ void write_scene(ResultWriter& writer, const RunResult& result) {
     if (mesh.vertices)
       write_deformation(writer, group, mesh, *prepared.input.motion.deformation->find(mesh.body.get()));
   }
+  write_objects(writer, prepared.meshes);
   writer.attribute("/scene", "starts_touching", std::int64_t{prepared.starts_touching});
   writer.write({"/scene/warnings", "1", "what a reader of this result must know"}, result.warnings);
 }

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/base/error.h>
-#include <lmdbench/run/prepare.h>
+#include <lmdbench/prepare/prepare.h>
 #include <lmdbench/run/record_path.h>
 
 #include <cstddef>
@@ -21,7 +21,7 @@ Path record_path(const Experiment& experiment, std::size_t every, const RunProgr
   if (progress)
     counted = [&](std::int64_t done, std::int64_t total) { return progress("record", done, total); };
   const MethodRecord record =
-      run_lockstep(lockstep_methods(alone, prepared), prepared.input, alone.driver, counted).front();
+      run_lockstep(driven_methods(alone, prepared), prepared.input, alone.driver, counted).front();
   Path path;
   path.reserve(record.loop.size() / every + 1);
   for (std::size_t frame = 0; frame < record.loop.size(); frame += every)

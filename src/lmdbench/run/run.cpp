@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/base/statistics.h>
 #include <lmdbench/methods/registry.h>
-#include <lmdbench/run/contact.h>
-#include <lmdbench/run/realtime_driver.h>
+#include <lmdbench/prepare/contact.h>
+#include <lmdbench/realtime/driver.h>
 #include <lmdbench/run/run.h>
 
 #include <fmt/format.h>
@@ -104,8 +104,8 @@ void make_tracks(const Experiment& experiment, RunResult& result) {
 
 /// What the probes find along a track.
 /// @param input the run's, with the poses of the track
-void probe(const Experiment& experiment, const std::vector<LockstepMethod>& methods,
-           const LockstepInput& input, RunResult& result, Track& track,
+void probe(const Experiment& experiment, const std::vector<DrivenMethod>& methods, const DriverInput& input,
+           RunResult& result, Track& track,
            const std::function<Progress(const std::string& phase)>& progress) {
   for (const Probe& probe : probes()) {
     if (!result.plan.needs(probe.title)) continue;
@@ -137,6 +137,23 @@ void probe(const Experiment& experiment, const std::vector<LockstepMethod>& meth
 
 }  // namespace
 
+std::optional<SceneWarning> clipping_warning(const MethodRecord& record,
+                                             const std::vector<bool>& in_contact) {
+  std::int64_t contact = 0, clipped = 0;
+  for (std::size_t frame = 0; frame < record.frames.size(); ++frame) {
+    if (!in_contact[frame]) continue;
+    ++contact;
+    clipped += record.frames[frame].force_clipped ? 1 : 0;
+  }
+  if (static_cast<double>(clipped) <= CLIPPED_SHARE * static_cast<double>(contact)) return std::nullopt;
+  return SceneWarning{
+      fmt::format("{}: the device clips the force in {:.0f} % of the frames in contact ({} of {}), which "
+                  "hides what the method found",
+                  record.label, 100.0 * static_cast<double>(clipped) / static_cast<double>(contact), clipped,
+                  contact),
+      "lower /force/maximum_force_n, or take the device \"ideal\""};
+}
+
 RunResult run_experiment(const Experiment& experiment, const RunProgress& progress,
                          const MakeKeeper& make_keeper) {
   const auto phase = [&](const std::string& name) -> Progress {
@@ -157,7 +174,7 @@ RunResult run_experiment(const Experiment& experiment, const RunProgress& progre
   PreparedRun& prepared = result.prepared;
   result.warnings = prepared.warnings;
   const auto frame_count = static_cast<std::int64_t>(prepared.input.poses.size());
-  const std::vector<LockstepMethod> methods = lockstep_methods(experiment, prepared);
+  const std::vector<DrivenMethod> methods = driven_methods(experiment, prepared);
 
   std::set<std::int64_t> kept;
   for (const Probe& probe : probes())
@@ -178,8 +195,7 @@ RunResult run_experiment(const Experiment& experiment, const RunProgress& progre
   for (const SceneWarning& warning : result.plan.scene->warnings) result.warnings.push_back(to_text(warning));
   result.plan.rules = decide_rules({experiment, prepared.input.poses, result.in_contact});
   if (experiment.realtime) {
-    RealtimeRun run = run_realtime(methods, prepared.input,
-                                   {*experiment.realtime, experiment.loop, experiment.driver.predict},
+    RealtimeRun run = run_realtime(methods, prepared.input, {*experiment.realtime, experiment.driver.predict},
                                    phase("run"), keeper.get());
     result.records = std::move(run.records);
     result.clocks = std::move(run.clocks);
@@ -190,8 +206,7 @@ RunResult run_experiment(const Experiment& experiment, const RunProgress& progre
 
   for (Track& track : result.tracks) {
     const PreparedProfile& profile = prepared.profiles[track.profile];
-    LockstepInput input = prepared.input;
-    input.make_poses = nullptr;
+    DriverInput input = prepared.input;
     if (experiment.loop.closed) input.poses = result.records[track.methods.front()].poses;
     track.in_contact = result.one_track ? result.in_contact : contact_along(profile.scene, input.poses);
     probe(experiment, methods, input, result, track, phase);

@@ -2,15 +2,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <lmdbench/drivers/lockstep.h>
+#include <lmdbench/drivers/records.h>
+#include <lmdbench/drivers/run_keeper.h>
 #include <lmdbench/experiment/experiment.h>
-#include <lmdbench/run/fcl_probe.h>
-#include <lmdbench/run/lockstep.h>
-#include <lmdbench/run/plan.h>
-#include <lmdbench/run/prepare.h>
-#include <lmdbench/run/realtime_record.h>
-#include <lmdbench/run/records.h>
-#include <lmdbench/run/run_keeper.h>
-#include <lmdbench/run/truth_probe.h>
+#include <lmdbench/prepare/plan.h>
+#include <lmdbench/prepare/prepare.h>
+#include <lmdbench/probes/fcl_probe.h>
+#include <lmdbench/probes/truth_probe.h>
+#include <lmdbench/realtime/record.h>
 
 #include <cstdint>
 #include <functional>
@@ -67,6 +67,12 @@ struct RunResult {
     return one_track ? "" : "/methods/" + records[track.methods.front()].label;
   }
 };
+
+/// A larger share of clipped frames in contact is worth a word: there a force says nothing of its LMDs.
+inline constexpr double CLIPPED_SHARE = 0.1;
+
+/// Unset where no more than CLIPPED_SHARE of the frames in contact are clipped.
+std::optional<SceneWarning> clipping_warning(const MethodRecord& record, const std::vector<bool>& in_contact);
 
 /// What a run reports while it goes on: the phase ("run", "truth", "fcl", "polylines"), what is done and what there is to
 /// do. False stops the run after the current block.

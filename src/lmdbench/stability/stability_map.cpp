@@ -2,12 +2,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/base/error.h>
 #include <lmdbench/base/statistics.h>
-#include <lmdbench/force/contact_finder.h>
+#include <lmdbench/drivers/contact_finder.h>
+#include <lmdbench/drivers/lockstep.h>
 #include <lmdbench/lmd/method_description.h>
 #include <lmdbench/methods/registry.h>
 #include <lmdbench/metrics/cleanliness.h>
-#include <lmdbench/run/contact.h>
-#include <lmdbench/run/prepare.h>
+#include <lmdbench/prepare/contact.h>
+#include <lmdbench/prepare/prepare.h>
 #include <lmdbench/stability/stability_map.h>
 
 #include <nlohmann/json.hpp>
@@ -132,7 +133,7 @@ void map_stability(const Experiment& experiment, const StabilityMapGrid& grid,
   PreparedRun prepared = prepare(experiment, {}, Deforming::FOLLOWED);
   hold_first_frame(prepared);
   const Pose& start = prepared.input.poses.front();
-  const std::vector<LockstepMethod> methods = lockstep_methods(experiment, prepared);
+  const std::vector<DrivenMethod> methods = driven_methods(experiment, prepared);
   for (std::size_t m = 0; m < methods.size(); ++m) {
     const MethodChoice& choice = experiment.methods[m];
     const PreparedProfile& profile = prepared.profiles[choice.profile];
@@ -151,7 +152,7 @@ void map_stability(const Experiment& experiment, const StabilityMapGrid& grid,
       driver.search_every_frames = std::max<std::int64_t>(age, 1);
       driver.search_latency_frames = age;
       for (const double stiffness : grid.stiffness_n_per_m) {
-        LockstepMethod scaled = methods[m];
+        DrivenMethod scaled = methods[m];
         scaled.profile.maximum_force *= stiffness / at_start.stiffness;
         scaled.profile.largest_sum *= stiffness / at_start.stiffness;
         for (std::int64_t seed = 1; seed <= grid.seeds; ++seed) {
@@ -162,13 +163,11 @@ void map_stability(const Experiment& experiment, const StabilityMapGrid& grid,
           run.stiffness_n_per_m = stiffness;
           run.seed = seed;
           if (wanted && !wanted(run)) continue;
-          LockstepInput input = prepared.input;
+          DriverInput input = prepared.input;
           input.poses = meant_path(prepared.input.poses, grid.frames, rate, press_W,
                                    TREMOR_CUTOFF * profile.force.cutoff, seed);
           input.frames = grid.frames;
-          input.make_poses = [&] {
-            return std::make_unique<DevicePoses>(loop, input.poses, 1.0 / rate, input.reference_M);
-          };
+          input.loop = loop;
           const MethodRecord record = run_lockstep({scaled}, input, driver, {}).front();
           measure(run, record, profile.scene, rate);
           if (!sink(run)) return;

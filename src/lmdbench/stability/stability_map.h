@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <lmdbench/drivers/records.h>
 #include <lmdbench/experiment/experiment.h>
-#include <lmdbench/run/records.h>
 
 #include <cstdint>
 #include <functional>

@@ -43,7 +43,7 @@ enum class Verdict : std::uint8_t {
 /// A search on one method.
 class Search {
  public:
-  Search(const Experiment& experiment, const PreparedRun& prepared, LockstepMethod method,
+  Search(const Experiment& experiment, const PreparedRun& prepared, DrivenMethod method,
          const RunProgress& progress, const StabilityBudget& budget)
       : experiment_(experiment),
         prepared_(prepared),
@@ -147,7 +147,7 @@ class Search {
   StabilityTrial try_scale(double scale) {
     if (trials_ >= budget_.trials) throw BudgetSpent();
     ++trials_;
-    LockstepMethod scaled = method_;
+    DrivenMethod scaled = method_;
     scaled.profile.maximum_force *= scale;
     scaled.profile.largest_sum *= scale;
     const std::string phase =
@@ -201,7 +201,7 @@ class Search {
 
   const Experiment& experiment_;
   const PreparedRun& prepared_;
-  LockstepMethod method_;
+  DrivenMethod method_;
   const RunProgress& progress_;
   StabilityBudget budget_;
   std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
@@ -276,9 +276,9 @@ std::vector<StabilityRow> find_critical_stiffness(const Experiment& experiment, 
   common.friction_n = experiment.loop.dynamics.friction_n;
 
   std::vector<StabilityRow> rows;
-  std::vector<LockstepMethod> methods = lockstep_methods(experiment, prepared);
+  std::vector<DrivenMethod> methods = driven_methods(experiment, prepared);
   for (std::size_t i = 0; i < methods.size(); ++i) {
-    LockstepMethod& method = methods[i];
+    DrivenMethod& method = methods[i];
     const std::string& name = experiment.profiles[experiment.methods[i].profile].name;
     StabilityRow row = common;
     row.method = experiment.methods[i].entry;

@@ -3,7 +3,7 @@
 #pragma once
 
 #include <lmdbench/experiment/experiment.h>
-#include <lmdbench/run/prepare.h>
+#include <lmdbench/prepare/prepare.h>
 #include <lmdbench/run/run.h>
 #include <lmdbench/stability/stability_trial.h>
 

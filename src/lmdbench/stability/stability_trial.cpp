@@ -133,7 +133,7 @@ class TrialPoses final : public PoseSource {
 };
 
 /// The last of the frames in which the method is held at a pose.
-FrameRecord held_at(const Pose& X_WM, LockstepInput held, const LockstepMethod& method,
+FrameRecord held_at(const Pose& X_WM, DriverInput held, const DrivenMethod& method,
                     const DriverChoice& driver) {
   held.poses.front() = X_WM;
   return run_lockstep({method}, held, driver, {}).front().frames.back();
@@ -207,8 +207,8 @@ bool has_friction(const LoopChoice& loop) {
   return loop.dynamics.friction_n > 0.0 || (loop.rotation && loop.rotation->dynamics.friction_n > 0.0);
 }
 
-StabilityTrial try_stiffness(const Experiment& experiment, const LockstepInput& input,
-                             const LockstepMethod& method, const Progress& progress) {
+StabilityTrial try_stiffness(const Experiment& experiment, const DriverInput& input,
+                             const DrivenMethod& method, const Progress& progress) {
   const LoopChoice& loop = experiment.loop;
   DriverChoice driver = experiment.driver;
   driver.repetitions = 1;
@@ -217,10 +217,10 @@ StabilityTrial try_stiffness(const Experiment& experiment, const LockstepInput& 
   const bool searches_now_and_then = method.make()->description().tracks_locally;
   const std::int64_t hold_frames =
       searches_now_and_then ? driver.search_every_frames + driver.search_latency_frames + 1 : 1;
-  LockstepInput held = input;
+  DriverInput held = input;
   held.keep_lmds = nullptr;
   held.poses.resize(1);
-  held.make_poses = nullptr;
+  held.loop = {};
   held.frames = hold_frames;
 
   StabilityTrial trial;
@@ -272,7 +272,7 @@ StabilityTrial try_stiffness(const Experiment& experiment, const LockstepInput& 
   if (trial.within_counts) return trial;
 
   auto state = std::make_shared<TrialState>();
-  LockstepInput tapped = held;
+  DriverInput tapped = held;
   tapped.frames = hold_frames + (rest.friction ? MOST_FRICTION_FRAMES : MOST_SWING_FRAMES);
   tapped.make_poses = [&, state] {
     return std::make_unique<TrialPoses>(loop, rest, input.reference_M, 1.0 / input.frame_rate_hz, hold_frames,

@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <lmdbench/drivers/lockstep.h>
 #include <lmdbench/experiment/experiment.h>
 #include <lmdbench/metrics/cleanliness.h>
-#include <lmdbench/run/lockstep.h>
 
 /// One trial of a stiffness: the device rests in contact and is tapped.
 ///  1. It is held where it is to rest until the method has an LMD set there and its force has gone through the delay. With a
@@ -72,7 +72,7 @@ bool has_friction(const LoopChoice& loop);
 
 /// @param method one method with the force profile to try
 /// @throws Interrupted when `progress`, called now and then with frames since the tap, returned false
-StabilityTrial try_stiffness(const Experiment& experiment, const LockstepInput& input,
-                             const LockstepMethod& method, const Progress& progress);
+StabilityTrial try_stiffness(const Experiment& experiment, const DriverInput& input,
+                             const DrivenMethod& method, const Progress& progress);
 
 }  // namespace lmdbench

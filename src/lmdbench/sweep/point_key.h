@@ -3,8 +3,8 @@
 #pragma once
 
 #include <lmdbench/base/error.h>
+#include <lmdbench/prepare/prepare.h>
 #include <lmdbench/result_file/provenance.h>
-#include <lmdbench/run/prepare.h>
 #include <lmdbench/sweep/sweep.h>
 
 #include <filesystem>

@@ -6,12 +6,12 @@
 #include <lmdbench/metrics/errors.h>
 #include <lmdbench/metrics/step_numbers.h>
 #include <lmdbench/metrics/times.h>
+#include <lmdbench/prepare/contact.h>
+#include <lmdbench/probes/truth_probe.h>
 #include <lmdbench/result_file/node_watch.h>
 #include <lmdbench/result_file/own_result.h>
 #include <lmdbench/result_file/provenance.h>
 #include <lmdbench/result_file/result_writer.h>
-#include <lmdbench/run/contact.h>
-#include <lmdbench/run/truth_probe.h>
 #include <lmdbench/sweep/point_key.h>
 #include <lmdbench/sweep/run_sweep.h>
 #include <lmdbench/sweep/sweep_parts.h>
@@ -152,7 +152,7 @@ struct Unit {
 Json run_unit(const Sweep& sweep, const Unit& unit, SharedScene& scene, bool by_name,
               const Progress& truth_progress) {
   const SweepPoint& point = sweep.points[unit.point];
-  LockstepInput input = scene.run().input;
+  DriverInput input = scene.run().input;
   const bool judged = unit.repetition == 0;
   input.keep_lmds = [judged](std::int64_t) { return judged; };
   const SharedScene::Truth* truth = judged ? &scene.truth_of(sweep, point, truth_progress) : nullptr;
@@ -160,7 +160,7 @@ Json run_unit(const Sweep& sweep, const Unit& unit, SharedScene& scene, bool by_
   driver.repetitions = 1;
   const NodeWatch watch(by_name);
   std::vector<MethodRecord> records =
-      run_lockstep(lockstep_methods(point.experiment, scene.run()), input, driver, {});
+      run_lockstep(driven_methods(point.experiment, scene.run()), input, driver, {});
   const MethodRecord& record = records.front();
   PointRun run;
   run.result_hash = fmt::format("{:016x}", record.result_hash);

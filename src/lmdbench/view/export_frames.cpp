@@ -5,9 +5,9 @@
 #include <lmdbench/base/output_guard.h>
 #include <lmdbench/geometry/pose.h>
 #include <lmdbench/methods/query.h>
+#include <lmdbench/prepare/load_scene.h>
 #include <lmdbench/result/result_scene.h>
 #include <lmdbench/result_file/vtu_file.h>
-#include <lmdbench/run/load_body.h>
 #include <lmdbench/view/export_frames.h>
 
 #include <fmt/format.h>

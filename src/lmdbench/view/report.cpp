@@ -6,9 +6,9 @@
 #include <lmdbench/base/run_program.h>
 #include <lmdbench/catalogue/off_file.h>
 #include <lmdbench/methods/query.h>
+#include <lmdbench/prepare/load_scene.h>
 #include <lmdbench/result/result_scene.h>
 #include <lmdbench/result_file/result_reader.h>
-#include <lmdbench/run/load_body.h>
 #include <lmdbench/view/report.h>
 
 #include <fmt/format.h>

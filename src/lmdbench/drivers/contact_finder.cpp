@@ -1,0 +1,171 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/base/contract.h>
+#include <lmdbench/drivers/contact_finder.h>
+#include <lmdbench/mesh/triangle_mesh.h>
+#include <lmdbench/scene/mesh_bounds.h>
+#include <lmdbench/scene/mesh_pair.h>
+
+#include <algorithm>
+#include <map>
+#include <utility>
+
+namespace lmdbench {
+
+namespace {
+
+double minimum_area_of(const Scene& scene, double share) {
+  LMDBENCH_EXPECTS(share >= 0.0, "a share that is negative or not a number");
+  if (!scene.moving) return 0.0;
+  double diagonal = bounding_box_diagonal(scene.moving->surface().mesh);
+  const Body* last = nullptr;
+  for (std::size_t i = 0; i < scene.object_count(); ++i)
+    if (const Body* body = scene.body(i).get(); std::exchange(last, body) != body)
+      diagonal = std::min(diagonal, bounding_box_diagonal(body->surface().mesh));
+  return share * scene.cutoff * diagonal;
+}
+
+/// A patch of the first mesh of a pair as the second one feels it: at the other end of the distance.
+SurfaceSample turned_round(const SurfaceSample& sample) {
+  SurfaceSample turned = sample;
+  turned.point_moving += sample.distance * sample.direction;
+  turned.direction = -sample.direction;
+  return turned;
+}
+
+}  // namespace
+
+ContactFinder::ContactFinder(const Aggregation& aggregation, Scene scene, const LayeredChoice& layered)
+    : aggregation_(aggregation),
+      scene_(std::move(scene)),
+      patch_cutoff_(layered.patch_cutoff),
+      minimum_area_(aggregation.needs == AggregationNeeds::SURFACE
+                        ? minimum_area_of(scene_, layered.minimum_area_share)
+                        : 0.0),
+      merge_finder_(scene_),
+      sampler_(scene_, layered.patch_cutoff) {}
+
+void ContactFinder::search(Method& method, const Pose& X_WM, LmdSet& lmds, WorkCounters& counters) {
+  if (aggregation_.needs == AggregationNeeds::MINIMA) return method.search(X_WM, lmds, counters);
+  method.find_critical(X_WM, critical_, counters);
+  LMDBENCH_ENSURES(std::ranges::is_sorted(critical_, lmd_less, &CriticalPair::pair),
+                   "a method that gives critical pairs in its own order");
+  lmds = minima_of(critical_);
+  if (aggregation_.needs == AggregationNeeds::CRITICAL_PAIRS) return;
+  if (scene_.several_move() || scene_.is_world()) return find_pair_by_pair(X_WM);
+  merge_finder_.find(X_WM, critical_, merges_);
+  if (aggregation_.needs == AggregationNeeds::SURFACE)
+    sampler_.find(X_WM, critical_, merges_, merge_finder_, samples_);
+}
+
+void ContactFinder::find_pair_by_pair(const Pose& X_WM) {
+  merges_.clear();
+  samples_.clear();
+  std::map<std::int32_t, std::vector<std::size_t>> by_pair;
+  for (std::size_t i = 0; i < critical_.size(); ++i) by_pair[critical_[i].pair.fixed_body].push_back(i);
+  CriticalSet own;
+  std::vector<Merge> merges;
+  std::vector<SurfaceSample> samples;
+  for (const auto& [number, places] : by_pair) {
+    const ObjectPair pair = ObjectPair::of(number, scene_);
+    const Pose &X_WA = scene_.pose(pair.mover, X_WM), &X_WB = scene_.pose(pair.other, X_WM);
+    const PlacedPair place{RigidTransform(X_WB), Vec3::Zero(), relative_pose(X_WB, X_WA)};
+    own.clear();
+    for (const std::size_t i : places) place.to_mesh(own.emplace_back(critical_[i]).pair);
+    MergeFinder finder(pair.scene_of(scene_));
+    finder.find(place.X_FM, own, merges);
+    for (const Merge& merge : merges)
+      merges_.push_back({places[merge.saddle], places[merge.first], places[merge.second]});
+    if (aggregation_.needs != AggregationNeeds::SURFACE) continue;
+    SurfaceSampler(pair.scene_of(scene_), patch_cutoff_).find(place.X_FM, own, merges, finder, samples);
+    for (SurfaceSample& sample : samples) {
+      sample.direction = place.X_WF.direction(sample.direction);
+      sample.point_moving = place.X_WF.point(sample.point_moving);
+      sample.minimum = places[sample.minimum];
+      samples_.push_back(sample);
+    }
+  }
+  std::ranges::stable_sort(merges_, {}, [&](const Merge& m) { return critical_[m.saddle].pair.distance; });
+}
+
+void ContactFinder::take(const LmdSet& lmds) {
+  if (aggregation_.needs == AggregationNeeds::MINIMA) {
+    critical_.clear();
+    for (const Lmd& lmd : lmds) critical_.push_back({lmd, 1, true, true, true});
+  }
+  auto lmd = lmds.begin();
+  for (CriticalPair& critical : critical_)
+    if (critical.is_minimum && lmd != lmds.end()) critical.pair = *lmd++;
+}
+
+void ContactFinder::split(const LmdSet& lmds) {
+  parts_.resize(scene_.mover_count());
+  for (Part& part : parts_) part = {};
+  for (const Lmd& lmd : lmds) {
+    const ObjectPair pair = ObjectPair::of(lmd.fixed_body, scene_);
+    LMDBENCH_EXPECTS(pair.mover < parts_.size() && pair.other < scene_.object_count(),
+                     "an LMD of another scene");
+    parts_[pair.mover].lmds.push_back(lmd);
+    if (scene_.is_mover(pair.other)) parts_[pair.other].lmds.push_back(lmdbench::turned_round(lmd));
+  }
+  if (is_sum()) return;
+  take(lmds);
+  // Each of a mover's pairs as the mover sees it; places in its own set for what the others are called by.
+  std::vector<std::size_t> place(critical_.size());
+  for (std::size_t mover = 0; mover < parts_.size(); ++mover) {
+    Part& part = parts_[mover];
+    std::vector<bool> is_own(critical_.size(), false), is_turned(critical_.size(), false);
+    for (std::size_t i = 0; i < critical_.size(); ++i) {
+      const ObjectPair pair = ObjectPair::of(critical_[i].pair.fixed_body, scene_);
+      is_turned[i] = pair.other == mover;
+      is_own[i] = is_turned[i] || pair.mover == mover;
+      if (!is_own[i]) continue;
+      place[i] = part.critical.size();
+      part.critical.push_back(critical_[i]);
+      if (is_turned[i]) part.critical.back().pair = lmdbench::turned_round(critical_[i].pair);
+    }
+    for (const Merge& merge : merges_)
+      if (is_own[merge.saddle])
+        part.merges.push_back({place[merge.saddle], place[merge.first], place[merge.second]});
+    for (const SurfaceSample& sample : samples_) {
+      if (!is_own[sample.minimum]) continue;
+      part.samples.push_back(is_turned[sample.minimum] ? turned_round(sample) : sample);
+      part.samples.back().minimum = place[sample.minimum];
+    }
+  }
+}
+
+Wrench ContactFinder::wrench_on(std::size_t mover, const ForceProfile& profile,
+                                const Vec3& reference_W) const {
+  const Part& part = parts_[mover];
+  if (is_sum()) return sum_forces(part.lmds, profile, reference_W);
+  return aggregation_.combine({part.critical, part.merges, part.samples, minimum_area_}, profile,
+                              reference_W);
+}
+
+Wrench ContactFinder::combine(const LmdSet& lmds, const ForceProfile& profile, const Vec3& reference_W) {
+  if (scene_.several_move()) {
+    split(lmds);
+    return wrench_on(scene_.held, profile, reference_W);
+  }
+  if (is_sum()) return sum_forces(lmds, profile, reference_W);
+  take(lmds);
+  return aggregation_.combine({critical_, merges_, samples_, minimum_area_}, profile, reference_W);
+}
+
+Wrench ContactFinder::wrench_at(Method& method, const Pose& X_WM, const ForceProfile& profile,
+                                const Vec3& reference_W) {
+  LmdSet lmds;
+  WorkCounters ignored;
+  search(method, X_WM, lmds, ignored);
+  std::ranges::sort(lmds, lmd_less);
+  return combine(lmds, profile, reference_W);
+}
+
+std::int64_t ContactFinder::without_index(double cutoff) const {
+  return std::ranges::count_if(critical_, [&](const CriticalPair& critical) {
+    return !critical.has_index && critical.pair.distance < cutoff;
+  });
+}
+
+}  // namespace lmdbench

@@ -1,0 +1,40 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/base/contract.h>
+#include <lmdbench/drivers/direction_memory.h>
+
+#include <limits>
+
+namespace lmdbench {
+
+std::int64_t DirectionMemory::complete(LmdSet& lmds) {
+  LMDBENCH_EXPECTS(cutoff_ > 0.0, "a cutoff that was not checked");
+  std::int64_t without_direction = 0;
+  const double reach = is_older_ ? cutoff_ : std::numeric_limits<double>::infinity();
+  known_.clear();
+  for (Lmd& lmd : lmds) {
+    // A method may have carried the direction along itself; distance 0 tells that it is not the frame's own.
+    if (!(lmd.distance > 0.0)) ++without_direction;
+    if (lmd.direction.hasNaN()) {
+      double nearest_squared = reach * reach;
+      for (const Lmd& earlier : last_) {
+        if (earlier.fixed_body != lmd.fixed_body) continue;
+        if (same_feature_pair(earlier, lmd)) {
+          lmd.direction = earlier.direction;
+          break;
+        }
+        const double squared_distance = (earlier.point_fixed - lmd.point_fixed).squaredNorm();
+        if (squared_distance < nearest_squared) {
+          nearest_squared = squared_distance;
+          lmd.direction = earlier.direction;
+        }
+      }
+    }
+    if (!lmd.direction.hasNaN()) known_.push_back(lmd);
+  }
+  is_older_ = known_.empty();
+  if (!known_.empty()) last_.swap(known_);
+  return without_direction;
+}
+
+}  // namespace lmdbench

@@ -1,0 +1,202 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/base/error.h>
+#include <lmdbench/base/file_hash.h>
+#include <lmdbench/base/input_file.h>
+#include <lmdbench/base/statistics.h>
+#include <lmdbench/mesh/triangle_mesh.h>
+#include <lmdbench/methods/registry.h>
+#include <lmdbench/motion/mesh_scene.h>
+#include <lmdbench/motion/tum_file.h>
+#include <lmdbench/prepare/scene_path.h>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <memory>
+#include <utility>
+
+namespace lmdbench {
+namespace {
+
+/// Of the diagonal: vertices this little before a face are in its plane, as rounding leaves them.
+constexpr double CONVEX_TOLERANCE = 1e-7;
+constexpr std::size_t MOST_CONVEX_TRIANGLES = 2000;
+/// Of a made path's poses every so many are looked at for their contacts.
+constexpr std::size_t CONTACT_STRIDE = 5;
+
+/// Movers times frames: what is kept of them in memory and in the result.
+constexpr std::size_t MOST_MOVER_POSES = 10000000;
+
+/// @param role of the file in the provenance
+FramePath read_path(const ObjectMotion& motion, const std::string& role, double rate,
+                    std::optional<std::size_t> wanted) {
+  const FileContent content = read_input_file(motion.path_file, {.what = "path"});
+  const PathInterpolator path(parse_tum(content.bytes, motion.path_file.string()), motion.interpolation,
+                              motion.gap_intervals);
+  // A path that is cut by "frames" may be longer than any run.
+  refuse_too_many_frames(path, rate, wanted, motion.path_file.string());
+  return {resample(path, rate, wanted),
+          {role, motion.path_file, content.sha256, static_cast<std::int64_t>(content.bytes.size())},
+          path.gaps(),
+          std::nullopt};
+}
+
+std::optional<std::size_t> wanted_frames(const Experiment& experiment) {
+  return experiment.frames ? std::optional(static_cast<std::size_t>(*experiment.frames)) : std::nullopt;
+}
+
+/// Frames of a way there and back until there are so many.
+template <typename Frame>
+void there_and_back(std::vector<Frame>& frames, std::size_t wanted) {
+  const std::size_t way = frames.size() - 1;
+  frames.reserve(wanted);
+  for (std::size_t i = frames.size(); i < wanted; ++i) {
+    const std::size_t turn = way == 0 ? 0 : i % (2 * way);
+    frames.push_back(frames[turn <= way ? turn : 2 * way - turn]);
+  }
+  frames.resize(wanted);
+}
+
+/// Diagonal of the smallest mesh [m].
+double least_diagonal(const Scene& scene) {
+  double least = bounding_box_diagonal(scene.moving->surface().mesh);
+  for (const auto& fixed : scene.fixed) least = std::min(least, bounding_box_diagonal(fixed->surface().mesh));
+  return least;
+}
+
+/// Every vertex lies behind every face. Two such meshes have at most one LMD. Of large meshes nobody asks: no.
+bool is_convex(const Surface& surface) {
+  if (surface.mesh.triangles.size() > MOST_CONVEX_TRIANGLES) return false;
+  const double slack = CONVEX_TOLERANCE * bounding_box_diagonal(surface.mesh);
+  for (std::size_t t = 0; t < surface.mesh.triangles.size(); ++t) {
+    const Vec3 corner = surface.mesh.triangle(static_cast<std::int32_t>(t))[0];
+    for (const Vec3& vertex : surface.mesh.vertices)
+      if (surface.face_normals[t].dot(vertex - corner) > slack) return false;
+  }
+  return true;
+}
+
+/// LMDs in the median frame of those in contact.
+double median_contacts(const Scene& scene, const Path& path) {
+  const std::unique_ptr<Method> method = make_method("certified", scene);
+  std::vector<double> counts;
+  LmdSet lmds;
+  WorkCounters ignored;
+  for (std::size_t i = 0; i < path.size(); i += CONTACT_STRIDE) {
+    lmds.clear();
+    method->search(path[i].pose, lmds, ignored);
+    if (!lmds.empty()) counts.push_back(static_cast<double>(lmds.size()));
+  }
+  return counts.empty() ? 0.0 : median(counts);
+}
+
+GrazingPath grazing_path_of(const Experiment& experiment, const Scene& scene, const Progress& progress) {
+  const double smallest = least_diagonal(scene);
+  if (scene.cutoff > smallest)
+    throw UsageError(experiment.file.string(), "/force/cutoff_m",
+                     fmt::format("the cutoff of {:.4g} m is larger than the smallest mesh, {:.4g} m: all of "
+                                 "it would be in contact "
+                                 "everywhere, and no path grazes",
+                                 scene.cutoff, smallest),
+                     fmt::format("give a cutoff in metres, of a hundredth of the mesh or so ({:.3g}), or "
+                                 "leave it out; check scale",
+                                 0.01 * smallest));
+  TriangleMesh fixed;  // all of them as one
+  for (const auto& body : scene.fixed) {
+    const TriangleMesh mesh = placed_mesh(body);
+    const auto first = static_cast<std::int32_t>(fixed.vertices.size());
+    fixed.vertices.insert(fixed.vertices.end(), mesh.vertices.begin(), mesh.vertices.end());
+    for (const auto& corners : mesh.triangles)
+      fixed.triangles.push_back({first + corners[0], first + corners[1], first + corners[2]});
+  }
+  const bool one_contact = scene.fixed.size() == 1 && is_convex(scene.moving->surface()) &&
+                           is_convex(scene.fixed.front()->surface());
+  return rich_grazing_path(
+      mesh_scene(scene.moving->surface().mesh, std::move(fixed)), scene.cutoff, experiment.frame_rate_hz,
+      [&](const Path& path) { return one_contact ? RICH_CONTACTS : median_contacts(scene, path); },
+      [&](std::size_t done, std::size_t all) { tell_progress(progress, done, all); });
+}
+
+}  // namespace
+
+FramePath read_held_path(const Experiment& experiment) {
+  return read_path(experiment.held().motion, "path", experiment.frame_rate_hz, wanted_frames(experiment));
+}
+
+FramePath make_path(const Experiment& experiment, const Scene& scene, const Progress& progress) {
+  GrazingPath made = grazing_path_of(experiment, scene, progress);
+  const std::string text = tum_text(made.path);
+  Path frames = resample(PathInterpolator(made.path, experiment.held().motion.interpolation),
+                         experiment.frame_rate_hz, wanted_frames(experiment));
+  return {std::move(frames),
+          {"path", "", sha256_of_text(text), static_cast<std::int64_t>(text.size())},
+          {},
+          std::move(made)};
+}
+
+DefaultNote note_of(const GrazingPath& made, double cutoff) {
+  return {"/path/file",
+          fmt::format("a path of {:g} s that is made (seed {}, smallest gap {:.3g} m)", made.spec.duration(),
+                      made.spec.seed, made.smallest_gap),
+          fmt::format(
+              "slides and turns at {:g} to {:g} cutoffs of {:g} m; `lmdbench init` writes one for editing",
+              GRAZING_GAPS_IN_CUTOFFS[1].gap, GRAZING_GAPS_IN_CUTOFFS[2].gap, cutoff)};
+}
+
+void lengthen(std::vector<Pose>& poses, std::vector<double>& times, double frame_rate_hz, double seconds) {
+  const auto wanted = static_cast<std::size_t>(std::llround(seconds * frame_rate_hz)) + 1;
+  there_and_back(poses, wanted);
+  times.resize(poses.size());
+  for (std::size_t i = 0; i < times.size(); ++i) times[i] = static_cast<double>(i) / frame_rate_hz;
+}
+
+MoverPoses mover_poses(const Experiment& experiment, const std::vector<Mover>& movers,
+                       const std::vector<Pose>& held, std::size_t path_frames) {
+  MoverPoses result;
+  if (movers.size() > MOST_MOVER_POSES / held.size())
+    throw UsageError(experiment.file.string(), experiment.objects[movers.back().object].place,
+                     fmt::format("{} movers in {} frames: more than {} poses", movers.size(), held.size(),
+                                 MOST_MOVER_POSES),
+                     "ask for fewer movers or frames");
+  std::vector<Pose> read;  // of the object under way
+  for (const Mover& mover : movers) {
+    std::vector<Pose>& own = result.of_mover.emplace_back();
+    const ObjectChoice& object = experiment.objects[mover.object];
+    if (object.motion.kind == MotionKind::HELD) {
+      own = held;
+    } else if (object.motion.kind == MotionKind::PATH) {
+      if (mover.which == 0) {
+        const FramePath path =
+            read_path(object.motion, "path:" + object.place.substr(1), experiment.frame_rate_hz, path_frames);
+        if (path.frames.size() < path_frames)
+          throw InputError(
+              experiment.file.string(), object.motion.path_place,
+              fmt::format("ends after {} frames of the {} that the run has", path.frames.size(), path_frames),
+              fmt::format("take a longer path, or run fewer frames (--set /frames={})", path.frames.size()));
+        read.clear();
+        for (const TimedPose& timed : path.frames) read.push_back(timed.pose);
+        there_and_back(read, held.size());
+        result.files.push_back(path.file);
+        if (!path.gaps.empty())
+          result.warnings.push_back(fmt::format("{}: its path has {} gaps, in which the mesh is held",
+                                                object.place, path.gaps.size()));
+      }
+      own = read;
+    } else {
+      const TriangleMesh& mesh = mover.body->surface().mesh;
+      const SwayMotion motion(object.motion.sway, mover.which, bounding_box_centre(mesh),
+                              bounding_box_diagonal(mesh));
+      for (std::size_t frame = 0; frame < held.size(); ++frame)
+        own.push_back(motion.at(static_cast<double>(frame) / experiment.frame_rate_hz));
+    }
+    // A product with the identity would round.
+    if (!same_pose(mover.place, Pose{}))
+      for (Pose& pose : own) pose = mover.place * pose;
+  }
+  return result;
+}
+
+}  // namespace lmdbench

@@ -1,0 +1,69 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <lmdbench/drivers/lockstep.h>
+#include <lmdbench/drivers/records.h>
+#include <lmdbench/realtime/exchange.h>
+#include <lmdbench/realtime/record.h>
+
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <vector>
+
+namespace lmdbench {
+
+/// The queues that end at the recorder.
+struct RecordQueues {
+  RecordQueues(std::size_t length, std::size_t list_rows)
+      : ticks(length), lists(list_rows), tracking(length), searches(length) {}
+
+  RecordQueue<TickRecord> ticks;
+  RecordQueue<Lmd> lists;  ///< Rows of the LMD lists, tick after tick.
+  RecordQueue<RoleTurn> tracking;
+  RecordQueue<SearchTurn> searches;
+};
+
+/// Makes the record of a run of what comes through the queues, while it comes.
+class RealtimeRecorder {
+ public:
+  /// @param frames  of the path
+  /// @param kept    by frame, whether its LMD list is to be kept
+  RealtimeRecorder(RecordQueues& queues, const std::string& label, std::int64_t frames, bool closed_loop,
+                   const std::vector<char>& kept, RunKeeper* keeper, std::size_t method);
+
+  /// Takes what has come.
+  void drain();
+  /// Takes the rest and fills what never came.
+  void finish();
+
+  std::int64_t frames_done() const { return done_.load(std::memory_order_relaxed); }
+
+  bool deforms = false;  ///< Whether meshes do, so that the record has how long they took to follow.
+  MethodRecord record;
+  RealtimeRecord clock;  ///< Roles as RoleIndex says.
+
+ private:
+  void take(const TickRecord& tick);
+  void note_times(double update_s, double following_s);
+  void take_list(const TickRecord& tick);
+  void hold_until(std::int64_t frame, FrameSource source);
+  void frame_complete();
+  void note_search(const SearchTurn& search);
+
+  RecordQueues& queues_;
+  std::int64_t frames_;
+  bool closed_loop_;
+  const std::vector<char>& kept_;
+  RunKeeper* keeper_;
+  std::size_t method_;
+  std::int64_t next_sequence_ = 0;
+  std::deque<SearchTurn> waiting_;  ///< Searches that are not in the record yet: one a frame.
+  LmdSet last_list_;
+  bool has_last_list_ = false;  ///< Of the last tick.
+  std::atomic<std::int64_t> done_{0};
+};
+
+}  // namespace lmdbench

@@ -1,0 +1,82 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <lmdbench/drivers/held_mesh.h>
+#include <lmdbench/drivers/pose_source.h>
+#include <lmdbench/experiment/loop_choice.h>
+#include <lmdbench/geometry/pose.h>
+#include <lmdbench/phantom/virtual_phantom.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace lmdbench {
+
+/// A device as the servo loop sees it. Both calls come from the servo's thread, once a tick, and must neither allocate nor lock.
+class ServoDevice {
+ public:
+  virtual ~ServoDevice() = default;
+
+  /// X_WM as the encoders tell it now.
+  /// @param period  servo period, counted from the start of the run
+  /// @param now     [ns]
+  virtual const Pose& sense(std::int64_t period, std::int64_t now) = 0;
+
+  /// What the motors give from now on.
+  virtual void render(const RenderedForce& rendered, std::int64_t now) = 0;
+
+  /// What the device did up to the last `sense`; nullptr where nobody knows.
+  virtual const LoopFrame* moved() const { return nullptr; }
+};
+
+/// A recorded device: poses of a path, one a servo period. It feels nothing.
+class RecordedDevice final : public ServoDevice {
+ public:
+  /// @param path must outlive this
+  explicit RecordedDevice(const std::vector<Pose>& path) : path_(path) {}
+
+  const Pose& sense(std::int64_t period, std::int64_t now) override;
+  void render(const RenderedForce& rendered, std::int64_t now) override;
+
+ private:
+  const std::vector<Pose>& path_;
+};
+
+/// The simulated PHANTOM on the clock: what moves it is the force that is really held at each instant, in steps of a fraction
+/// of a servo period. A tick that comes late senses it where it has got to, a force that comes late acts late, and while no tick
+/// comes it goes on under the last force.
+class SimulatedServoDevice final : public ServoDevice {
+ public:
+  /// @param path   the meant path, one pose a servo period
+  /// @param start  instant of the path's first pose [ns]
+  /// @param period servo period [ns]
+  /// @param steps  of the simulation in a servo period
+  SimulatedServoDevice(const LoopChoice& loop, const std::vector<Pose>& path, std::int64_t start,
+                       std::int64_t period, std::int64_t steps, const Vec3& reference_M);
+
+  const Pose& sense(std::int64_t period, std::int64_t now) override;
+  void render(const RenderedForce& rendered, std::int64_t now) override;
+  const LoopFrame* moved() const override { return &frame_; }
+
+ private:
+  struct Due {
+    std::int64_t at = 0;
+    RenderedForce rendered;
+  };
+  void advance_to(std::int64_t now);
+  Pose path_at(std::int64_t step) const;
+
+  const std::vector<Pose>& path_;
+  std::int64_t start_, step_ns_, steps_, delay_ns_;
+  HeldMesh mesh_;
+  std::int64_t step_ = 0;  ///< Steps done.
+  std::vector<Due> due_;   ///< Forces that are not held yet: a ring.
+  std::size_t first_due_ = 0, due_count_ = 0;
+  RenderedForce held_;
+  LoopFrame frame_;
+  Pose pose_;
+};
+
+}  // namespace lmdbench

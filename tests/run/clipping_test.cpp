@@ -1,0 +1,30 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/run/run.h>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <vector>
+
+namespace lmdbench {
+namespace {
+
+using ::testing::HasSubstr;
+
+TEST(ClippingWarning, ManyClippedFramesAreNamed) {
+  MethodRecord record;
+  record.label = "improved";
+  record.frames.resize(100);
+  std::vector<bool> in_contact(100, false);
+  for (std::size_t i = 0; i < 50; ++i) in_contact[i] = true;
+  for (std::size_t i = 0; i < 5; ++i) record.frames[i].force_clipped = true;
+  record.frames[99].force_clipped = true;  // not in contact: not counted
+  EXPECT_FALSE(clipping_warning(record, in_contact).has_value()) << "a tenth";
+  record.frames[5].force_clipped = true;
+  EXPECT_THAT(clipping_warning(record, in_contact)->what,
+              HasSubstr("12 % of the frames in contact (6 of 50)"));
+}
+
+}  // namespace
+}  // namespace lmdbench
