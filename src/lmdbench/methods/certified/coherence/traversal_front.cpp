@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/methods/certified/coherence/traversal_front.h>
 #include <lmdbench/methods/certified/hierarchy/wide_lane.h>
+#include <lmdbench/methods/certified/hierarchy/wide_lanes.h>
 
 #include <algorithm>
 #include <bit>
@@ -142,7 +143,7 @@ void TraversalFront::apply(const Work& work, const WideKeptTest& test) {
   test_queue_.plan(index, static_cast<double>(test.frames), static_cast<double>(test.deviation_budget),
                    work.motion);
   ++work.counters.node_tests;
-  work.counters.node_pairs += static_cast<std::uint64_t>(std::popcount(test.used));
+  work.counters.node_pairs += LANE_LISTS[test.used].count;
 
   if (test.opened == records_[index].opened_lanes && test.lmd == records_[index].lmd_lanes &&
       test.touch == records_[index].touch_lanes)

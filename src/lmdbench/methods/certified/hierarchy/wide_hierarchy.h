@@ -24,17 +24,17 @@ class WideRef {
   constexpr WideRef() = default;
   static constexpr WideRef node(std::uint32_t index) { return WideRef(index); }
   static constexpr WideRef feature(const FeatureId& id) {
-    return WideRef((static_cast<std::uint32_t>(id.kind) + 1u) << KIND_SHIFT |
+    return WideRef(IS_FEATURE | static_cast<std::uint32_t>(id.kind) << KIND_SHIFT |
                    static_cast<std::uint32_t>(id.index));
   }
   static constexpr WideRef from_bits(std::uint32_t bits) { return WideRef(bits); }
 
   constexpr bool is_empty() const { return bits_ == 0; }
-  constexpr bool is_feature() const { return bits_ >> KIND_SHIFT != 0; }
-  constexpr bool is_face() const { return bits_ >= FIRST_FACE; }
+  constexpr bool is_feature() const { return (bits_ & IS_FEATURE) != 0; }
+  constexpr bool is_face() const { return (bits_ & IS_FACE) != 0; }
   constexpr std::uint32_t node_index() const { return bits_; }
   constexpr FeatureId feature_id() const {
-    return {static_cast<FeatureKind>((bits_ >> KIND_SHIFT) - 1u),
+    return {static_cast<FeatureKind>((bits_ & ~IS_FEATURE) >> KIND_SHIFT),
             static_cast<std::int32_t>(bits_ & INDEX_MASK)};
   }
   constexpr std::uint32_t bits() const { return bits_; }
@@ -42,8 +42,9 @@ class WideRef {
 
   static constexpr int KIND_SHIFT = 29;
   static constexpr std::uint32_t INDEX_MASK = (1u << KIND_SHIFT) - 1u;  ///< Largest node or feature index.
-  static constexpr std::uint32_t FIRST_FACE = (static_cast<std::uint32_t>(FeatureKind::FACE) + 1u)
-                                              << KIND_SHIFT;
+  // Of a vector of references two signs tell, its own and that of its double (wide_vectors-inl.h).
+  static constexpr std::uint32_t IS_FEATURE = 1u << 31, IS_FACE = 1u << 30;
+  static_assert(static_cast<std::uint32_t>(FeatureKind::FACE) << KIND_SHIFT == IS_FACE);
 
  private:
   constexpr explicit WideRef(std::uint32_t bits) : bits_(bits) {}

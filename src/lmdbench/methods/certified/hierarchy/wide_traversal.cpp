@@ -16,6 +16,7 @@
 #define HWY_TARGET_INCLUDE "lmdbench/methods/certified/hierarchy/wide_traversal.cpp"
 #include <hwy/foreach_target.h>
 // After foreach_target.h:
+#include <lmdbench/methods/certified/hierarchy/wide_moved_nodes-inl.h>
 #include <lmdbench/methods/certified/hierarchy/wide_vectors-inl.h>
 
 #include <hwy/highway.h>
@@ -25,14 +26,9 @@ namespace lmdbench::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// Pairs of the queue that are looked at before their turn, to fetch what they will open: a power of two.
-constexpr std::size_t LOOK_AHEAD = 8;
-/// Entries of a queue that has never been used, and moved nodes; they grow by doubling.
-constexpr std::size_t QUEUE_START = 4096, MOVED_START = 256;
-/// Of an entry of queue_b: the first child is opened.
-constexpr int OPEN_A_SHIFT = 31;
-static_assert(WideRef::INDEX_MASK / WIDE_WIDTH < (1u << OPEN_A_SHIFT) / WIDE_WIDTH,
-              "a slot fits below the bit");
+/// Pairs that are taken from a stack together, and of them those that are looked at before their turn, to fetch what they will open:
+/// powers of two.
+constexpr std::size_t BLOCK = 128, LOOK_AHEAD = 8;
 
 /// The test of wide_node_test.h.
 /// @param widths  WideWidthTest or NoWidths
@@ -54,6 +50,14 @@ HWY_INLINE WideMasks test_lanes(const WideNode& node, const WidePlaces& places, 
                                       bounds.z_probe <= cutoff + bounds.slab_probe),
                               bounds.z_lane <= cutoff + bounds.slab_lane);
 
+    const std::uint32_t used_bits = Lanes::bits(Lanes::not_zero(node.child, first), first);
+    masks.used |= used_bits;
+    // Where nothing is near enough no direction needs to be asked for.
+    if (((Lanes::bits(touch, first) | Lanes::bits(near, first)) & used_bits) == 0) {
+      masks.beyond |= used_bits;
+      continue;
+    }
+
     const auto collinear =
         -bounds.between >= (bounds.cosine * bounds.probe_cosine - bounds.sine * bounds.probe_sine) -
                                Lanes::set(DIRECTION_ROUNDING);
@@ -74,12 +78,10 @@ HWY_INLINE WideMasks test_lanes(const WideNode& node, const WidePlaces& places, 
                                            across.gap_lane <= bounds.sine * cutoff));
     }
 
-    const std::uint32_t used_bits = Lanes::bits(Lanes::not_zero(node.child, first), first);
     const std::uint32_t touch_bits = Lanes::bits(touch, first) & used_bits;
     const std::uint32_t near_bits = Lanes::bits(near, first) & used_bits;
     const std::uint32_t collinear_bits = Lanes::bits(collinear, first);
     const std::uint32_t directed_bits = Lanes::bits(directed, first);
-    masks.used |= used_bits;
     masks.touch |= touch_bits;
     masks.lmd |= near_bits & collinear_bits & directed_bits;
     masks.beyond |= used_bits & ~touch_bits & ~near_bits;
@@ -107,66 +109,6 @@ struct ScalarTest {
   }
 };
 
-/// Moves rows of points, or of directions where the translation is zero.
-HWY_INLINE void move_rows(const float (*from)[WIDE_WIDTH], const WideTransform& X, const float* translation,
-                          float (*to)[WIDE_WIDTH]) {
-  for (std::uint32_t first = 0; first < WIDE_WIDTH; first += VectorLanes::count()) {
-    const VectorNumber x = VectorLanes::load(from[0] + first), y = VectorLanes::load(from[1] + first),
-                       z = VectorLanes::load(from[2] + first);
-    for (int i = 0; i < 3; ++i) {
-      const VectorNumber turned =
-          (VectorLanes::set(X.columns[0][i]) * x + VectorLanes::set(X.columns[1][i]) * y) +
-          VectorLanes::set(X.columns[2][i]) * z;
-      const VectorNumber moved = turned + VectorLanes::set(translation[i]);
-      hn::Store(moved.raw, FloatTag(), to[i] + first);
-    }
-  }
-}
-
-/// The nodes of the first hierarchy that a query has met.
-class MovedNodes {
- public:
-  MovedNodes(const WideHierarchy& a, const WideTransform& X, std::vector<WideMovedNode>& moved)
-      : a_(a), X_(X), moved_(moved) {
-    if (moved_.size() < MOVED_START) moved_.resize(MOVED_START);
-    append(0);
-  }
-
-  const WideMovedNode& operator[](std::uint32_t place) const { return moved_[place]; }
-  const WideNode& node(std::uint32_t place) const { return a_.nodes[moved_[place].node]; }
-
-  /// Where the child in a slot is, which is a node.
-  HWY_INLINE std::uint32_t child(std::uint32_t slot) {
-    const std::uint32_t known = moved_[slot / WIDE_WIDTH].moved_child[slot % WIDE_WIDTH];
-    if (known != 0) return known;
-    const std::uint32_t place =
-        append(WideRef::from_bits(node(slot / WIDE_WIDTH).child[slot % WIDE_WIDTH]).node_index());
-    moved_[slot / WIDE_WIDTH].moved_child[slot % WIDE_WIDTH] = place;
-    return place;
-  }
-
- private:
-  std::uint32_t append(std::uint32_t node) {
-    static constexpr float NO_TRANSLATION[3] = {};
-    if (count_ == moved_.size()) moved_.resize(2 * moved_.size());
-    WideMovedNode& moved = moved_[count_];
-    const WideNode& own = a_.nodes[node];
-    move_rows(own.centre, X_, X_.translation, moved.centre);
-    move_rows(own.axis, X_, NO_TRANSLATION, moved.axis);
-    if (!a_.widths.empty()) move_rows(a_.widths[node].across, X_, NO_TRANSLATION, moved.across);
-    std::ranges::fill(moved.moved_child, 0u);
-    moved.node = node;
-    return static_cast<std::uint32_t>(count_++);
-  }
-
-  const WideHierarchy& a_;
-  const WideTransform& X_;
-  std::vector<WideMovedNode>& moved_;
-  std::size_t count_ = 0;
-};
-
-constexpr std::uint32_t ALL_LANES = (1u << WIDE_WIDTH) - 1u;
-
 /// Lanes that opening narrows more than the probe; of two that gain alike the second mesh's is opened.
 HWY_INLINE std::uint32_t lanes_that_gain_more(const WideNode& node, float of_probe, bool lanes_are_first) {
   std::uint32_t bits = 0;
@@ -191,115 +133,155 @@ HWY_INLINE WideProbe probe_of(const WideNode& node, const WidePlaces& places, st
           node.sine[lane]};
 }
 
-/// First in, first out, without a data-dependent branch but for found pairs: a processor then works on
-/// several tests at once, because none waits for what the one before it appends.
+/// A query's descent. What opens a child of the first mesh and what opens one of the second are looked at apart, a block at a time, so
+/// that no branch depends on which it is; nor does one on what survives, but for nodes that are far and pairs that are found. A
+/// processor then works on several tests at once. Blocks come from stacks: the pairs that wait stay few, and near.
 /// @tparam Widths  WideWidthTest where one of the meshes has long features, else NoWidths
 template <class Test, class Widths>
-void descend(const WideHierarchy& a, const WideHierarchy& b, const WideQuery& query, WideScratch& scratch,
-             WideCounters& counters) {
-  constexpr bool HAS_WIDTHS = std::is_same_v<Widths, WideWidthTest>;
-  const Test test{};
-  const WideNode* const nodes_b = b.nodes.data();
-  MovedNodes moved(a, query.a_in_b, scratch.moved);
-  WideCounters count;
-  const hn::RebindToUnsigned<FloatTag> u;
-  if (scratch.queue_a.size() < QUEUE_START) scratch.resize_queue(QUEUE_START);
-  scratch.queue_a[0] = 0;
-  scratch.queue_b[0] = static_cast<std::uint32_t>(choose_opening(a, b, 0, 0).open_a) << OPEN_A_SHIFT;
-  std::size_t end = 1, looked_at = 0;
-  std::array<std::uint32_t, LOOK_AHEAD> opened;  // Places of moved nodes, or nodes.
-  for (std::size_t next = 0; next < end; ++next) {
-    if (end + WIDE_WIDTH > scratch.queue_a.size()) scratch.resize_queue(2 * scratch.queue_a.size());
-    std::uint32_t* const queue_a = scratch.queue_a.data();
-    std::uint32_t* const queue_b = scratch.queue_b.data();
-    const auto slot_of_b = [&](std::size_t i) { return queue_b[i] & ~(1u << OPEN_A_SHIFT); };
-    for (; looked_at < std::min(end, next + LOOK_AHEAD); ++looked_at) {
-      std::uint32_t& ahead = opened[looked_at % LOOK_AHEAD];
-      if (queue_b[looked_at] >> OPEN_A_SHIFT != 0) {
-        ahead = moved.child(queue_a[looked_at]);
-        fetch(moved.node(ahead));
-      } else {
-        const std::uint32_t slot = slot_of_b(looked_at);
-        ahead = WideRef::from_bits(nodes_b[slot / WIDE_WIDTH].child[slot % WIDE_WIDTH]).node_index();
-        fetch(nodes_b[ahead]);
-      }
+class Descent {
+ public:
+  Descent(const WideHierarchy& a, const WideHierarchy& b, const WideQuery& query, WideScratch& scratch)
+      : a_(a), b_(b), query_(query), scratch_(scratch), moved_(a, query.a_in_b, scratch.moved) {}
+
+  WideCounters run() {
+    scratch_.opening_a.size = scratch_.opening_b.size = 0;
+    WideStack& first = choose_opening(a_, b_, 0, 0).open_a ? scratch_.opening_a : scratch_.opening_b;
+    first.reserve_more(1);
+    first.a[0] = first.b[0] = 0;
+    first.size = 1;
+    while (scratch_.opening_a.size + scratch_.opening_b.size != 0) {
+      if (scratch_.opening_a.size > scratch_.opening_b.size)
+        test_block<true>(scratch_.opening_a);
+      else
+        test_block<false>(scratch_.opening_b);
     }
-    const std::uint32_t place = opened[next % LOOK_AHEAD];
-    const bool open_a = queue_b[next] >> OPEN_A_SHIFT != 0;
-    const std::uint32_t slot_a = queue_a[next], slot_b = slot_of_b(next);
-    const std::uint32_t probe_slot = open_a ? slot_b : slot_a, lane = probe_slot % WIDE_WIDTH;
-    const WideMovedNode& moved_a = moved[open_a ? place : slot_a / WIDE_WIDTH];
-    const WideNode &node_a = a.nodes[moved_a.node], &node_b = nodes_b[open_a ? slot_b / WIDE_WIDTH : place];
-    const WideWidths &widths_a = widths_of(a, moved_a.node),
-                     &widths_b = widths_of(b, static_cast<std::size_t>(&node_b - nodes_b));
+    count_.rejected_g3 = count_.node_pairs - survivors_ - count_.rejected_g1 - count_.rejected_g2;
+    return count_;
+  }
+
+ private:
+  template <bool OPEN_A>
+  void test_block(WideStack& from) {
+    const std::size_t count = std::min(from.size, BLOCK);
+    from.size -= count;
+    scratch_.opening_a.reserve_more((count + 1) * WIDE_WIDTH);
+    scratch_.opening_b.reserve_more((count + 1) * WIDE_WIDTH);
+    // Whole vectors: less than one beyond the last.
+    const hn::RebindToUnsigned<FloatTag> u;
+    std::array<std::uint32_t, BLOCK> slots_a, slots_b;
+    for (std::size_t i = 0; i < count; i += hn::Lanes(u)) {
+      hn::StoreU(hn::LoadU(u, from.a.data() + from.size + i), u, slots_a.data() + i);
+      hn::StoreU(hn::LoadU(u, from.b.data() + from.size + i), u, slots_b.data() + i);
+    }
+    std::array<std::uint32_t, LOOK_AHEAD> opened;  // Places of moved nodes, or nodes.
+    const auto look_at = [&](std::size_t i) HWY_ATTR {
+      std::uint32_t& node = opened[i % LOOK_AHEAD];
+      if constexpr (OPEN_A) {
+        node = moved_.child(slots_a[i]);
+        fetch(moved_.node(node));
+      } else {
+        const std::uint32_t slot = slots_b[i];
+        node = WideRef::from_bits(b_.nodes[slot / WIDE_WIDTH].child[slot % WIDE_WIDTH]).node_index();
+        fetch(b_.nodes[node]);
+      }
+    };
+    for (std::size_t ahead = 0; ahead < count + LOOK_AHEAD; ++ahead) {
+      if (ahead >= LOOK_AHEAD)
+        test_pair<OPEN_A>(opened[ahead % LOOK_AHEAD], (OPEN_A ? slots_b : slots_a)[ahead - LOOK_AHEAD]);
+      if (ahead < count) look_at(ahead);
+    }
+    count_.node_tests += count;
+  }
+
+  /// Tests the children of a node against the child in a slot of the other mesh.
+  template <bool OPEN_A>
+  HWY_INLINE void test_pair(std::uint32_t opened, std::uint32_t probe_slot) {
+    const WideMovedNode& moved_a = moved_[OPEN_A ? opened : probe_slot / WIDE_WIDTH];
+    const std::uint32_t index_b = OPEN_A ? probe_slot / WIDE_WIDTH : opened, lane = probe_slot % WIDE_WIDTH;
+    const WideNode &node_a = a_.nodes[moved_a.node], &node_b = b_.nodes[index_b];
+    const WideWidths &widths_a = widths_of(a_, moved_a.node), &widths_b = widths_of(b_, index_b);
     const WidePlaces places_a(moved_a.centre, moved_a.axis,
-                              a.widths.empty() ? widths_a.across : moved_a.across);
+                              a_.widths.empty() ? widths_a.across : moved_a.across);
     const WidePlaces places_b(node_b.centre, node_b.axis, widths_b.across);
-    const WideNode &node = open_a ? node_a : node_b, &home = open_a ? node_b : node_a;
-    const WidePlaces &places = open_a ? places_a : places_b, &probe_places = open_a ? places_b : places_a;
+    const WideNode &node = OPEN_A ? node_a : node_b, &home = OPEN_A ? node_b : node_a;
+    const WidePlaces &places = OPEN_A ? places_a : places_b, &probe_places = OPEN_A ? places_b : places_a;
     const WideProbe probe = probe_of(home, probe_places, lane);
-    const WideRef probe_ref = WideRef::from_bits(home.child[lane]);
 
     WideMasks masks;
-    if constexpr (HAS_WIDTHS) {
-      const WideWidths &lanes = open_a ? widths_a : widths_b, &of_probe = open_a ? widths_b : widths_a;
+    if constexpr (std::is_same_v<Widths, WideWidthTest>) {
+      const WideWidths &lanes = OPEN_A ? widths_a : widths_b, &of_probe = OPEN_A ? widths_b : widths_a;
       const WideWidthTest widths{
           lanes,
           {probe_places.across[0][lane], probe_places.across[1][lane], probe_places.across[2][lane]},
           of_probe.half_width[lane]};
-      masks = test(node, places, probe, query.limits, widths);
+      masks = Test{}(node, places, probe, query_.limits, widths);
     } else {
-      masks = test(node, places, probe, query.limits, NoWidths());
+      masks = Test{}(node, places, probe, query_.limits, NoWidths());
     }
-    ++count.node_tests;
-    count.node_pairs += static_cast<std::uint64_t>(std::popcount(masks.used));
-    count.rejected_g1 += static_cast<std::uint64_t>(std::popcount(masks.beyond));
-    count.rejected_g2 += static_cast<std::uint64_t>(std::popcount(masks.not_collinear));
-    count.rejected_g3 += static_cast<std::uint64_t>(
-        std::popcount(masks.used & ~masks.lmd & ~masks.touch & ~masks.beyond & ~masks.not_collinear));
+    const auto number_of = [](std::uint32_t lanes) {
+      return static_cast<std::uint64_t>(std::popcount(lanes));
+    };
+    count_.node_pairs += number_of(masks.used);
+    count_.rejected_g1 += number_of(masks.beyond);
+    if (masks.beyond == masks.used) return;
+    count_.rejected_g2 += number_of(masks.not_collinear);
+    survivors_ += number_of(masks.lmd | masks.touch);
 
+    // All lanes where the probe is a feature, or a face; else none.
+    const WideRef probe_ref = WideRef::from_bits(home.child[lane]);
+    const std::uint32_t of_feature = 0u - static_cast<std::uint32_t>(probe_ref.is_feature()),
+                        of_face = 0u - static_cast<std::uint32_t>(probe_ref.is_face());
     // What can only touch matters for faces alone.
     const KindBits kinds = kind_bits(node);
-    const bool may_touch = !probe_ref.is_feature() || probe_ref.is_face();
-    const std::uint32_t touch = may_touch ? masks.touch & (kinds.faces | ~kinds.features) : 0u;
-    const std::uint32_t alive = masks.lmd | touch;
-    const std::uint32_t final_pairs = probe_ref.is_feature() ? kinds.features : 0u;
-    const LaneList& list = LANE_LISTS[alive & ~final_pairs];
+    const std::uint32_t touch = masks.touch & (kinds.faces | ~kinds.features) & (of_face | ~of_feature);
+    const std::uint32_t alive = masks.lmd | touch, found = alive & kinds.features & of_feature;
     // As choose_opening says: the child with more to gain, where neither is a feature.
-    const std::uint32_t gains_more =
-        lanes_that_gain_more(node, opening_gain(probe.radius, probe.sine), open_a);
-    const std::uint32_t of_lane = probe_ref.is_feature() ? ALL_LANES : gains_more & ~kinds.features;
-    const std::uint32_t opens_a = open_a ? of_lane : ~of_lane;
-    // Eight entries are written, as many as survive are kept.
-    const std::uint32_t first_slot = WIDE_WIDTH * place;
-    for (std::size_t first = 0; first < WIDE_WIDTH; first += hn::Lanes(u)) {
-      const auto lanes =
-          hn::PromoteTo(u, hn::LoadU(hn::Rebind<std::uint8_t, decltype(u)>(), list.lane.data() + first));
-      const auto slots = hn::Add(lanes, hn::Set(u, first_slot)), probe_slots = hn::Set(u, probe_slot);
-      const auto opening = hn::ShiftLeft<OPEN_A_SHIFT>(hn::Shr(hn::Set(u, opens_a), lanes));
-      hn::StoreU(open_a ? slots : probe_slots, u, queue_a + end + first);
-      hn::StoreU(hn::Or(open_a ? probe_slots : slots, opening), u, queue_b + end + first);
-    }
-    end += list.count;
+    const std::uint32_t opens_lane =
+        of_feature |
+        (lanes_that_gain_more(node, opening_gain(probe.radius, probe.sine), OPEN_A) & ~kinds.features);
+    const std::uint32_t opens_a = OPEN_A ? opens_lane : ~opens_lane;
+    push<OPEN_A>(scratch_.opening_a, alive & ~found & opens_a, opened, probe_slot);
+    push<OPEN_A>(scratch_.opening_b, alive & ~found & ~opens_a, opened, probe_slot);
 
-    for (std::uint32_t left = alive & final_pairs; left != 0; left &= left - 1) {
-      const auto found = static_cast<std::uint32_t>(std::countr_zero(left));
-      const WideRef child = WideRef::from_bits(node.child[found]);
-      const WidePair pair = open_a ? WidePair{child, probe_ref} : WidePair{probe_ref, child};
-      if ((masks.lmd >> found & 1u) != 0) scratch.lmd_pairs.push_back(pair);
-      if ((touch >> found & 1u) != 0) scratch.touch_pairs.push_back(pair);
+    for (std::uint32_t left = found; left != 0; left &= left - 1) {
+      const auto one = static_cast<std::uint32_t>(std::countr_zero(left));
+      const WideRef child = WideRef::from_bits(node.child[one]);
+      const WidePair pair = OPEN_A ? WidePair{child, probe_ref} : WidePair{probe_ref, child};
+      if ((masks.lmd >> one & 1u) != 0) scratch_.lmd_pairs.push_back(pair);
+      if ((touch >> one & 1u) != 0) scratch_.touch_pairs.push_back(pair);
     }
   }
-  counters = count;
-}
+
+  /// Eight entries are written, as many as there are lanes are kept.
+  template <bool OPEN_A>
+  static HWY_INLINE void push(WideStack& to, std::uint32_t lanes, std::uint32_t opened,
+                              std::uint32_t probe_slot) {
+    const hn::RebindToUnsigned<FloatTag> u;
+    const LaneList& list = LANE_LISTS[lanes];
+    std::uint32_t* const slots = (OPEN_A ? to.a : to.b).data() + to.size;
+    std::uint32_t* const probes = (OPEN_A ? to.b : to.a).data() + to.size;
+    for (std::size_t first = 0; first < WIDE_WIDTH; first += hn::Lanes(u)) {
+      const auto chosen =
+          hn::PromoteTo(u, hn::LoadU(hn::Rebind<std::uint8_t, decltype(u)>(), list.lane.data() + first));
+      hn::StoreU(hn::Add(chosen, hn::Set(u, WIDE_WIDTH * opened)), u, slots + first);
+      hn::StoreU(hn::Set(u, probe_slot), u, probes + first);
+    }
+    to.size += list.count;
+  }
+
+  const WideHierarchy &a_, &b_;
+  const WideQuery& query_;
+  WideScratch& scratch_;
+  MovedNodes moved_;
+  WideCounters count_;
+  std::uint64_t survivors_ = 0;
+};
 
 template <class Test>
 void descend_by(const WideHierarchy& a, const WideHierarchy& b, const WideQuery& query, WideScratch& scratch,
                 WideCounters& counters) {
-  if (a.widths.empty() && b.widths.empty())
-    descend<Test, NoWidths>(a, b, query, scratch, counters);
-  else
-    descend<Test, WideWidthTest>(a, b, query, scratch, counters);
+  counters = a.widths.empty() && b.widths.empty() ? Descent<Test, NoWidths>(a, b, query, scratch).run()
+                                                  : Descent<Test, WideWidthTest>(a, b, query, scratch).run();
 }
 
 void descend_vector(const WideHierarchy& a, const WideHierarchy& b, const WideQuery& query,

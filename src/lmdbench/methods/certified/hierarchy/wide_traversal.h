@@ -6,6 +6,7 @@
 #include <lmdbench/methods/certified/hierarchy/wide_hierarchy.h>
 #include <lmdbench/methods/certified/hierarchy/wide_node_test.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <string_view>
 #include <vector>
@@ -87,19 +88,27 @@ struct alignas(64) WideMovedNode {
   alignas(32) float across[3][WIDE_WIDTH];  ///< Where there are long features.
 };
 
+/// Pairs of children to be tested, all of which open the same mesh's child; the last ones put there are looked at first. The first child
+/// is named by 8 times its node's place in WideScratch::moved + lane, the second by node * 8 + lane.
+struct WideStack {
+  static constexpr std::size_t START = 4096;  ///< Entries of a stack that has never been used.
+  std::vector<std::uint32_t> a, b;
+  std::size_t size = 0;
+
+  /// Makes sure of room for so many more.
+  void reserve_more(std::size_t count) {
+    if (size + count <= a.size()) return;
+    a.resize(std::max(START, 2 * (size + count)));
+    b.resize(a.size());
+  }
+};
+
 /// Memory of traversals, kept between them so that none is allocated after the first few.
 struct WideScratch {
-  /// Pairs of children to be tested: the first named by 8 times its node's place in `moved` + lane, the second by
-  /// node * 8 + lane and, in its top bit, whether the first one is opened.
-  std::vector<std::uint32_t> queue_a, queue_b;
+  WideStack opening_a, opening_b;
   std::vector<WideMovedNode> moved;
   std::vector<WidePair> lmd_pairs;    ///< Pairs that may be LMDs.
   std::vector<WidePair> touch_pairs;  ///< Pairs of faces that may touch.
-
-  void resize_queue(std::size_t size) {
-    queue_a.resize(size);
-    queue_b.resize(size);
-  }
 };
 
 /// Descends both hierarchies together: of a surviving pair the larger child is opened and its eight children

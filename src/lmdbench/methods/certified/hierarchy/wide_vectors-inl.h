@@ -36,12 +36,13 @@ struct KindBits {
 
 HWY_INLINE KindBits kind_bits(const WideNode& node) {
   const FloatTag f;
-  const hn::RebindToUnsigned<FloatTag> u;
+  const hn::RebindToSigned<FloatTag> i;
   KindBits bits;
-  for (std::uint32_t first = 0; first < WIDE_WIDTH; first += static_cast<std::uint32_t>(hn::Lanes(u))) {
-    const auto child = hn::Load(u, node.child + first);
-    bits.features |= mask_bits(f, hn::RebindMask(f, hn::Gt(child, hn::Set(u, WideRef::INDEX_MASK))), first);
-    bits.faces |= mask_bits(f, hn::RebindMask(f, hn::Gt(child, hn::Set(u, WideRef::FIRST_FACE - 1u))), first);
+  for (std::uint32_t first = 0; first < WIDE_WIDTH; first += static_cast<std::uint32_t>(hn::Lanes(i))) {
+    const auto child = hn::BitCast(i, hn::Load(hn::RebindToUnsigned<FloatTag>(), node.child + first));
+    bits.features |= mask_bits(f, hn::RebindMask(f, hn::MaskFromVec(hn::BroadcastSignBit(child))), first);
+    bits.faces |=
+        mask_bits(f, hn::RebindMask(f, hn::MaskFromVec(hn::BroadcastSignBit(hn::Add(child, child)))), first);
   }
   return bits;
 }
