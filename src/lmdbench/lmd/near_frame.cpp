@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/lmd/near_frame.h>
+#include <lmdbench/lmd/own_wrench.h>
 
 #include <Eigen/Geometry>
 
@@ -42,7 +43,7 @@ void move_points(LmdSet& lmds, const Vec3& offset) {
 }
 
 /// A method that works in a near frame.
-class InNearFrame : public Method {
+class InNearFrame : public Method, public HasOwnWrench {
  public:
   InNearFrame(NearFrame frame, std::unique_ptr<Method> method)
       : frame_(std::move(frame)), method_(std::move(method)) {}
@@ -63,6 +64,11 @@ class InNearFrame : public Method {
       pair.pair.point_moving += frame_.origin_W();
       pair.pair.point_fixed += frame_.origin_W();
     }
+  }
+  std::optional<OwnWrench> own_wrench() const override {
+    std::optional<OwnWrench> own = own_wrench_of(*method_);
+    if (own) own->about += frame_.origin_W();
+    return own;
   }
 
  private:

@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/lmd/own_wrench.h>
 #include <lmdbench/scene/broad_phase.h>
 #include <lmdbench/scene/mesh_pair.h>
 #include <lmdbench/scene/mover_method.h>
@@ -19,7 +20,7 @@ enum class WorldCounter : std::uint8_t {
   INSTANCES_SEARCHED
 };
 
-class WorldMethod : public Method {
+class WorldMethod : public Method, public HasOwnWrench {
  public:
   WorldMethod(const Scene& scene, const MethodDescription& description, MeshPair::Make make)
       : broad_phase_(scene), description_(in_world(description)), make_(std::move(make)) {
@@ -31,8 +32,10 @@ class WorldMethod : public Method {
 
   void search(const Pose& X_WM, LmdSet& lmds, WorkCounters& counters) override {
     lmds.clear();
+    own_ = {.about = X_WM.translation};
     for_each_near(X_WM, counters, [&](Method& method, std::uint32_t instance, const PlacedPair& place) {
       method.search(place.X_FM, found_, counters);
+      if (const std::optional<OwnWrench> own = own_wrench_of(method)) add_own(*own, place);
       for (Lmd& lmd : found_) place.to_world(lmd, instance);
       lmds.insert(lmds.end(), found_.begin(), found_.end());
     });
@@ -71,7 +74,19 @@ class WorldMethod : public Method {
     sort_critical(critical);
   }
 
+  std::optional<OwnWrench> own_wrench() const override {
+    return shows_own_force_ ? std::optional(own_) : std::nullopt;
+  }
+
  private:
+  void add_own(const OwnWrench& own, const PlacedPair& place) {
+    const OwnWrench in_world{place.X_WF.direction(own.force), place.X_WF.direction(own.torque),
+                             place.X_WF.point(own.about + place.origin_F)};
+    shows_own_force_ = true;
+    own_.force += in_world.force;
+    own_.torque += in_world.torque_about(own_.about);
+  }
+
   /// An instance that was near, with the method that has been given to it.
   struct Given {
     std::uint32_t instance;
@@ -131,6 +146,8 @@ class WorldMethod : public Method {
   std::vector<Given> given_;
   std::vector<std::uint32_t> near_;
   LmdSet found_, tracked_;
+  bool shows_own_force_ = false;  ///< Once a pair's method has.
+  OwnWrench own_;
 };
 
 }  // namespace
