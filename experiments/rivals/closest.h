@@ -11,7 +11,7 @@
 #include <cstdint>
 #include <vector>
 
-/// What rivals share: vectors, meshes in double precision, closest points (Ericson, Real-Time Collision Detection, 5.1).
+/// What rivals share: vectors, forces, meshes in double precision, closest points (Ericson, Real-Time Collision Detection, 5.1).
 namespace rivals {
 
 using Point = std::array<double, 3>;
@@ -32,6 +32,26 @@ inline double distance(const Point& a, const Point& b) {
   return std::sqrt(dot(b - a, b - a));
 }
 
+inline Point cross(const Point& a, const Point& b) {
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+inline double norm(const Point& a) {
+  return std::sqrt(dot(a, a));
+}
+
+/// Force on A and its torque about a point.
+struct Wrench {
+  Point about{}, force{}, torque{};
+  void push(const Point& at, const Point& by) {
+    force = force + by;
+    torque = torque + cross(at - about, by);
+  }
+  void to(double* wrench) const {
+    std::copy(force.begin(), force.end(), wrench);
+    std::copy(torque.begin(), torque.end(), wrench + 3);
+  }
+};
+
 /// (R | t) of lmdbench_method.h.
 struct Transform {
   const double* X;
@@ -41,6 +61,7 @@ struct Transform {
       q[r] = X[4 * r] * p[0] + X[4 * r + 1] * p[1] + X[4 * r + 2] * p[2] + X[4 * r + 3];
     return q;
   }
+  Point origin() const { return {X[3], X[7], X[11]}; }
   /// R^T (p - t)
   Point inverse(const Point& p) const {
     const Point d{p[0] - X[3], p[1] - X[7], p[2] - X[11]};
@@ -125,6 +146,25 @@ inline void closest_of_segments(const Point& p1, const Point& q1, const Point& p
   }
   on_1 = p1 + s * d1;
   on_2 = p2 + t * d2;
+}
+
+using Corners = std::array<Point, 3>;
+
+/// Of two triangles that do not intersect.
+inline void closest_of_triangles(const Corners& a, const Corners& b, Point& on_a, Point& on_b) {
+  double best = INFINITY;
+  const auto offer = [&](const Point& p, const Point& q) {
+    if (const double d = distance(p, q); d < best) best = d, on_a = p, on_b = q;
+  };
+  for (std::size_t i = 0; i < 3; ++i) {
+    offer(a[i], closest_on_triangle(a[i], b[0], b[1], b[2]));
+    offer(closest_on_triangle(b[i], a[0], a[1], a[2]), b[i]);
+    for (std::size_t j = 0; j < 3; ++j) {
+      Point p{}, q{};
+      closest_of_segments(a[i], a[(i + 1) % 3], b[j], b[(j + 1) % 3], p, q);
+      offer(p, q);
+    }
+  }
 }
 
 /// A contact with its distance, for sorting.

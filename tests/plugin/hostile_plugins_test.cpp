@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include <cmath>
 #include <map>
 #include <numeric>
 #include <string>
@@ -30,7 +31,9 @@ const std::map<std::string, std::string> KINDS{{"crash", "frames_lost"},
                                                {"fast_math", "float_mode_changed"},
                                                {"too_many", "answers_too_large"},
                                                {"throws", "frames_lost"},
-                                               {"exits", "frames_lost"}};
+                                               {"exits", "frames_lost"},
+                                               {"nan_force", "forces_wrong"},
+                                               {"no_force", "forces_wrong"}};
 
 /// 40 frames of the shapes.
 const std::string RUN =
@@ -114,11 +117,41 @@ TEST_F(HostilePlugins, LoseNoResultAndMarkTheirFrames) {
       "");
 }
 
+/// A force of its own is rendered, recorded and held against the true one; a set that nobody promised is not judged.
+TEST_F(HostilePlugins, OwnForcesAreJudgedAsForces) {
+  const auto methods = by_label(
+      run("--plugin " + FOLDER + "pushes.so --plugin " + FOLDER + "no_force.so --set /record/torque=true",
+          "forces.h5"));
+  const ResultReader result(scratch_ / "forces.h5");
+  const std::vector<double> force = result.reals("/methods/pushes/force");
+  ASSERT_EQ(force.size(), 3U * 40U);
+  for (std::size_t i = 0; i < force.size(); ++i) EXPECT_EQ(force[i], i % 3 == 2 ? 2.0 : 0.0) << i;
+  const std::vector<double> torque = result.reals("/methods/pushes/torque"),
+                            lost = result.reals("/methods/no_force/force"),
+                            errors = result.reals("/methods/pushes/truth/force_error");
+  EXPECT_NE(torque[0], 0.0);
+  EXPECT_EQ(lost[3 * 1 + 2], 2.0);
+  EXPECT_EQ(lost[3 * 2 + 2], 0.0) << "the third call gives none";
+  const std::vector<double> truth = result.reals("/methods/certified/force");
+  ASSERT_EQ(errors.size(), 2U);
+  EXPECT_NEAR(errors[0], std::hypot(truth[0], truth[1], truth[2] - 2.0), 1e-12);
+  EXPECT_TRUE(methods.at("pushes").at("recall").is_null());
+  EXPECT_TRUE(methods.at("pushes").at("frames_wrong").is_null());
+  EXPECT_GT(methods.at("pushes").at("force_error_rms_n").get<double>(), 0.0);
+  const Outcome movers = lmdbench("plan '" + SHAPES_FILE + "' --plugin " + FOLDER +
+                                  "pushes.so --set '/movers=[{\"mesh\":\"sphere\",\"diagonal_m\":0.02}]'");
+  EXPECT_EQ(movers.code, USAGE);
+  EXPECT_THAT(movers.err, HasSubstr("has a force of its own"));
+}
+
 TEST_F(HostilePlugins, AreRefusedAtTheDoorWhereTheyCannotBeLoaded) {
   const Outcome abi = lmdbench("plan " + SHAPES + "--plugin " + FOLDER + "wrong_abi.so");
   EXPECT_EQ(abi.code, INPUT_DATA);
   EXPECT_THAT(abi.err, AllOf(HasSubstr("wrong_abi.so"), HasSubstr("version 99.0"),
                              HasSubstr("build it with this program's header")));
+  const Outcome promise = lmdbench("plan " + SHAPES + "--plugin " + FOLDER + "no_promise.so");
+  EXPECT_EQ(promise.code, INPUT_DATA);
+  EXPECT_THAT(promise.err, HasSubstr("promises a force and has none"));
   const Outcome none = lmdbench("plan " + SHAPES + "--plugin missing.so");
   EXPECT_EQ(none.code, INPUT_DATA);
   EXPECT_THAT(none.err, HasSubstr("missing.so"));
@@ -132,13 +165,18 @@ TEST_F(HostilePlugins, AreRefusedAtTheDoorWhereTheyCannotBeLoaded) {
 TEST_F(HostilePlugins, AreFoundByTheCheck) {
   EXPECT_THAT(lmdbench("plugin check " + FOLDER + "good.so").out,
               HasSubstr("passed  good: same again, backwards, shuffled"));
+  const Outcome pushes = lmdbench("plugin check " + FOLDER + "pushes.so");
+  EXPECT_EQ(pushes.code, 0) << pushes.out;
+  EXPECT_THAT(pushes.out, AllOf(HasSubstr("passed  pushes: gives its force"), HasSubstr("no set is judged")));
   const std::map<std::string, std::string> said{{"crash", "crashed"},
                                                 {"write_past_end", "crashed"},
                                                 {"not_a_number", "are not finite"},
                                                 {"too_many", "answers too large"},
                                                 {"fast_math", "link without -ffast-math"},
                                                 {"wrong_promise", "complete-set: recall"},
-                                                {"exits", "ended its process"}};
+                                                {"exits", "ended its process"},
+                                                {"nan_force", "forces not finite or not given"},
+                                                {"no_force", "forces not finite or not given"}};
   for (const auto& [name, words] : said) {
     const Outcome outcome = lmdbench("plugin check " + FOLDER + name + ".so");
     EXPECT_EQ(outcome.code, 1) << name << outcome.out;

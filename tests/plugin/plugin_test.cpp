@@ -3,10 +3,12 @@
 #include <lmdbench/base/error.h>
 #include <lmdbench/base/limits.h>
 #include <lmdbench/base/own_time.h>
+#include <lmdbench/lmd/own_wrench.h>
 #include <lmdbench/methods/registry.h>
 #include <lmdbench/plugin/judged_contacts.h>
 #include <lmdbench/plugin/plugin.h>
 #include <lmdbench/plugin/plugin_caller.h>
+#include <lmdbench/scene/world_method.h>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -18,6 +20,7 @@
 
 #include <array>
 #include <chrono>
+#include <numbers>
 #include <string>
 
 namespace lmdbench::testing {
@@ -71,6 +74,61 @@ TEST(Plugin, AnswersTheSameInBothPlaces) {
     }
     marks[PluginMark::DUPLICATES] = 0;  // Triangles share corners.
     EXPECT_TRUE(marks == WorkCounters{});
+  }
+}
+
+/// In the world, wherever the plugin saw it: near the origin, far away, and of two placed meshes together.
+TEST(Plugin, OwnForceIsAboutTheSamePointInEveryFrame) {
+  const MethodDescription pushes = only_method("pushes", PluginTrust::TRUSTED);
+  EXPECT_EQ(pushes.promise, Promise::FORCE_ONLY);
+  EXPECT_TRUE(pushes.has_own_force());
+  const nlohmann::json own = complete_options(pushes, nlohmann::json::object(), "test");
+  const auto wrench = [&](const Scene& scene, const Pose& pose, const Vec3& point) {
+    const auto method = make_in_world(scene, pushes, [&](const Scene& of) { return pushes.make(of, own); });
+    LmdSet lmds;
+    WorkCounters marks;
+    method->search(pose, lmds, marks);
+    EXPECT_TRUE(lmds.empty()) << "promises no set";
+    EXPECT_EQ(marks[PluginMark::FORCE_WRONG], 0U);
+    EXPECT_TRUE(own_wrench_of(*method));
+    return OwnWrench{own_wrench_of(*method)->force, own_wrench_of(*method)->torque_about(point), point};
+  };
+  const Vec3 point(0.5, -0.25, 1.0), far(1e6, 2e6, -3e6);
+  const Pose pose = moved(0.4, 1.9, 0.3);
+  // 2 N along z at the other mesh's origin.
+  const OwnWrench near = wrench(two_spheres(), pose, point);
+  EXPECT_EQ(near.force, Vec3(0, 0, 2));
+  EXPECT_LT((near.torque - (-point).cross(Vec3(0, 0, 2))).norm(), 1e-12);
+  Scene far_scene = make_scene(make_sphere(1.0, 1), translated(make_sphere(1.0, 1), far), 5.0);
+  Pose far_pose = pose;
+  far_pose.translation += far;
+  const OwnWrench far_wrench = wrench(far_scene, far_pose, point + far);
+  EXPECT_LT((far_wrench.torque - near.torque).norm(), 1e-6) << "the plugin sees the near frame";
+  Scene world = two_spheres();
+  world.fixed.front().X_WF =
+      Pose{Vec3(0, 0, 0), Eigen::Quaterniond(Eigen::AngleAxisd(0.5 * std::numbers::pi, Vec3::UnitX()))};
+  world.fixed.push_back({world.fixed.front().body, Pose{Vec3(3, 0, 0), Eigen::Quaterniond::Identity()}});
+  const OwnWrench both = wrench(world, pose, point);
+  EXPECT_LT((both.force - Vec3(0, -2, 2)).norm(), 1e-12);
+  const Vec3 torque = (-point).cross(Vec3(0, -2, 0)) + (Vec3(3, 0, 0) - point).cross(Vec3(0, 0, 2));
+  EXPECT_LT((both.torque - torque).norm(), 1e-12);
+  const auto method = pushes.make(two_spheres(), {{"own_force", false}});
+  EXPECT_FALSE(own_wrench_of(*method));
+}
+
+TEST(Plugin, ForcesThatAreNoneAreZeroAndCounted) {
+  for (const char* name : {"nan_force", "no_force"}) {
+    const MethodDescription description = only_method(name, PluginTrust::NONE);
+    const auto method = description.make(two_spheres(), {{"own_force", true}});
+    WorkCounters marks;
+    LmdSet lmds;
+    for (int frame = 0; frame < 3; ++frame) {
+      method->search(Pose{}, lmds, marks);
+      EXPECT_EQ(own_wrench_of(*method)->force, Vec3(0, 0, frame < 2 ? 2.0 : 0.0)) << name;
+    }
+    EXPECT_EQ(marks[PluginMark::FORCE_WRONG], 1U) << name;
+    EXPECT_EQ(marks[PluginMark::LOST], 0U) << name;
+    EXPECT_FALSE(lmds.empty()) << "its contacts are judged all the same";
   }
 }
 

@@ -2,11 +2,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/base/contract.h>
 #include <lmdbench/drivers/contact_finder.h>
+#include <lmdbench/lmd/own_wrench.h>
 #include <lmdbench/mesh/triangle_mesh.h>
 #include <lmdbench/scene/mesh_bounds.h>
 #include <lmdbench/scene/mesh_pair.h>
 
 #include <algorithm>
+#include <limits>
 #include <map>
 #include <utility>
 
@@ -153,13 +155,20 @@ Wrench ContactFinder::combine(const LmdSet& lmds, const ForceProfile& profile, c
   return aggregation_.combine({critical_, merges_, samples_, minimum_area_}, profile, reference_W);
 }
 
+Wrench ContactFinder::combine(const Method& method, const LmdSet& lmds, const ForceProfile& profile,
+                              const Vec3& reference_W) {
+  if (const std::optional<OwnWrench> own = own_wrench_of(method))
+    return {own->force, own->torque_about(reference_W), std::numeric_limits<double>::quiet_NaN()};
+  return combine(lmds, profile, reference_W);
+}
+
 Wrench ContactFinder::wrench_at(Method& method, const Pose& X_WM, const ForceProfile& profile,
                                 const Vec3& reference_W) {
   LmdSet lmds;
   WorkCounters ignored;
   search(method, X_WM, lmds, ignored);
   std::ranges::sort(lmds, lmd_less);
-  return combine(lmds, profile, reference_W);
+  return combine(method, lmds, profile, reference_W);
 }
 
 std::int64_t ContactFinder::without_index(double cutoff) const {

@@ -40,6 +40,11 @@ class ContactFinder {
   ///              been remembered (E12). `sum` takes any set.
   Wrench combine(const LmdSet& lmds, const ForceProfile& profile, const Vec3& reference_W);
 
+  /// The same, but the force of the method's own, where it has one, takes the aggregation's place. How that changes with the pose nobody
+  /// says: its stiffness is NaN.
+  Wrench combine(const Method& method, const LmdSet& lmds, const ForceProfile& profile,
+                 const Vec3& reference_W);
+
   /// Several meshes that move: the set of each, for `set_of` and `wrench_on`.
   /// @param lmds  as of `combine`
   void split(const LmdSet& lmds);

@@ -163,7 +163,8 @@ class MethodRun {
                      lmd_less);  // summation in an order that the scene alone decides
     result.contact_without_direction = memory_.complete(lmds);
     const Vec3 reference_W = RigidTransform(pose()).point(input_.reference_M);
-    const Wrench wrench = contacts_.combine(lmds, profile_, reference_W);
+    const Wrench wrench = every_frame_ ? contacts_.combine(*every_frame_, lmds, profile_, reference_W)
+                                       : contacts_.combine(lmds, profile_, reference_W);
     if (input_.motion.movers) finish_movers(*input_.motion.movers);
     const RenderedForce rendered = input_.device.render(wrench, profile_.largest_sum);
     result.force = rendered.force;

@@ -15,9 +15,11 @@ std::string_view to_string(Promise promise) {
     case Promise::APPROXIMATION:
       return "approximation";
     case Promise::NEAREST_PAIR:
+      return "nearest-pair";
+    case Promise::FORCE_ONLY:
       break;
   }
-  return "nearest-pair";
+  return "force-only";
 }
 
 std::vector<CounterDescription> MethodDescription::local_counters() const {

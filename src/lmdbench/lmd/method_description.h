@@ -23,10 +23,11 @@ namespace lmdbench {
 enum class Promise : std::uint8_t {
   COMPLETE_SET,   ///< The true LMD set, in every frame.
   APPROXIMATION,  ///< May miss LMDs and report pairs that are none; its error is reported.
-  NEAREST_PAIR    ///< The one nearest pair, with its true distance.
+  NEAREST_PAIR,   ///< The one nearest pair, with its true distance.
+  FORCE_ONLY      ///< No set: a force of its own (own_wrench.h).
 };
 
-/// "complete-set", "approximation", "nearest-pair".
+/// "complete-set", "approximation", "nearest-pair", "force-only".
 std::string_view to_string(Promise promise);
 
 /// In which part of a method a kind of work is done.
@@ -104,11 +105,14 @@ struct MethodDescription {
   std::filesystem::path plugin = {};
   std::shared_ptr<MethodFaults> faults = {};  ///< Of a method from outside.
   /// Its first counters are what is wrong with its answers; the very first one, answers that were lost.
-  static constexpr std::size_t MARKS = 8;
+  static constexpr std::size_t MARKS = 9;
 
   /// Makes an instance for two bodies (`Scene::is_pair`).
   /// @param options checked against `options`, with all defaults filled in
   std::function<std::unique_ptr<Method>(const Scene& scene, const nlohmann::json& options)> make;
+
+  /// Whether it has a force of its own (own_wrench.h): then the option "own_force" says whether that is rendered.
+  bool has_own_force() const { return options.contains("own_force"); }
 
   /// What is counted in the local part of a frame: by tracking, or by a search where every frame has one.
   std::vector<CounterDescription> local_counters() const;

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/base/statistics.h>
+#include <lmdbench/methods/registry.h>
 #include <lmdbench/metrics/broken_limits.h>
 #include <lmdbench/metrics/errors.h>
 #include <lmdbench/metrics/summary.h>
@@ -112,6 +113,8 @@ RunSummary summarise(const Experiment& experiment, const RunResult& result) {
     summarise_jumps(method, record, frames);
     if (const TruthFindings* truth = track.truth()) {
       summarise_errors(method, experiment.methods[i].force_law, truth->frames, result.comparisons(i), frames);
+      if (method_description(experiment.methods[i].name).promise == Promise::FORCE_ONLY)
+        method.frames_wrong = UNSET;
       if (truth->complete)
         summarise_true_steps(method, experiment.methods[i].force_law, record, *truth->complete, frames);
     }

@@ -4,6 +4,7 @@
 #include <lmdbench/base/statistics.h>
 #include <lmdbench/catalogue/shapes.h>
 #include <lmdbench/lmd/agreement.h>
+#include <lmdbench/lmd/own_wrench.h>
 #include <lmdbench/methods/registry.h>
 #include <lmdbench/plugin/check_plugin.h>
 #include <lmdbench/plugin/judged_contacts.h>
@@ -17,6 +18,7 @@
 #include <functional>
 #include <limits>
 #include <numeric>
+#include <optional>
 #include <random>
 #include <utility>
 
@@ -113,10 +115,28 @@ bool same_points(const LmdSet& a, LmdSet b, double tolerance) {
   });
 }
 
-bool same_bits(const LmdSet& a, const LmdSet& b) {
-  return std::ranges::equal(a, b, [](const Lmd& x, const Lmd& y) {
+/// What a method says of a pose.
+struct Answer {
+  LmdSet set;
+  std::optional<OwnWrench> own;
+};
+
+bool same_bits(const Answer& a, const Answer& b) {
+  const auto same = [](const Lmd& x, const Lmd& y) {
     return same_feature_pair(x, y) && x.point_moving == y.point_moving && x.point_fixed == y.point_fixed;
-  });
+  };
+  return std::ranges::equal(a.set, b.set, same) &&
+         (!a.own || (a.own->force == b.own->force && a.own->torque == b.own->torque));
+}
+
+/// Of two that mean the same.
+/// @param reach of torques [m]
+bool same_force(const Answer& a, const Answer& b, double reach) {
+  constexpr double SINGLE_PRECISION = 1e-4;  // of the larger force
+  if (!a.own) return true;
+  const double allowed = SINGLE_PRECISION * std::max(a.own->force.norm(), b.own->force.norm());
+  return (a.own->force - b.own->force).norm() <= allowed &&
+         (a.own->torque_about(Vec3::Zero()) - b.own->torque_about(Vec3::Zero())).norm() <= reach * allowed;
 }
 
 /// What one method left over all scenes.
@@ -128,7 +148,7 @@ class MethodCheck {
     until_ = Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(until));
     const Scene of_scene = scene_of(scene.a, scene.b, scene.cutoff);
     auto instance = make(of_scene);
-    std::vector<LmdSet> sets;
+    std::vector<Answer> sets;
     for (const Pose& pose : scene.poses) {
       if (out_of_time()) break;
       sets.push_back(search(*instance, pose, &marks_));
@@ -136,7 +156,7 @@ class MethodCheck {
     }
     poses_ += sets.size();
     const auto visit = [&](Method& method, const std::vector<std::size_t>& order, std::size_t& differing,
-                           const std::function<bool(const LmdSet&, const LmdSet&)>& same,
+                           const std::function<bool(const Answer&, const Answer&)>& same,
                            const Pose* X_M = nullptr) {
       for (const std::size_t i : order) {
         if (out_of_time() || lost()) return;
@@ -154,7 +174,10 @@ class MethodCheck {
     visit(*instance, order, again_, same_bits);
     instance = make(of_scene);
     visit(*instance, order, anew_, same_bits);
-    const auto near = [&](const LmdSet& a, const LmdSet& b) { return same_points(a, b, scene.tolerance()); };
+    const double reach = bounding_box_diagonal(scene.a) + bounding_box_diagonal(scene.b);
+    const auto near = [&](const Answer& a, const Answer& b) {
+      return same_points(a.set, b.set, scene.tolerance()) && same_force(a, b, reach);
+    };
     instance = make(scene_of(scrambled(scene.a, random), scrambled(scene.b, random), scene.cutoff));
     visit(*instance, order, scrambled_, near);
     const Pose X_M{Vec3(0.01, -0.02, 0.015), Eigen::Quaterniond(0.4, -0.3, 0.7, 0.2).normalized()};
@@ -164,17 +187,18 @@ class MethodCheck {
     instance = make(scene_of(turned, scene.b, scene.cutoff));
     visit(*instance, order, turned_, near, &X_M);
 
+    if (method_.promise == Promise::FORCE_ONLY) return;
     const auto truth = make_method("exhaustive", of_scene);
     WorkCounters ignored;
     for (std::size_t i = 0; i < sets.size(); ++i) {
       LmdSet all;
       truth->search(scene.poses[i], all, ignored);
       const Agreement here =
-          agreement(all, within_cutoff(sets[i], scene.cutoff), Match::SAME_FEATURES, of_scene);
+          agreement(all, within_cutoff(sets[i].set, scene.cutoff), Match::SAME_FEATURES, of_scene);
       agreement_ += here;
       inexact_ += here.exact() ? 0 : 1;
-      const double error = std::abs(minimum_distance(sets[i]) - minimum_distance(all));
-      not_nearest_ += sets[i].empty() != all.empty() || error > scene.tolerance() ? 1 : 0;
+      const double error = std::abs(minimum_distance(sets[i].set) - minimum_distance(all));
+      not_nearest_ += sets[i].set.empty() != all.empty() || error > scene.tolerance() ? 1 : 0;
     }
   }
 
@@ -203,6 +227,9 @@ class MethodCheck {
         fmt::format("{} parts wrong, {} pairs twice, {} answers not nearest first",
                     count_of(PluginMark::OTHER_PART), count_of(PluginMark::DUPLICATES),
                     count_of(PluginMark::UNSORTED)));
+    if (method_.has_own_force())
+      add("gives its force", count_of(PluginMark::FORCE_WRONG) == 0 ? Verdict::PASSED : Verdict::FAILED,
+          fmt::format("{} forces not finite or not given", count_of(PluginMark::FORCE_WRONG)));
     const std::uint64_t modes = count_of(PluginMark::FLOAT_MODE);
     add("leaves the float mode", modes == 0 ? Verdict::PASSED : Verdict::FAILED,
         modes == 0 ? "" : "rounding or flush-to-zero changed: link without -ffast-math");
@@ -218,10 +245,13 @@ class MethodCheck {
                         : method_.promise == Promise::NEAREST_PAIR ? not_nearest_ > 0
                                                                    : false;
     add("keeps its promise", breaks ? Verdict::FAILED : Verdict::PASSED,
-        fmt::format("{}: recall {:.3g}, precision {:.3g} of LMDs; another set in {} poses, another least "
-                    "distance in {}",
-                    to_string(method_.promise), agreement_.recall(), agreement_.precision(), inexact_,
-                    not_nearest_));
+        method_.promise == Promise::FORCE_ONLY
+            ? std::string("force-only: no set is judged")
+            : fmt::format(
+                  "{}: recall {:.3g}, precision {:.3g} of LMDs; another set in {} poses, another least "
+                  "distance in {}",
+                  to_string(method_.promise), agreement_.recall(), agreement_.precision(), inexact_,
+                  not_nearest_));
     add("time of a pose", Verdict::NOTED,
         fmt::format("{:.3g} us in the plugin, {:.3g} us to its process, back and for judging (medians)",
                     1e6 * median(seconds_), 1e6 * median(way_)));
@@ -238,12 +268,13 @@ class MethodCheck {
   bool out_of_time() const { return Clock::now() > until_; }
   bool lost() const { return marks_.values[static_cast<std::size_t>(PluginMark::LOST)] > 0; }
 
-  LmdSet search(Method& method, const Pose& pose, WorkCounters* marks) {
-    LmdSet lmds;
+  Answer search(Method& method, const Pose& pose, WorkCounters* marks) {
+    Answer answer;
     WorkCounters counters;
     seconds_of_others() = 0.0;
     const auto begin = Clock::now();
-    method.search(pose, lmds, counters);
+    method.search(pose, answer.set, counters);
+    answer.own = own_wrench_of(method);
     const double all = std::chrono::duration<double>(Clock::now() - begin).count();
     seconds_.push_back(all - seconds_of_others());
     way_.push_back(seconds_of_others());
@@ -251,7 +282,7 @@ class MethodCheck {
       *marks += counters;
     else
       marks_.values[0] += counters.values[0];
-    return lmds;
+    return answer;
   }
 
   const MethodDescription& method_;

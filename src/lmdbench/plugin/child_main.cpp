@@ -77,6 +77,7 @@ nlohmann::json described(const LoadedPlugin& plugin) {
                          {"summary", method->summary},
                          {"promise", method->promise},
                          {"flags", method->flags},
+                         {"own_force", LoadedPlugin::force(*method) != nullptr},
                          {"options", method->options_schema == nullptr ? "{}" : method->options_schema},
                          {"counters", nlohmann::json::array()}};
     if (const lmdbench_counters* counters = LoadedPlugin::counters(*method))

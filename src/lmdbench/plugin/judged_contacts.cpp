@@ -73,7 +73,8 @@ std::vector<CounterDescription> plugin_marks() {
           {Mark::UNSORTED, "answers_unsorted", "answers whose contacts were not nearest first", PART},
           {Mark::TOO_MANY, "answers_too_large", "answers left out: more contacts than 1048576", PART},
           {Mark::FLOAT_MODE, "float_mode_changed",
-           "calls that left another rounding mode or flush-to-zero; put back", PART}};
+           "calls that left another rounding mode or flush-to-zero; put back", PART},
+          {Mark::FORCE_WRONG, "forces_wrong", "forces of its own left out: not finite, or none came", PART}};
 }
 
 ContactJudge::ContactJudge(std::shared_ptr<const Body> a, std::shared_ptr<const Body> b)

@@ -29,6 +29,7 @@ enum class PluginMark : std::uint8_t {
   UNSORTED,         ///< Answers that were not nearest first.
   TOO_MANY,         ///< Answers of more contacts than anybody can want: left out whole.
   FLOAT_MODE,       ///< Calls that left another rounding mode or flush-to-zero.
+  FORCE_WRONG,      ///< Forces of its own that are no number or did not come: left out.
   FIRST_OF_ITS_OWN  ///< Index of the plugin's first counter.
 };
 

@@ -6,7 +6,8 @@
  * with, `lmdbench plugin check FILE.so` says what lmdbench thinks of it, `lmdbench run ... --plugin FILE.so` measures it.
  *
  * A method sees two meshes, A and B, and a pose of A in B's frame, and returns contacts: pairs of points, one on each
- * mesh. Lengths are metres. B stands, A moves; forces are computed by lmdbench from the contacts.
+ * mesh. Lengths are metres. B stands, A moves; forces are computed by lmdbench from the contacts, but for a method
+ * that has its own (LMDBENCH_EXTENSION_FORCE).
  *
  * Who may call what, and when:
  *  - an instance is used by one thread at a time; several instances may be used by several threads at once;
@@ -27,14 +28,16 @@ extern "C" {
 #endif
 
 #define LMDBENCH_METHOD_ABI_MAJOR 1
-#define LMDBENCH_METHOD_ABI_MINOR 0
+#define LMDBENCH_METHOD_ABI_MINOR 1 /* 1: LMDBENCH_PROMISE_FORCE_ONLY, LMDBENCH_EXTENSION_FORCE */
 
 /* What the contacts of a pose are meant to be, and so how they are judged. Whoever promises the complete set and misses
  * one is disqualified for that promise, shown as such, and timed all the same. */
 enum {
   LMDBENCH_PROMISE_COMPLETE_SET = 0,  /* all local minimum distance pairs within the cutoff, and no other */
   LMDBENCH_PROMISE_APPROXIMATION = 1, /* may miss some and report others: its error is reported */
-  LMDBENCH_PROMISE_NEAREST_PAIR = 2   /* the one nearest pair, with its true distance */
+  LMDBENCH_PROMISE_NEAREST_PAIR = 2,  /* the one nearest pair, with its true distance */
+  LMDBENCH_PROMISE_FORCE_ONLY =
+      3 /* no set: a force of its own (LMDBENCH_EXTENSION_FORCE); contacts are ignored */
 };
 
 /* Flags of a method. */
@@ -118,6 +121,18 @@ typedef struct lmdbench_counters {
   /* What the last search counted. */
   void (*read)(void* instance, uint64_t* values);
 } lmdbench_counters;
+
+/* Extension: a force and torque of the method's own, in place of the experiment's law over its contacts (who runs it
+ * may switch back by the option "own_force"). It is judged as any force is. */
+#define LMDBENCH_EXTENSION_FORCE "lmdbench.force/1"
+typedef struct lmdbench_force {
+  uint64_t struct_size; /* sizeof(lmdbench_force) */
+  /* What B exerts on A at the pose of the last search, which went well. Its time counts as the search's.
+   * wrench: receives force x y z [N] and torque x y z [N m] about the origin of A's frame, in the axes of B's
+   * returns 0, or something else where there is none: then, and where a number is not finite, A feels nothing in
+   * this frame, which is counted */
+  int32_t (*read)(void* instance, double wrench[6]);
+} lmdbench_force;
 
 typedef struct lmdbench_method_entry_type {
   uint32_t abi_major; /* LMDBENCH_METHOD_ABI_MAJOR */

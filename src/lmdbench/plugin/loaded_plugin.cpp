@@ -7,6 +7,7 @@
 #include <cfenv>
 #include <cstddef>
 #include <cstring>
+#include <limits>
 #include <stdexcept>
 #if defined(__SSE__)
 #include <xmmintrin.h>
@@ -85,6 +86,11 @@ LoadedPlugin::LoadedPlugin(const std::string& file) {
       if (counted->count > LMDBENCH_MOST_COUNTERS || counted->names == nullptr ||
           counted->summaries == nullptr || counted->read == nullptr)
         fail(which + "counts more than it may, or lacks names, summaries or read");
+    const lmdbench_force* own = force(*described);
+    if (own != nullptr && (own->struct_size < sizeof(lmdbench_force) || own->read == nullptr))
+      fail(which + "has a structure of force that is too small, or lacks read");
+    if (own == nullptr && described->promise == LMDBENCH_PROMISE_FORCE_ONLY)
+      fail(which + "promises a force and has none: answer " LMDBENCH_EXTENSION_FORCE " in extension");
   }
 }
 
@@ -102,9 +108,14 @@ const lmdbench_counters* LoadedPlugin::counters(const lmdbench_method& method) {
   return static_cast<const lmdbench_counters*>(method.extension(LMDBENCH_EXTENSION_COUNTERS));
 }
 
+const lmdbench_force* LoadedPlugin::force(const lmdbench_method& method) {
+  if (method.extension == nullptr) return nullptr;
+  return static_cast<const lmdbench_force*>(method.extension(LMDBENCH_EXTENSION_FORCE));
+}
+
 LoadedMethod::LoadedMethod(const lmdbench_method& method, const lmdbench_mesh& a, const lmdbench_mesh& b,
                            double cutoff, const char* options)
-    : method_(method), counters_(LoadedPlugin::counters(method)) {
+    : method_(method), counters_(LoadedPlugin::counters(method)), force_(LoadedPlugin::force(method)) {
   std::array<char, 512> message{};
   const FloatMode mode;
   std::int32_t status = PluginReply::THREW;
@@ -131,10 +142,14 @@ LoadedMethod::~LoadedMethod() {
 
 PluginReply LoadedMethod::search(const double* X_BA, lmdbench_contact* contacts, std::uint64_t capacity) {
   PluginReply reply;
+  constexpr double NONE = std::numeric_limits<double>::quiet_NaN();
+  reply.wrench.fill(NONE);
   const FloatMode mode;
   const auto begin = std::chrono::steady_clock::now();
   try {
     reply.status = method_.search(instance_, X_BA, contacts, capacity, &reply.needed);
+    if (force_ != nullptr && reply.status == 0 && force_->read(instance_, reply.wrench.data()) != 0)
+      reply.wrench.fill(NONE);
   } catch (...) {
     reply.status = PluginReply::THREW;
   }

@@ -35,6 +35,7 @@ struct PluginReply {
   std::uint64_t needed = 0;              ///< Contacts that there are.
   double seconds = 0.0;                  ///< In the plugin.
   std::array<std::uint64_t, LMDBENCH_MOST_COUNTERS> counters{};
+  std::array<double, 6> wrench{};  ///< Of a method with a force of its own; NaN where it gave none.
 
   static constexpr std::int32_t THREW = -1000;
   static constexpr std::int32_t UNSTEADY = -1001;  ///< Given more room it had more contacts again.
@@ -53,6 +54,8 @@ class LoadedPlugin {
   const lmdbench_method* method(std::uint32_t index) const;
   /// @return null where it counts nothing
   static const lmdbench_counters* counters(const lmdbench_method& method);
+  /// @return null where it has no force of its own
+  static const lmdbench_force* force(const lmdbench_method& method);
   /// Whether loading it changed the float mode, which was put back.
   bool changed_float_mode() const { return changed_float_mode_; }
 
@@ -79,6 +82,7 @@ class LoadedMethod {
  private:
   const lmdbench_method& method_;
   const lmdbench_counters* counters_;
+  const lmdbench_force* force_;
   void* instance_ = nullptr;
   bool changed_float_mode_ = false;
 };

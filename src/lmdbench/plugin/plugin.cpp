@@ -3,6 +3,7 @@
 #include <lmdbench/base/error.h>
 #include <lmdbench/base/json_schema.h>
 #include <lmdbench/base/own_time.h>
+#include <lmdbench/lmd/own_wrench.h>
 #include <lmdbench/methods/registry.h>
 #include <lmdbench/plugin/judged_contacts.h>
 #include <lmdbench/plugin/plugin.h>
@@ -15,6 +16,7 @@
 #include <chrono>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <regex>
 #include <utility>
 
@@ -32,19 +34,26 @@ std::array<double, 12> rows_of(const RigidTransform& X) {
   return rows;
 }
 
+/// Option of every method with a force of its own.
+constexpr const char* OWN_FORCE = "own_force";
+
 /// A plugin's method of two bodies.
-class PluginMethod : public Method {
+class PluginMethod : public Method, public HasOwnWrench {
  public:
   /// @param of_pair `Scene::is_pair`
   PluginMethod(std::shared_ptr<const MethodDescription> description, const Scene& of_pair,
                std::uint32_t index, PluginTrust trust, const Json& options)
-      : description_(std::move(description)), judge_(of_pair.moving, of_pair.fixed.front().body) {
+      : description_(std::move(description)),
+        shows_own_force_(description_->has_own_force() && options.at(OWN_FORCE).get<bool>()),
+        judge_(of_pair.moving, of_pair.fixed.front().body) {
+    Json of_plugin = options;
+    of_plugin.erase(OWN_FORCE);
     PluginTask task{.file = description_->plugin,
                     .method = index,
                     .a = of_pair.moving,
                     .b = of_pair.fixed.front().body,
                     .cutoff = of_pair.cutoff,
-                    .options = options.dump()};
+                    .options = of_plugin.dump()};
     caller_ = trust == PluginTrust::TRUSTED ? make_direct_caller(std::move(task))
                                             : make_child_caller(std::move(task));
   }
@@ -55,6 +64,7 @@ class PluginMethod : public Method {
     using Clock = std::chrono::steady_clock;
     const auto begin = Clock::now();
     double in_plugin = 0.0;
+    own_ = {.about = X_WM.translation};
     const RigidTransform X(X_WM);
     const std::array<double, 12> X_BA = rows_of(X);
     const PluginAnswer answer = caller_->search(X_BA.data());
@@ -65,7 +75,9 @@ class PluginMethod : public Method {
       constexpr auto FIRST = static_cast<std::size_t>(PluginMark::FIRST_OF_ITS_OWN);
       for (std::size_t c = FIRST; c < description_->counters.size(); ++c)
         counters.values[c] += answer.reply->counters[c - FIRST];
-      judge_.judge(answer.contacts, X, lmds, counters);
+      if (description_->has_own_force()) add_force(answer.reply->wrench, counters);
+      lmds.clear();
+      if (description_->promise != Promise::FORCE_ONLY) judge_.judge(answer.contacts, X, lmds, counters);
       if (description_->promise == Promise::NEAREST_PAIR && lmds.size() > 1) lmds.resize(1);
     } else {
       lmds.clear();
@@ -81,8 +93,24 @@ class PluginMethod : public Method {
     search(X_WM, lmds, counters);
   }
 
+  std::optional<OwnWrench> own_wrench() const override {
+    return shows_own_force_ ? std::optional(own_) : std::nullopt;
+  }
+
  private:
+  void add_force(const std::array<double, 6>& wrench, WorkCounters& counters) {
+    const Eigen::Map<const Vec3> force(wrench.data()), torque(wrench.data() + 3);
+    if (!force.allFinite() || !torque.allFinite()) {
+      ++counters[PluginMark::FORCE_WRONG];
+      return;
+    }
+    own_.force += force;
+    own_.torque += torque;
+  }
+
   std::shared_ptr<const MethodDescription> description_;
+  bool shows_own_force_;
+  OwnWrench own_;
   ContactJudge judge_;
   std::unique_ptr<PluginCaller> caller_;
 };
@@ -97,7 +125,7 @@ Json checked_options(const std::string& text, const std::string& file, const std
   if (!options.is_object()) fail("its options are no JSON object");
   Json defaults = Json::object();
   for (const auto& [name, option] : options.items()) {
-    const bool taken = name == "name" || name == "label" || name == "force_law";
+    const bool taken = name == "name" || name == "label" || name == "force_law" || name == OWN_FORCE;
     if (taken) fail(fmt::format("option \"{}\": experiments use this name for something else", name));
     if (!option.is_object() || !option.contains("default") ||
         !option.value("description", Json()).is_string() ||
@@ -126,15 +154,21 @@ MethodDescription description_of(const Json& method, const std::filesystem::path
     fail("its name is not of up to 41 letters, digits, '-' and '_'", "call it otherwise");
   description.summary = method["summary"].get<std::string>();
   const auto promise = method["promise"].get<std::int64_t>();
-  if (promise < LMDBENCH_PROMISE_COMPLETE_SET || promise > LMDBENCH_PROMISE_NEAREST_PAIR)
+  if (promise < LMDBENCH_PROMISE_COMPLETE_SET || promise > LMDBENCH_PROMISE_FORCE_ONLY)
     fail(fmt::format("promises {}, which is nothing that this program knows", promise),
          "take one of LMDBENCH_PROMISE_...");
   description.promise = promise == LMDBENCH_PROMISE_COMPLETE_SET    ? Promise::COMPLETE_SET
                         : promise == LMDBENCH_PROMISE_APPROXIMATION ? Promise::APPROXIMATION
-                                                                    : Promise::NEAREST_PAIR;
+                        : promise == LMDBENCH_PROMISE_NEAREST_PAIR  ? Promise::NEAREST_PAIR
+                                                                    : Promise::FORCE_ONLY;
   // A process serves one pair of meshes wherever they are; what is remembered of one pose does no harm at the next.
   description.frame_coherent = (method["flags"].get<std::uint32_t>() & LMDBENCH_KEEPS_FRAMES) != 0;
   description.options = checked_options(method["options"].get<std::string>(), file.string(), place);
+  if (method["own_force"].get<bool>())
+    description.options[OWN_FORCE] = {
+        {"type", "boolean"},
+        {"description", "render the method's own force, not the experiment's law over its contacts"},
+        {"default", true}};
   description.counters = plugin_marks();
   for (const Json& counter : method["counters"]) {
     const std::string name = counter["name"].get<std::string>();

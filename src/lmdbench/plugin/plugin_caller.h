@@ -59,7 +59,7 @@ std::unique_ptr<PluginCaller> make_child_caller(PluginTask task);
 std::unique_ptr<PluginCaller> make_direct_caller(PluginTask task);
 
 /// What a plugin says of itself, asked in a process of its own: {"methods": [{"name", "version", "summary", "promise", "flags",
-/// "options" (text), "counters"}]}.
+/// "own_force", "options" (text), "counters"}]}.
 /// @throws InputError where it cannot be loaded, crashes, takes too long or says nothing readable; EnvironmentError where the child
 ///         program is missing
 std::string describe_plugin(const std::filesystem::path& file);

@@ -137,7 +137,7 @@ namespace {
 bool breaks(Promise promise, const TruthComparison& row, double cutoff) {
   constexpr double NEAREST_TOLERANCE = 1e-5;  // cutoffs; single precision will do
   if (promise == Promise::COMPLETE_SET) return !row.same.exact();
-  if (promise == Promise::APPROXIMATION) return false;
+  if (promise == Promise::APPROXIMATION || promise == Promise::FORCE_ONLY) return false;
   // NaN: nothing is near, or only one of the two sees it.
   if (std::isnan(row.minimum_distance_error)) return row.same.true_lmds + row.same.reported > 0;
   return std::abs(row.minimum_distance_error) > NEAREST_TOLERANCE * cutoff;
@@ -158,10 +158,12 @@ std::unique_ptr<ProbeFindings> find_truth(const ProbedTrack& track) {
     LMDBENCH_EXPECTS(record.frames.size() == track.input.poses.size(),
                      "a record of other frames than the track's");
     const ForceLaw law = track.methods[i].profile.law;
-    const std::vector<TruthComparison>& rows =
-        found->comparisons.emplace_back(compare_with_truth(found->frames, record, law, track.profile.scene));
-    // The methods that promise the complete set and leave no doubt about it say what is true in every frame.
     const MethodDescription& method = method_description(track.choices[i]->name);
+    std::vector<TruthComparison>& rows =
+        found->comparisons.emplace_back(compare_with_truth(found->frames, record, law, track.profile.scene));
+    if (method.promise == Promise::FORCE_ONLY)
+      for (TruthComparison& row : rows) row.same = row.neighbours = {};
+    // The methods that promise the complete set and leave no doubt about it say what is true in every frame.
     if (!method.plugin.empty()) {
       const auto broken = std::ranges::count_if(rows, [&](const TruthComparison& row) {
         return breaks(method.promise, row, track.methods[i].profile.cutoff);

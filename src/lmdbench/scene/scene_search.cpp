@@ -103,21 +103,41 @@ template <class Set, class Find>
 void SceneSearch::gather(const Pose& X_WM, Set& of_pair, Set& set, WorkCounters& counters, const Find& find) {
   if (pair_ != nullptr) {
     pair_->follow_deformation();
-    if (!pair_->frame().differs()) return find(pair_->shared(), X_WM, set);
+    if (!pair_->frame().differs()) {
+      find(pair_->shared(), X_WM, set);
+      return add_own_wrench(pair_->shared(), {0, 1}, {});
+    }
     const PlacedPair place = pair_->in_near_frame(PlacedPair::of(*scene_, {0, 1}, X_WM));
     find(pair_->shared(), place.X_FM, set);
+    add_own_wrench(pair_->shared(), {0, 1}, place);
     for (auto& one : set) place.to_world(lmd_of(one), 0);
     return;
   }
   set.clear();
   for_each_near(X_WM, counters, [&](const ObjectPair& pair, Method& method, const PlacedPair& place) {
     find(method, place.X_FM, of_pair);
+    add_own_wrench(method, pair, place);
     for (auto& one : of_pair) place.to_world(lmd_of(one), pair.number(*scene_));
     set.insert(set.end(), of_pair.begin(), of_pair.end());
   });
 }
 
+/// Of pairs of others nothing is felt; where the moving mesh is a pair's second one, it feels the opposite.
+void SceneSearch::add_own_wrench(const Method& method, const ObjectPair& pair, const PlacedPair& place) {
+  if (!description_.has_own_force() || (pair.mover != scene_->held && pair.other != scene_->held)) return;
+  const std::optional<OwnWrench> of_pair = own_wrench_of(method);
+  if (!of_pair) return;
+  const double sign = pair.mover == scene_->held ? 1.0 : -1.0;
+  const OwnWrench own{sign * place.X_WF.direction(of_pair->force),
+                      sign * place.X_WF.direction(of_pair->torque),
+                      place.X_WF.point(of_pair->about + place.origin_F)};
+  if (!own_) own_ = OwnWrench{.about = own.about};
+  own_->torque += own.torque_about(own_->about);
+  own_->force += own.force;
+}
+
 void SceneSearch::search(const Pose& X_WM, LmdSet& lmds, WorkCounters& counters) {
+  own_.reset();
   gather(X_WM, of_pair_, lmds, counters,
          [&](Method& method, const Pose& X_FM, LmdSet& found) { method.search(X_FM, found, counters); });
   if (pair_ != nullptr) return;

@@ -4,6 +4,7 @@
 
 #include <lmdbench/lmd/method.h>
 #include <lmdbench/lmd/method_description.h>
+#include <lmdbench/lmd/own_wrench.h>
 #include <lmdbench/lmd/scene.h>
 #include <lmdbench/scene/broad_phase.h>
 #include <lmdbench/scene/mesh_pair.h>
@@ -34,7 +35,7 @@ namespace lmdbench {
 /// is the moving mesh: the order of what stands and of the trees takes no part.
 ///
 /// A scene of one pair is asked as it is: no broad phase, and no set is copied.
-class SceneSearch : public Method {
+class SceneSearch : public Method, public HasOwnWrench {
  public:
   /// @param description of the method that `make` makes
   SceneSearch(const Scene& scene, const MethodDescription& description, MeshPair::Make make,
@@ -47,6 +48,8 @@ class SceneSearch : public Method {
   /// A set follows the motion wherever its pairs are: no broad phase.
   void track(const Pose& X_WM, LmdSet& lmds, WorkCounters& counters) override;
   void find_critical(const Pose& X_WM, CriticalSet& critical, WorkCounters& counters) override;
+  /// The sum over the pairs of the moving mesh.
+  std::optional<OwnWrench> own_wrench() const override { return own_; }
 
   /// Pairs that are kept: those that motion within the slack can bring within reach.
   std::size_t candidate_count() const { return phase_ ? phase_->candidates().size() : 0; }
@@ -64,6 +67,7 @@ class SceneSearch : public Method {
   /// Calls find(method, X_FM, set) for them and unites the sets.
   template <class Set, class Find>
   void gather(const Pose& X_WM, Set& of_pair, Set& set, WorkCounters& counters, const Find& find);
+  void add_own_wrench(const Method& method, const ObjectPair& pair, const PlacedPair& place);
   void keep_nearest_of_each_mover(LmdSet& lmds);
 
   std::shared_ptr<const Scene> scene_;
@@ -75,6 +79,7 @@ class SceneSearch : public Method {
   std::optional<NearPairs> all_;  ///< Of truth, in place of the broad phase.
   LmdSet of_pair_, tracked_;
   CriticalSet critical_of_pair_;
+  std::optional<OwnWrench> own_;
   std::vector<bool> has_nearest_;  ///< One a mover.
 };
 

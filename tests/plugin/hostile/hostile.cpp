@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Twelve plugins that do what plugins must not, each this file with another KIND. All of them answer well now and then, so that what
-// becomes of their other frames shows.
+// Plugins that do what plugins must not, each this file with another KIND. All of them answer well now and then, so that what becomes of
+// their other frames shows. GOOD and PUSHES do nothing wrong.
 #include <lmdbench/plugin/lmdbench_method.h>
 
 #include <unistd.h>
@@ -30,11 +30,16 @@
 #define TOO_MANY 10
 #define THROWS 11
 #define EXITS 12
+#define NAN_FORCE 13
+#define NO_FORCE 14
+#define NO_PROMISE 15
+#define PUSHES 16
 
 namespace {
 
 struct Instance {
   std::vector<double> a, b;  // corner 0 of the first triangles
+  double origin[3];          // of A at the last pose
   std::uint64_t calls = 0;
 };
 
@@ -50,7 +55,7 @@ std::vector<double> corners_of(const lmdbench_mesh& mesh) {
 std::int32_t create(const lmdbench_mesh* a, const lmdbench_mesh* b, double /*cutoff*/,
                     const char* /*options*/, void** instance, char* /*message*/,
                     std::uint64_t /*message_size*/) {
-  *instance = new Instance{corners_of(*a), corners_of(*b)};
+  *instance = new Instance{corners_of(*a), corners_of(*b), {}};
   return 0;
 }
 
@@ -103,6 +108,7 @@ std::int32_t search(void* instance, const double* X, lmdbench_contact* contacts,
       while (at > 0 && all[at - 1].first > squared) --at;
       all.insert(all.begin() + static_cast<std::ptrdiff_t>(at), {squared, contact});
     }
+  for (int r = 0; r < 3; ++r) self.origin[r] = X[4 * r + 3];
   *needed = all.size();
   for (std::uint64_t i = 0; i < *needed && i < capacity; ++i) contacts[i] = all[i].second;
   if (++self.calls % 5 == 3) misbehave(contacts, capacity, needed);
@@ -113,6 +119,23 @@ void destroy(void* instance) {
   delete static_cast<Instance*>(instance);
 }
 
+/// 2 N along z, at the origin of B's frame.
+[[maybe_unused]] std::int32_t read_force(void* instance, double* wrench) {
+  const auto& self = *static_cast<Instance*>(instance);
+  const bool at_fault = self.calls % 5 == 3;
+  if (KIND == NO_FORCE && at_fault) return 1;
+  const double result[6] = {
+      0, 0, KIND == NAN_FORCE && at_fault ? NAN : 2.0, -2.0 * self.origin[1], 2.0 * self.origin[0], 0};
+  std::memcpy(wrench, result, sizeof(result));
+  return 0;
+}
+
+const void* extension(const char* id) {
+  static constexpr lmdbench_force FORCE = {sizeof(lmdbench_force), read_force};
+  const bool has_force = KIND == NAN_FORCE || KIND == NO_FORCE || KIND == PUSHES;
+  return has_force && std::strcmp(id, LMDBENCH_EXTENSION_FORCE) == 0 ? &FORCE : nullptr;
+}
+
 #if KIND == FAST_MATH && defined(__SSE__)
 // What GCC before 13 links into a shared object with -ffast-math.
 __attribute__((constructor)) void set_fast_math() {
@@ -120,18 +143,19 @@ __attribute__((constructor)) void set_fast_math() {
 }
 #endif
 
-constexpr lmdbench_method METHOD = {
-    sizeof(lmdbench_method),
-    NAME,
-    "1",
-    "a plugin that does what it must not",
-    KIND == WRONG_PROMISE ? LMDBENCH_PROMISE_COMPLETE_SET : LMDBENCH_PROMISE_APPROXIMATION,
-    0,
-    nullptr,
-    create,
-    search,
-    destroy,
-    nullptr};
+constexpr lmdbench_method METHOD = {sizeof(lmdbench_method),
+                                    NAME,
+                                    "1",
+                                    "a plugin that does what it must not",
+                                    KIND == WRONG_PROMISE                  ? LMDBENCH_PROMISE_COMPLETE_SET
+                                    : KIND == NO_PROMISE || KIND == PUSHES ? LMDBENCH_PROMISE_FORCE_ONLY
+                                                                           : LMDBENCH_PROMISE_APPROXIMATION,
+                                    0,
+                                    nullptr,
+                                    create,
+                                    search,
+                                    destroy,
+                                    extension};
 
 const lmdbench_method* get(std::uint32_t index) {
   return index == 0 ? &METHOD : nullptr;

@@ -7,12 +7,14 @@
 #include <algorithm>
 #include <exception>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace plugin {
 
 /// Method: constructor (const lmdbench_mesh& a, const lmdbench_mesh& b, double cutoff, const std::string& options) that copies what it
 /// keeps and throws where it cannot work; void search(const double* X_BA, std::vector<lmdbench_contact>& contacts).
+/// With a force of its own also: void force(double wrench[6]), of the last search (`with_force`).
 template <class Method>
 struct Functions {
   struct Instance {
@@ -50,11 +52,26 @@ struct Functions {
   }
   static void destroy(void* instance) { delete static_cast<Instance*>(instance); }
 
-  /// Without options, extensions and memory of earlier frames.
+  /// Without extensions and memory of earlier frames.
   static constexpr lmdbench_method described(const char* name, const char* version, const char* text,
-                                             int32_t promise) {
+                                             int32_t promise, const char* options = nullptr) {
     return {
-        sizeof(lmdbench_method), name, version, text, promise, 0, nullptr, create, search, destroy, nullptr};
+        sizeof(lmdbench_method), name, version, text, promise, 0, options, create, search, destroy, nullptr};
+  }
+  static constexpr lmdbench_method with_force(lmdbench_method method) {
+    method.extension = [](const char* id) -> const void* {
+      static constexpr lmdbench_force FORCE = {sizeof(lmdbench_force), read_force};
+      return std::string_view(id) == LMDBENCH_EXTENSION_FORCE ? &FORCE : nullptr;
+    };
+    return method;
+  }
+  static int32_t read_force(void* instance, double* wrench) {
+    try {
+      static_cast<Instance*>(instance)->method.force(wrench);
+      return 0;
+    } catch (...) {
+      return 1;
+    }
   }
 };
 

@@ -1,0 +1,35 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <lmdbench/lmd/method.h>
+
+#include <optional>
+
+namespace lmdbench {
+
+/// Force and torque on the moving mesh that a method has of its own, in the world.
+struct OwnWrench {
+  Vec3 force = Vec3::Zero();   ///< [N]
+  Vec3 torque = Vec3::Zero();  ///< [N m]
+  Vec3 about = Vec3::Zero();   ///< The point that the torque is about.
+
+  Vec3 torque_about(const Vec3& point) const { return torque + (about - point).cross(force); }
+};
+
+/// What a method derives from beside `Method` where it may have a force of its own, in place of a law over its set, or passes on another
+/// method's.
+class HasOwnWrench {
+ public:
+  virtual ~HasOwnWrench() = default;
+  /// Of the last search; unset where there is none.
+  virtual std::optional<OwnWrench> own_wrench() const = 0;
+};
+
+/// Unset for methods without.
+inline std::optional<OwnWrench> own_wrench_of(const Method& method) {
+  const auto* own = dynamic_cast<const HasOwnWrench*>(&method);
+  return own != nullptr ? own->own_wrench() : std::nullopt;
+}
+
+}  // namespace lmdbench
