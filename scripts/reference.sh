@@ -17,7 +17,7 @@ BUILD="${LMDBENCH_BUILD:-build/release}"
 
 # Each prints what results/reference/PART.md (or of the same beginning) is written from.
 PARTS=(claims claim-regions completeness continuous-force deep-contact deform devices extreme figures flat global-search hard-soft hostile-input
-  interrupted-runs jumps kernel leave-out ledger own-parts packages passivity realtime recall scaling stability stability-map
+  interrupted-runs jumps kernel leave-out ledger own-parts packages passivity realtime recall rivals scaling stability stability-map
   triangle_accuracy truth tuned-constants work-precision worlds)
 
 study() { "$BUILD/lmdbench-study" "$@"; }
@@ -120,6 +120,10 @@ part() {
     recall)
       study recall --moving bunny-16k --fixed bunny-16k --seed 2
       study recall --moving armadillo --fixed bunny-16k --seed 2
+      ;;
+    rivals) # needs scripts/packages_rivals.txt
+      cmake -S experiments/rivals -B build/rivals >&2 && cmake --build build/rivals >&2
+      figure rivals --program "$BUILD/lmdbench" --out "$OUT"
       ;;
     scaling)
       "$BUILD/lmdbench" mesh build dragon-871k >&2

@@ -151,8 +151,10 @@ class Scene:
             for law, truth in (("shared", shared_here), ("sum", sum_here)):
                 errors[law], factor = scaled_error(force, truth) if own else (rms(force - truth), 1.0)
                 errors[f"{law} factor"] = factor
-            rows[label] = {"promise": method.promise, "own": own, "ms": self.time(method), "recall": method.number("recall"),
-                           "precision": method.number("precision"), "shared": errors["shared"] / self.maximum,
+            set_is_judged = method.promise != "force-only"
+            rows[label] = {"promise": method.promise, "own": own, "ms": self.time(method),
+                           "recall": method.number("recall") if set_is_judged else np.nan,
+                           "precision": method.number("precision") if set_is_judged else np.nan, "shared": errors["shared"] / self.maximum,
                            "sum": errors["sum"] / self.maximum,
                            "steps": self.scaled_steps(self.steps.method(label), errors["shared factor"])}
         return rows
@@ -199,7 +201,7 @@ def draw(all_rows, out):
             below.plot(SUBDIVISIONS, np.maximum(row["steps"], LEAST_STEP), linewidth=0.9, **{**drawn, "markersize": 3.5})
         above.set(xscale="log", yscale="log", title=name)
         above.axhspan(floor / 1.6, floor * 1.6, color="#EEEEEE", zorder=0)
-        above.set_ylim(bottom=floor / 1.6)
+        above.set_ylim(floor / 1.6, 2.0 * max(errors))
         above.set_xlabel("run time of a pose [ms]")
         below.set(xscale="log", yscale="log", xticks=SUBDIVISIONS, xlabel="subdivision")
         below.set_xticklabels([f"$\\times${times}" for times in SUBDIVISIONS])

@@ -25,7 +25,7 @@ void add_counters(std::vector<Column<Row>>& columns, const std::string& group,
 
 MethodDescription described(const Experiment& experiment, const std::string& name) {
   const bool is_pair =
-      experiment.movers.empty() && experiment.fixed.size() == 1 && !has_placed_meshes(experiment);
+      experiment.objects.size() == 2 && !experiment.several_move() && !has_placed_meshes(experiment);
   return is_pair ? method_description(name) : over_scene(method_description(name));
 }
 
