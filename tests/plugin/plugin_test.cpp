@@ -8,7 +8,7 @@
 #include <lmdbench/plugin/judged_contacts.h>
 #include <lmdbench/plugin/plugin.h>
 #include <lmdbench/plugin/plugin_caller.h>
-#include <lmdbench/scene/world_method.h>
+#include <lmdbench/scene/scene_search.h>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -84,14 +84,14 @@ TEST(Plugin, OwnForceIsAboutTheSamePointInEveryFrame) {
   EXPECT_TRUE(pushes.has_own_force());
   const nlohmann::json own = complete_options(pushes, nlohmann::json::object(), "test");
   const auto wrench = [&](const Scene& scene, const Pose& pose, const Vec3& point) {
-    const auto method = make_in_world(scene, pushes, [&](const Scene& of) { return pushes.make(of, own); });
+    SceneSearch method(scene, pushes, [&](const Scene& of) { return pushes.make(of, own); });
     LmdSet lmds;
     WorkCounters marks;
-    method->search(pose, lmds, marks);
+    method.search(pose, lmds, marks);
     EXPECT_TRUE(lmds.empty()) << "promises no set";
     EXPECT_EQ(marks[PluginMark::FORCE_WRONG], 0U);
-    EXPECT_TRUE(own_wrench_of(*method));
-    return OwnWrench{own_wrench_of(*method)->force, own_wrench_of(*method)->torque_about(point), point};
+    EXPECT_TRUE(own_wrench_of(method));
+    return OwnWrench{own_wrench_of(method)->force, own_wrench_of(method)->torque_about(point), point};
   };
   const Vec3 point(0.5, -0.25, 1.0), far(1e6, 2e6, -3e6);
   const Pose pose = moved(0.4, 1.9, 0.3);

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/base/error.h>
+#include <lmdbench/prepare/scene_path.h>
 #include <lmdbench/realtime/driver.h>
 
 #include <gmock/gmock.h>

@@ -33,7 +33,7 @@ using Json = nlohmann::json;
 const char* const SLAB = R"({"mesh":"torus","diagonal_m":0.15})";
 const char* const DENT =
     R"({"mesh":"small-blob","diagonal_m":0.1,"deformation":{"generator":"breathe","amplitude":0.02,"period_s":0.02}})";
-const char* const BALLS =
+const char* const SWAYING_BALLS =
     R"({"mesh":"small-blob","diagonal_m":0.04,"pose":{"translation_m":[0.013,0.009,0.09]},)"
     R"("instances":{"rule":"grid","counts":[2,1,1],"spacing_diagonals":0.7}})";
 const char* const STANDING =
@@ -46,7 +46,7 @@ Experiment scene(bool as_objects, bool deforms) {
   Json json = Json::parse(text);
   for (const char* key : {"moving", "fixed", "path", "methods", "probes"}) json.erase(key);
   Json held = Json::parse(deforms ? DENT : R"({"mesh":"small-blob","diagonal_m":0.1})"),
-       balls = Json::parse(BALLS);
+       balls = Json::parse(SWAYING_BALLS);
   const Json slab = Json::parse(SLAB), standing = Json::parse(STANDING);
   const Json sway{{"way_diagonals", 0.3}, {"period_s", 0.05}};
   if (as_objects) {
