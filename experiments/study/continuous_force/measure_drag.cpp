@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/drivers/pose_source.h>
 #include <lmdbench/experiment/experiment.h>
 #include <lmdbench/metrics/cleanliness.h>
 #include <lmdbench/prepare/prepare.h>
