@@ -5,7 +5,7 @@
 include(GNUInstallDirs)
 set(data "${CMAKE_INSTALL_DATADIR}/lmdbench")
 install(DIRECTORY experiments meshes paths DESTINATION "${data}" COMPONENT Runtime
-        FILES_MATCHING PATTERN "*.json" PATTERN "*.tum" PATTERN "experiments/*.off" PATTERN "README.md"
+        FILES_MATCHING PATTERN "*.json" PATTERN "*.tum" PATTERN "experiments/*.off" PATTERN "press-fit/*.off" PATTERN "press-fit/*.xyz" PATTERN "README.md"
         PATTERN benchmarks EXCLUDE PATTERN judge EXCLUDE PATTERN study EXCLUDE PATTERN support EXCLUDE PATTERN sources EXCLUDE)
 install(DIRECTORY scripts/figures scripts/report DESTINATION "${data}/scripts" COMPONENT Runtime
         PATTERN tests EXCLUDE PATTERN __pycache__ EXCLUDE)

@@ -25,7 +25,7 @@ def kept(version):
 
 
 def run(*arguments):
-    return call(PROGRAM, *arguments, timeout=120)
+    return call(PROGRAM, *arguments, timeout=120, cwd=ROOT)  # what the kept files name is found from there
 
 
 class Formats(Scratch):
