@@ -3,6 +3,7 @@
 #include <lmdbench/base/error.h>
 #include <lmdbench/experiment/experiment.h>
 #include <lmdbench/experiment/rules.h>
+#include <lmdbench/force/aggregation.h>
 #include <lmdbench/methods/registry.h>
 
 #include <fmt/format.h>

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/experiment/rules.h>
+#include <lmdbench/force/aggregation.h>
 #include <lmdbench/prepare/scene_warnings.h>
 
 #include <fmt/format.h>
