@@ -27,7 +27,10 @@ Lmd& lmd_of(CriticalPair& critical) {
 
 SceneSearch::SceneSearch(const Scene& scene, const MethodDescription& description, MeshPair::Make make,
                          const BroadPhase::Tuning& tuning)
-    : scene_(std::make_shared<const Scene>(scene)), description_(description), make_(std::move(make)) {
+    : scene_(std::make_shared<const Scene>(scene)),
+      description_(description),
+      make_(std::move(make)),
+      has_own_force_(description.has_own_force()) {
   LMDBENCH_EXPECTS(ObjectPair::have_numbers(scene), "more pairs than `Lmd::fixed_body` has numbers");
   LMDBENCH_EXPECTS(!scene.several_move() ||
                        (scene.mover_poses != nullptr && scene.mover_poses->size() == scene.movers.size()),
@@ -124,7 +127,7 @@ void SceneSearch::gather(const Pose& X_WM, Set& of_pair, Set& set, WorkCounters&
 
 /// Of pairs of others nothing is felt; where the moving mesh is a pair's second one, it feels the opposite.
 void SceneSearch::add_own_wrench(const Method& method, const ObjectPair& pair, const PlacedPair& place) {
-  if (!description_.has_own_force() || (pair.mover != scene_->held && pair.other != scene_->held)) return;
+  if (!has_own_force_ || (pair.mover != scene_->held && pair.other != scene_->held)) return;
   const std::optional<OwnWrench> of_pair = own_wrench_of(method);
   if (!of_pair) return;
   const double sign = pair.mover == scene_->held ? 1.0 : -1.0;

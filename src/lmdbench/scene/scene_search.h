@@ -79,6 +79,7 @@ class SceneSearch : public Method, public HasOwnWrench {
   std::optional<NearPairs> all_;  ///< Of truth, in place of the broad phase.
   LmdSet of_pair_, tracked_;
   CriticalSet critical_of_pair_;
+  const bool has_own_force_;
   std::optional<OwnWrench> own_;
   std::vector<bool> has_nearest_;  ///< One a mover.
 };
