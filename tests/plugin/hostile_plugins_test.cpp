@@ -143,10 +143,6 @@ TEST_F(HostilePlugins, OwnForcesAreJudgedAsForces) {
   EXPECT_TRUE(methods.at("pushes").at("recall").is_null());
   EXPECT_TRUE(methods.at("pushes").at("frames_wrong").is_null());
   EXPECT_GT(methods.at("pushes").at("force_error_rms_n").get<double>(), 0.0);
-  const Outcome movers = lmdbench("plan '" + SHAPES_FILE + "' --plugin " + FOLDER +
-                                  "pushes.so --set '/movers=[{\"mesh\":\"sphere\",\"diagonal_m\":0.02}]'");
-  EXPECT_EQ(movers.code, USAGE);
-  EXPECT_THAT(movers.err, HasSubstr("has a force of its own"));
 }
 
 TEST_F(HostilePlugins, AreRefusedAtTheDoorWhereTheyCannotBeLoaded) {

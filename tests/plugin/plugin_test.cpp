@@ -20,7 +20,9 @@
 
 #include <array>
 #include <chrono>
+#include <memory>
 #include <numbers>
+#include <optional>
 #include <string>
 
 namespace lmdbench::testing {
@@ -114,6 +116,33 @@ TEST(Plugin, OwnForceIsAboutTheSamePointInEveryFrame) {
   EXPECT_LT((both.torque - torque).norm(), 1e-12);
   const auto method = pushes.make(two_spheres(), {{"own_force", false}});
   EXPECT_FALSE(own_wrench_of(*method));
+}
+
+/// Of two meshes that move each feels the other's, and what stands pushes both.
+TEST(Plugin, OwnForcesOfSeveralMoversAreOppositeInPairs) {
+  const MethodDescription pushes = only_method("pushes", PluginTrust::TRUSTED);
+  const nlohmann::json own = complete_options(pushes, nlohmann::json::object(), "test");
+  Scene scene = two_spheres();
+  const auto poses = std::make_shared<std::vector<Pose>>(2);
+  scene.movers = {scene.fixed.front().body, scene.moving};
+  scene.held = 1;
+  scene.mover_poses = poses;
+  poses->front() =
+      Pose{Vec3(2.5, 0, 0), Eigen::Quaterniond(Eigen::AngleAxisd(0.5 * std::numbers::pi, Vec3::UnitX()))};
+  const Pose held = moved(0.4, 1.9, 0.3);
+  SceneSearch method(scene, pushes, [&](const Scene& of) { return pushes.make(of, own); });
+  LmdSet lmds;
+  WorkCounters marks;
+  method.search(held, lmds, marks);
+  const std::optional<OwnWrench> of_other = own_wrench_of(method, 0), of_held = own_wrench_of(method, 1);
+  ASSERT_TRUE(of_other && of_held);
+  // The other one is the first of their pair: 2 N along the held one's z on it, and what stands gives 2 N along the world's.
+  const Vec3 z_held = RigidTransform(held).direction(Vec3(0, 0, 2)), z(0, 0, 2);
+  EXPECT_LT((of_other->force - (z + z_held)).norm(), 1e-12);
+  EXPECT_LT((of_held->force - (z - z_held)).norm(), 1e-12);
+  const Vec3 point(0.5, -0.25, 1.0), at_held = held.translation - point;
+  EXPECT_LT((of_other->torque_about(point) - (at_held.cross(z_held) - point.cross(z))).norm(), 1e-12);
+  EXPECT_LT((of_held->torque_about(point) + at_held.cross(z_held) + point.cross(z)).norm(), 1e-12);
 }
 
 TEST(Plugin, ForcesThatAreNoneAreZeroAndCounted) {

@@ -35,6 +35,13 @@ SurfaceSample turned_round(const SurfaceSample& sample) {
   return turned;
 }
 
+/// Unset where the method has none.
+std::optional<Wrench> own_force_of(const Method* method, std::size_t mover, const Vec3& reference_W) {
+  const auto own = method != nullptr ? own_wrench_of(*method, mover) : std::nullopt;
+  if (!own) return std::nullopt;
+  return Wrench{own->force, own->torque_about(reference_W), std::numeric_limits<double>::quiet_NaN()};
+}
+
 }  // namespace
 
 ContactFinder::ContactFinder(const Aggregation& aggregation, Scene scene, const LayeredChoice& layered)
@@ -137,29 +144,25 @@ void ContactFinder::split(const LmdSet& lmds) {
   }
 }
 
-Wrench ContactFinder::wrench_on(std::size_t mover, const ForceProfile& profile,
-                                const Vec3& reference_W) const {
+Wrench ContactFinder::wrench_on(std::size_t mover, const ForceProfile& profile, const Vec3& reference_W,
+                                const Method* method) const {
+  if (const auto own = own_force_of(method, mover, reference_W)) return *own;
   const Part& part = parts_[mover];
   if (is_sum()) return sum_forces(part.lmds, profile, reference_W);
   return aggregation_.combine({part.critical, part.merges, part.samples, minimum_area_}, profile,
                               reference_W);
 }
 
-Wrench ContactFinder::combine(const LmdSet& lmds, const ForceProfile& profile, const Vec3& reference_W) {
+Wrench ContactFinder::combine(const LmdSet& lmds, const ForceProfile& profile, const Vec3& reference_W,
+                              const Method* method) {
   if (scene_.several_move()) {
     split(lmds);
-    return wrench_on(scene_.held, profile, reference_W);
+    return wrench_on(scene_.held, profile, reference_W, method);
   }
+  if (const auto own = own_force_of(method, 0, reference_W)) return *own;
   if (is_sum()) return sum_forces(lmds, profile, reference_W);
   take(lmds);
   return aggregation_.combine({critical_, merges_, samples_, minimum_area_}, profile, reference_W);
-}
-
-Wrench ContactFinder::combine(const Method& method, const LmdSet& lmds, const ForceProfile& profile,
-                              const Vec3& reference_W) {
-  if (const std::optional<OwnWrench> own = own_wrench_of(method))
-    return {own->force, own->torque_about(reference_W), std::numeric_limits<double>::quiet_NaN()};
-  return combine(lmds, profile, reference_W);
 }
 
 Wrench ContactFinder::wrench_at(Method& method, const Pose& X_WM, const ForceProfile& profile,
@@ -168,7 +171,7 @@ Wrench ContactFinder::wrench_at(Method& method, const Pose& X_WM, const ForcePro
   WorkCounters ignored;
   search(method, X_WM, lmds, ignored);
   std::ranges::sort(lmds, lmd_less);
-  return combine(method, lmds, profile, reference_W);
+  return combine(lmds, profile, reference_W, &method);
 }
 
 std::int64_t ContactFinder::without_index(double cutoff) const {

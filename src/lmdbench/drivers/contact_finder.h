@@ -38,12 +38,10 @@ class ContactFinder {
   /// Of `Scene::moving`.
   /// @param lmds  Sorted by `lmd_less`: of the last search, less those beyond the profile's cutoff, with directions that may have
   ///              been remembered (E12). `sum` takes any set.
-  Wrench combine(const LmdSet& lmds, const ForceProfile& profile, const Vec3& reference_W);
-
-  /// The same, but the force of the method's own, where it has one, takes the aggregation's place. How that changes with the pose nobody
-  /// says: its stiffness is NaN.
-  Wrench combine(const Method& method, const LmdSet& lmds, const ForceProfile& profile,
-                 const Vec3& reference_W);
+  /// @param method  that made the last search: where it has a force of its own, that takes the aggregation's place. How such a force
+  ///                changes with the pose is not known: its stiffness is NaN.
+  Wrench combine(const LmdSet& lmds, const ForceProfile& profile, const Vec3& reference_W,
+                 const Method* method = nullptr);
 
   /// Several meshes that move: the set of each, for `set_of` and `wrench_on`.
   /// @param lmds  as of `combine`
@@ -51,7 +49,9 @@ class ContactFinder {
   /// LMDs of a mover's pairs, turned round where it is the second of the pair.
   const LmdSet& set_of(std::size_t mover) const { return parts_[mover].lmds; }
   /// What a mover feels of the set that was split.
-  Wrench wrench_on(std::size_t mover, const ForceProfile& profile, const Vec3& reference_W) const;
+  /// @param method  as of `combine`
+  Wrench wrench_on(std::size_t mover, const ForceProfile& profile, const Vec3& reference_W,
+                   const Method* method = nullptr) const;
 
   /// Search and combination in one.
   Wrench wrench_at(Method& method, const Pose& X_WM, const ForceProfile& profile, const Vec3& reference_W);

@@ -163,8 +163,7 @@ class MethodRun {
                      lmd_less);  // summation in an order that the scene alone decides
     result.contact_without_direction = memory_.complete(lmds);
     const Vec3 reference_W = RigidTransform(pose()).point(input_.reference_M);
-    const Wrench wrench = every_frame_ ? contacts_.combine(*every_frame_, lmds, profile_, reference_W)
-                                       : contacts_.combine(lmds, profile_, reference_W);
+    const Wrench wrench = contacts_.combine(lmds, profile_, reference_W, every_frame_.get());
     if (input_.motion.movers) finish_movers(*input_.motion.movers);
     const RenderedForce rendered = input_.device.render(wrench, profile_.largest_sum);
     result.force = rendered.force;
@@ -199,7 +198,7 @@ class MethodRun {
   /// What each mover feels of the set that was combined.
   void finish_movers(const MoverPlay& play) {
     const std::vector<MoverFrame> movers =
-        render_movers(contacts_, bodies_.scene(), pose(), play, profile_, input_.device);
+        render_movers(contacts_, bodies_.scene(), pose(), play, profile_, input_.device, every_frame_.get());
     for (const std::size_t number : play.number)
       for (int axis = 0; axis < 3; ++axis) result_hash_.add(movers[number].force[axis]);
     record_.movers.insert(record_.movers.end(), movers.begin(), movers.end());

@@ -138,12 +138,6 @@ Experiment from_json(Json document, const std::filesystem::path& path) {
       if (choice.aggregation->needs != AggregationNeeds::MINIMA &&
           !method_description(choice.name).finds_critical_pairs)
         choice.aggregation = &sum_law();
-      if (experiment.several_move() && choice.options.value("own_force", false))
-        throw UsageError(
-            file, "/methods",
-            fmt::format("{} has a force of its own, which is of one mesh that moves, and several do",
-                        choice.label),
-            R"(set its "own_force": false, or let one object alone move)");
       if (document["force"].is_array()) choice.label += "-" + experiment.profiles[profile].name;
       experiment.methods.push_back(std::move(choice));
     }

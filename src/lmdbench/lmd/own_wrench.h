@@ -4,11 +4,12 @@
 
 #include <lmdbench/lmd/method.h>
 
+#include <cstddef>
 #include <optional>
 
 namespace lmdbench {
 
-/// Force and torque on the moving mesh that a method has of its own, in the world.
+/// Force and torque on a mesh that a method has of its own, in the world.
 struct OwnWrench {
   Vec3 force = Vec3::Zero();   ///< [N]
   Vec3 torque = Vec3::Zero();  ///< [N m]
@@ -23,13 +24,14 @@ class HasOwnWrench {
  public:
   virtual ~HasOwnWrench() = default;
   /// Of the last search; unset where there is none.
-  virtual std::optional<OwnWrench> own_wrench() const = 0;
+  /// @param mover  which mesh that moves feels it, in the order of `Scene::movers`; 0 where one does
+  virtual std::optional<OwnWrench> own_wrench(std::size_t mover) const = 0;
 };
 
 /// Unset for methods without.
-inline std::optional<OwnWrench> own_wrench_of(const Method& method) {
+inline std::optional<OwnWrench> own_wrench_of(const Method& method, std::size_t mover = 0) {
   const auto* own = dynamic_cast<const HasOwnWrench*>(&method);
-  return own != nullptr ? own->own_wrench() : std::nullopt;
+  return own != nullptr ? own->own_wrench(mover) : std::nullopt;
 }
 
 }  // namespace lmdbench

@@ -93,7 +93,7 @@ class PluginMethod : public Method, public HasOwnWrench {
     search(X_WM, lmds, counters);
   }
 
-  std::optional<OwnWrench> own_wrench() const override {
+  std::optional<OwnWrench> own_wrench(std::size_t /*mover*/) const override {
     return shows_own_force_ ? std::optional(own_) : std::nullopt;
   }
 

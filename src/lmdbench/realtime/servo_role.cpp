@@ -88,9 +88,7 @@ void ServoRole::tick(const Tick& tick) {
   if (every_frame_ == nullptr) tell_pose(tick, pose);
   const LmdSet& lmds = set_in_use(tick, pose);
   const Vec3 reference_W = RigidTransform(pose).point(input_.reference_M);
-  const Wrench wrench = every_frame_ != nullptr
-                            ? contacts_.combine(*every_frame_, lmds, profile_, reference_W)
-                            : contacts_.combine(lmds, profile_, reference_W);
+  const Wrench wrench = contacts_.combine(lmds, profile_, reference_W, every_frame_);
   const RenderedForce rendered = input_.device.render(wrench, profile_.largest_sum);
   const std::int64_t ready = monotonic_ns();
   device_.render(rendered, ready);

@@ -30,17 +30,17 @@ SceneSearch::SceneSearch(const Scene& scene, const MethodDescription& descriptio
     : scene_(std::make_shared<const Scene>(scene)),
       description_(description),
       make_(std::move(make)),
-      has_own_force_(description.has_own_force()) {
+      has_own_force_(description.has_own_force()),
+      own_(scene.mover_count()) {
   LMDBENCH_EXPECTS(ObjectPair::have_numbers(scene), "more pairs than `Lmd::fixed_body` has numbers");
   LMDBENCH_EXPECTS(!scene.several_move() ||
                        (scene.mover_poses != nullptr && scene.mover_poses->size() == scene.movers.size()),
                    "movers of which nobody says where they are");
-  // Of one mover the methods are made now, of several not for each pair of meshes that may never meet.
-  const std::size_t known =
-      scene.several_move() ? std::min<std::size_t>(2, scene.object_count()) : scene.object_count();
-  for (std::uint32_t other = 1; other < known; ++other) methods_of({0, other});
+  // Each body is prepared now, not in the frame in which it first comes near; of several movers other pairs of bodies than the first
+  // one's are made when they meet.
+  for (std::uint32_t other = 1; other < scene.object_count(); ++other) methods_of({0, other});
   // An instance of the method knows better what its options make of it.
-  if (known > 1) description_ = methods_of({0, 1}).shared().description();
+  if (scene.object_count() > 1) description_ = methods_of({0, 1}).shared().description();
   if (scene.is_pair()) {
     pair_ = &methods_of({0, 1});
     return;
@@ -125,22 +125,26 @@ void SceneSearch::gather(const Pose& X_WM, Set& of_pair, Set& set, WorkCounters&
   });
 }
 
-/// Of pairs of others nothing is felt; where the moving mesh is a pair's second one, it feels the opposite.
+/// The second mesh of a pair feels the opposite of what the first one feels.
 void SceneSearch::add_own_wrench(const Method& method, const ObjectPair& pair, const PlacedPair& place) {
-  if (!has_own_force_ || (pair.mover != scene_->held && pair.other != scene_->held)) return;
+  if (!has_own_force_) return;
   const std::optional<OwnWrench> of_pair = own_wrench_of(method);
   if (!of_pair) return;
-  const double sign = pair.mover == scene_->held ? 1.0 : -1.0;
-  const OwnWrench own{sign * place.X_WF.direction(of_pair->force),
-                      sign * place.X_WF.direction(of_pair->torque),
-                      place.X_WF.point(of_pair->about + place.origin_F)};
-  if (!own_) own_ = OwnWrench{.about = own.about};
-  own_->torque += own.torque_about(own_->about);
-  own_->force += own.force;
+  const auto add = [&](std::size_t mover, double sign) {
+    const OwnWrench own{sign * place.X_WF.direction(of_pair->force),
+                        sign * place.X_WF.direction(of_pair->torque),
+                        place.X_WF.point(of_pair->about + place.origin_F)};
+    std::optional<OwnWrench>& sum = own_[mover];
+    if (!sum) sum = OwnWrench{.about = own.about};
+    sum->torque += own.torque_about(sum->about);
+    sum->force += own.force;
+  };
+  add(pair.mover, 1.0);
+  if (scene_->is_mover(pair.other)) add(pair.other, -1.0);
 }
 
 void SceneSearch::search(const Pose& X_WM, LmdSet& lmds, WorkCounters& counters) {
-  own_.reset();
+  own_.assign(own_.size(), std::nullopt);
   gather(X_WM, of_pair_, lmds, counters,
          [&](Method& method, const Pose& X_FM, LmdSet& found) { method.search(X_FM, found, counters); });
   if (pair_ != nullptr) return;

@@ -48,8 +48,8 @@ class SceneSearch : public Method, public HasOwnWrench {
   /// A set follows the motion wherever its pairs are: no broad phase.
   void track(const Pose& X_WM, LmdSet& lmds, WorkCounters& counters) override;
   void find_critical(const Pose& X_WM, CriticalSet& critical, WorkCounters& counters) override;
-  /// The sum over the pairs of the moving mesh.
-  std::optional<OwnWrench> own_wrench() const override { return own_; }
+  /// The sum over the pairs of a mesh that moves.
+  std::optional<OwnWrench> own_wrench(std::size_t mover) const override { return own_[mover]; }
 
   /// Pairs that are kept: those that motion within the slack can bring within reach.
   std::size_t candidate_count() const { return phase_ ? phase_->candidates().size() : 0; }
@@ -80,8 +80,8 @@ class SceneSearch : public Method, public HasOwnWrench {
   LmdSet of_pair_, tracked_;
   CriticalSet critical_of_pair_;
   const bool has_own_force_;
-  std::optional<OwnWrench> own_;
-  std::vector<bool> has_nearest_;  ///< One a mover.
+  std::vector<std::optional<OwnWrench>> own_;  ///< One a mover.
+  std::vector<bool> has_nearest_;              ///< One a mover.
 };
 
 /// The method with what is counted beside it in a scene of other than one pair: movers that left their slack, and so queries of the trees;
