@@ -122,10 +122,11 @@ class DualTraversal {
     double cutoff;
   };
 
-  /// Tests a pair: rejected, visited, or to be descended into.
+  /// Tests a pair: rejected, visited, or to be descended into. Inlined, or a search makes 2 % more instructions.
   template <DirectionTest TEST, class LeafVisitor>
-  static void offer(const Hierarchies& of, const Place& place, TraversalCounters& counters,
-                    LeafVisitor&& visit_leaves, std::vector<Place>& inner) {
+  [[gnu::always_inline]] static inline void offer(const Hierarchies& of, const Place& place,
+                                                  TraversalCounters& counters, LeafVisitor&& visit_leaves,
+                                                  std::vector<Place>& inner) {
     const HierarchyNode& a = of.moving.nodes[static_cast<std::size_t>(place.index_a)];
     const HierarchyNode& b = of.fixed.nodes[static_cast<std::size_t>(place.index_b)];
     ++counters.node_pairs;
