@@ -20,12 +20,12 @@ from pathlib import Path
 
 ROOT = os.path.abspath(os.path.join(os.path.dirname(os.path.abspath(__file__)), ".."))
 TREE = os.path.join(ROOT, "build", "tuned", "tree")
-FORECAST = "src/lmdbench/methods/certified/coherence/motion_forecast.cpp"
-TOUCHING = "src/lmdbench/methods/certified/touching_pairs.cpp"
-LIFETIME = "src/lmdbench/methods/certified/coherence/wide_lifetime.h"
-POLICY = "src/lmdbench/methods/certified/coherence/coherence_policy.h"
-REFIT = "src/lmdbench/methods/certified/hierarchy/wide_refit.cpp"
-TRAVERSAL = "src/lmdbench/methods/certified/hierarchy/wide_traversal.h"
+FORECAST = "src/lmdbench/methods/certified/keep/motion_forecast.cpp"
+TOUCHING = "src/lmdbench/methods/certified/decide/touching_pairs.cpp"
+LIFETIME = "src/lmdbench/methods/certified/keep/wide_lifetime.h"
+POLICY = "src/lmdbench/methods/certified/keep/coherence_policy.h"
+REFIT = "src/lmdbench/methods/certified/build/wide_refit.cpp"
+TRAVERSAL = "src/lmdbench/methods/certified/traverse/wide_traversal.h"
 # name: file, text around the value, values
 CONSTANTS = {
     "CONE_GAIN": (TRAVERSAL, "CONE_GAIN = {}F", ("0.05", "0.1", "0.2", "0.4", "100.0")),

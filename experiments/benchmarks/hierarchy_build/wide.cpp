@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/geometry/triangle_distance.h>
-#include <lmdbench/methods/certified/hierarchy/wide_traversal.h>
+#include <lmdbench/methods/certified/build/build_wide_hierarchy.h>
+#include <lmdbench/methods/certified/traverse/wide_traversal.h>
 
 #include <benchmarks/hierarchy_build/implementation.h>
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include <lmdbench/methods/certified/hierarchy/wide_traversal.h>
+#include <lmdbench/methods/certified/traverse/wide_traversal.h>
 
 #include <benchmarks/node_test/wide_recording.h>
 

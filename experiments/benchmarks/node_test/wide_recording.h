@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <lmdbench/methods/certified/coherence/wide_lifetime.h>
+#include <lmdbench/methods/certified/keep/wide_lifetime.h>
 
 #include <benchmarks/node_test/implementation.h>
 

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/decision/polar_condition.h>
-#include <lmdbench/methods/certified/hierarchy/wide_hierarchy.h>
+#include <lmdbench/methods/certified/build/build_wide_hierarchy.h>
+#include <lmdbench/methods/certified/layout/wide_hierarchy.h>
 #include <lmdbench/methods/registry.h>
 #include <lmdbench/snch/minimum_distance.h>
 

@@ -3,7 +3,7 @@
 #include <lmdbench/decision/decide.h>
 #include <lmdbench/mesh/surface.h>
 #include <lmdbench/methods/certified/certified.h>
-#include <lmdbench/methods/certified/filter.h>
+#include <lmdbench/methods/certified/decide/filter.h>
 #include <lmdbench/methods/exhaustive/exhaustive.h>
 
 #include <gtest/gtest.h>

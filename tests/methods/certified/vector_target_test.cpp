@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/base/error.h>
 #include <lmdbench/methods/certified/certified.h>
-#include <lmdbench/methods/certified/hierarchy/wide_traversal.h>
+#include <lmdbench/methods/certified/traverse/wide_traversal.h>
 #include <lmdbench/methods/certified/vector_target.h>
 
 #include <gtest/gtest.h>

@@ -5,9 +5,9 @@
 #include <lmdbench/decision/join_contacts.h>
 #include <lmdbench/lmd/search_counters.h>
 #include <lmdbench/lmd/well_formed.h>
+#include <lmdbench/methods/certified/build/signed_hierarchy.h>
 #include <lmdbench/methods/certified/certified.h>
-#include <lmdbench/methods/certified/filter.h>
-#include <lmdbench/methods/certified/hierarchy/signed_hierarchy.h>
+#include <lmdbench/methods/certified/decide/filter.h>
 
 #include <algorithm>
 #include <cmath>
@@ -76,6 +76,13 @@ void fetch_vertices(const Surface& surface, const FeatureId& feature) {
   }
 }
 
+/// What the filter's rejections are checked against.
+bool has_contact(const ShapePair& pair, const FeatureId& on_moving, const FeatureId& on_fixed) {
+  ContactSet contacts;
+  decide(pair, on_moving, on_fixed, contacts);
+  return !contacts.contacts.empty();
+}
+
 }  // namespace
 
 /// What a fixed body's search works with in a frame.
@@ -85,7 +92,7 @@ struct Certified::Frame {
   const ShapePair& pair;
   const PairFilter& filter;
   const WideQuery& query;
-  double longest;  ///< Distance of what is looked for [m].
+  double search_distance;  ///< Of what is looked for: the larger of reach and touch [m].
   TouchingPairs::Frame touching;
   ContactSet& contacts;
   WorkCounters& counters;
@@ -107,7 +114,10 @@ struct Certified::Frame {
       return {};
     }
     const PairAnswer answer = filter(on_moving, on_fixed, lever_arm);
-    if (answer.verdict == PairVerdict::NO_LMD) return answer.certificate;
+    if (answer.verdict == PairVerdict::NO_LMD) {
+      LMDBENCH_ENSURES(!has_contact(pair, on_moving, on_fixed), "a margin of the filter below a tolerance");
+      return answer.certificate;
+    }
     ++counters[Counter::DECISIONS];
     decide(pair, on_moving, on_fixed, contacts);
     return {};
@@ -142,7 +152,7 @@ Certified::Certified(Scene of_pair, const CertifiedOptions& options, WideKernel 
 
 /// Brings the forecast to a frame.
 /// @return whether it says anything: the pose did not jump
-bool Certified::follow_motion(const RigidTransform& X_WM, double touch) {
+bool Certified::follow_motion(const RigidTransform& X_WM, double touch, double search_distance) {
   if (!coherent_) return false;
   RigidTransform X_WH = X_WM;
   X_WH.translation = X_WM.point(hierarchy_moving_.origin);
@@ -152,7 +162,7 @@ bool Certified::follow_motion(const RigidTransform& X_WM, double touch) {
     goes_on = motion_.motion() <= LARGEST_PACE * scene_.cutoff;
   }
   // A jump must not be taken for a motion that goes on.
-  if (!goes_on) motion_.reset(X_WH, hierarchy_moving_.radius, std::max(scene_.cutoff, touch));
+  if (!goes_on) motion_.reset(X_WH, hierarchy_moving_.radius, search_distance);
   has_last_ = true;
   touch_ = touch;
   return goes_on;
@@ -187,22 +197,22 @@ void Certified::enumerate_from_scratch(Frame& frame) {
 
 void Certified::enumerate_coherently(Frame& frame) {
   TraversalFront& front = fixed_.front;
-  if (frame.longest != fixed_.reach) front.clear();
+  if (frame.search_distance != fixed_.search_distance) front.clear();
   front.follow(frame.moving, fixed_.seen_moving, frame.fixed, fixed_.seen_fixed, motion_);
-  fixed_.reach = frame.longest;
+  fixed_.search_distance = frame.search_distance;
   fixed_.seen_moving = frame.moving.changes.now;
   fixed_.seen_fixed = frame.fixed.changes.now;
   if (front.empty()) {
-    front.start(frame.moving, frame.fixed, frame.query, motion_, frame.pair.moving.X_WS, frame.longest,
-                frame.work);
+    front.start(frame.moving, frame.fixed, frame.query, motion_, frame.pair.moving.X_WS,
+                frame.search_distance, frame.work);
   } else {
-    front.advance(frame.moving, frame.fixed, frame.query, motion_, frame.pair.moving.X_WS, frame.longest,
-                  frame.work);
+    front.advance(frame.moving, frame.fixed, frame.query, motion_, frame.pair.moving.X_WS,
+                  frame.search_distance, frame.work);
     fixed_.policy.note(frame.work.node_tests, front.test_count());
   }
   front.collect_due(motion_);
   front.for_each_due(
-      frame.moving, motion_, frame.longest,
+      frame.moving, motion_, frame.search_distance,
       [&](const WidePair& pair, bool, double lever_arm) { return frame.decide_pair(pair, lever_arm); },
       [](const WidePair&, bool touches) { return !touches; });
   touching_pairs_.clear();
@@ -215,7 +225,7 @@ void Certified::enumerate_coherently(Frame& frame) {
   for (std::size_t k = 0; k < certificates.size(); ++k) {
     Certificate certificate = certificates[k];
     if (certificate.slack > 0.0)
-      certificate.lever_arm = front.lever_arm_of(frame.moving, touching_leaves_[k], frame.longest);
+      certificate.lever_arm = front.lever_arm_of(frame.moving, touching_leaves_[k], frame.search_distance);
     front.plan_leaf(frame.moving, motion_, touching_leaves_[k], certificate);
   }
 }
@@ -235,13 +245,14 @@ void Certified::find(const Pose& X_WM, WorkCounters& counters, Join&& join) {
   // The same wherever something can be found, so that what was kept with it stays valid.
   const double touch =
       RELATIVE_TOUCH * std::exp2(std::ceil(std::log2(std::max(coordinates, where_anything_is_near))));
-  const bool keep = follow_motion(transform, touch);
   const ShapeSide moving{scene_.moving->surface(), shape_moving_, transform, true};
   const ShapeSide fixed{fixed_.surface, fixed_.shape, identity, false};
   const ShapePair pair{moving, fixed,
                        ContactTolerance::of(moving.surface, moving.shape, fixed.surface, fixed.shape,
                                             transform, scene_.cutoff)};
   const double reach = kept_reach(pair.tolerance, hierarchy_moving_, fixed_.hierarchy);
+  const double search_distance = std::max(reach, touch);
+  const bool keep = follow_motion(transform, touch, search_distance);
   const PairFilter filter{pair, reach, touch, FILTER_MARGIN, RELATIVE_TINY * coordinates};
   const WideQuery query(hierarchy_moving_, fixed_.hierarchy, transform, reach, touch);
   contacts_.clear();
@@ -253,7 +264,7 @@ void Certified::find(const Pose& X_WM, WorkCounters& counters, Join&& join) {
               pair,
               filter,
               query,
-              std::max(reach, touch),
+              search_distance,
               {pair, 0, touch, keeps, contacts_, intersections_, crossing_pairs_},
               contacts_,
               counters,

@@ -7,11 +7,11 @@
 #include <lmdbench/decision/intersections.h>
 #include <lmdbench/lmd/method.h>
 #include <lmdbench/lmd/scene.h>
-#include <lmdbench/methods/certified/coherence/coherence_policy.h>
-#include <lmdbench/methods/certified/coherence/traversal_front.h>
-#include <lmdbench/methods/certified/hierarchy/wide_traversal.h>
+#include <lmdbench/methods/certified/decide/touching_pairs.h>
+#include <lmdbench/methods/certified/keep/coherence_policy.h>
+#include <lmdbench/methods/certified/keep/traversal_front.h>
 #include <lmdbench/methods/certified/options.h>
-#include <lmdbench/methods/certified/touching_pairs.h>
+#include <lmdbench/methods/certified/traverse/wide_traversal.h>
 
 #include <cstdint>
 #include <memory>
@@ -20,9 +20,13 @@
 
 namespace lmdbench {
 
+class SignedFeatures;
+
 const MethodDescription& certified_method();
 
-/// The third algorithm: the exact and complete LMD set in every frame, without a second rate.
+/// The third algorithm: the exact and complete LMD set in every frame, without a second rate. In the order in which one reads it:
+/// `layout/` (what a hierarchy is), `build/` (how it is made and brought to a mesh that deforms), `traverse/` (how two are descended),
+/// `decide/` (what happens to the pairs that are left), `keep/` (what stays from frame to frame), this file.
 ///
 /// 1. *enumerate*: both meshes have a wide hierarchy over the features of their shapes (wide_hierarchy.h). Descending both
 ///    finds every pair of features that bounds cannot reject (wide_traversal.h); a closed-form test in double precision
@@ -83,7 +87,7 @@ class Certified : public Method {
     TraversalFront front;         ///< Empty where nothing is kept.
     CoherencePolicy policy;
     std::uint32_t seen_moving = 0, seen_fixed = 0;  ///< Deformations that the front knows.
-    double reach = 0.0;                             ///< That its tests were made for [m].
+    double search_distance = 0.0;                   ///< That its tests were made for [m].
   };
   struct Frame;
 
@@ -94,7 +98,7 @@ class Certified : public Method {
   void find(const Pose& X_WM, WorkCounters& counters, Join&& join);
 
   // Steps 1 and 2. No other name begins with `search`: instructions are counted by that name (scripts/tuned_constants.py).
-  bool follow_motion(const RigidTransform& X_WM, double touch);
+  bool follow_motion(const RigidTransform& X_WM, double touch, double search_distance);
   void follow_deformations();
   void enumerate_from_scratch(Frame& frame);
   void enumerate_coherently(Frame& frame);

@@ -1,0 +1,171 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/methods/certified/build/polar_extremes.h>
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace lmdbench::polar {
+
+namespace {
+
+/// End directions that are shorter than this before they are made unit are rounding.
+constexpr double LEAST_END = 1e-6;
+/// A constraint that is looser than this (a sine) is dropped; caps of needle-like
+/// triangles get wider, never wrong.
+constexpr double LARGEST_SLACK = 0.1;
+/// Heights of triangles below this part of their length are rounding: such a triangle constrains nothing.
+constexpr double LEAST_HEIGHT = 1e-12;
+
+/// Bend of an edge that is decided without a look at constraints, as a sine.
+constexpr double CLEAR_BEND = 1e-3;
+/// Triangles whose length is more than this many heights are left to the constraints too.
+constexpr double FLAT = 10.0;
+
+/// Slack of a triangle's constraint. The first-order test measures n . (x - p) against |x - p|, which is up
+/// to the triangle's size for the height that n . (x - p) is made of.
+double slack_of(double size_per_height) {
+  return POLAR_SLACK * (1.0 + 2.0 * size_per_height);
+}
+
+std::int32_t opposite_corner(const Surface& surface, std::int32_t triangle,
+                             const std::array<std::int32_t, 2>& ends) {
+  const auto& corners = surface.mesh.triangles[static_cast<std::size_t>(triangle)];
+  return *std::find_if(corners.begin(), corners.end() - 1,
+                       [&](std::int32_t corner) { return corner != ends[0] && corner != ends[1]; });
+}
+
+/// What most edges are: two triangles that agree on orientation, neither flat, and a bend beyond all slack.
+///
+/// Let a0 and a1 be the unit vectors across the edge into its triangles, n0 and n1 the normals and theta the
+/// angle from a0 over the outer side to a1, so that a1 . n0 = sin(theta). A convex edge's cone is the arc
+/// from n0 to n1. A reflex edge's would be the arc of the inner normals, whose direction nearest to the outer
+/// side is asin(sin(theta / 2)) away from it; sin(theta / 2) >= |sin(theta)| / 2 is more than CLEAR_BEND / 2
+/// = 5e-4, and no slack is more than 5e-5: it is empty.
+struct ClearEdge {
+  bool is_clear = false;
+  bool is_convex = false;
+  double size_per_height = 0.0;  ///< The larger of the two triangles'.
+
+  ClearEdge(const Surface& surface, std::int32_t edge, double least_wing) {
+    const auto e = static_cast<std::size_t>(edge);
+    if (surface.edge_is_boundary[e] || surface.edge_is_non_manifold[e]) return;
+    const auto& ends = surface.adjacency.edges[e];
+    const auto triangles = surface.adjacency.edge_triangles[edge];
+    const Vec3& p = surface.mesh.vertices[static_cast<std::size_t>(ends[0])];
+    const Vec3 along = surface.mesh.vertices[static_cast<std::size_t>(ends[1])] - p;
+    const double squared_length = along.squaredNorm();
+    const Vec3& normal = surface.face_normals[static_cast<std::size_t>(triangles[0])];
+    double rise = 0.0, squared_height = 0.0, squared_flatness = 0.0;
+    for (const std::int32_t triangle : {triangles[0], triangles[1]}) {
+      const std::int32_t corner = opposite_corner(surface, triangle, ends);
+      const Vec3 to_corner = surface.mesh.vertices[static_cast<std::size_t>(corner)] - p;
+      rise = normal.dot(to_corner);
+      squared_height = along.cross(to_corner).squaredNorm() / squared_length;
+      const double squared_size = 2.0 * (squared_length + to_corner.squaredNorm());
+      // Written so that a height or length of zero is flat.
+      if (!(FLAT * FLAT * squared_height > squared_size) || squared_height <= least_wing * least_wing) return;
+      squared_flatness = std::max(squared_flatness, squared_size / squared_height);
+    }
+    is_clear = rise * rise > CLEAR_BEND * CLEAR_BEND * squared_height;
+    is_convex = rise < 0.0;
+    size_per_height = std::sqrt(squared_flatness);
+  }
+};
+
+/// All planes hold the edge's normal plane's directions only: the cone is an arc, its ends are square to the
+/// constraints.
+std::optional<PolarCap> cap_of_arc(const Vec3& along, Scratch& work) {
+  for (const Constraint& constraint : work.constraints)
+    work.extremes.slack = std::max(work.extremes.slack, 2.0 * constraint.slack);
+  for (std::size_t k = 0; k < work.constraints.size(); ++k) {
+    Vec3 end = along.cross(work.constraints[k].direction);
+    const double end_length = end.norm();
+    if (!(end_length > LEAST_END)) continue;
+    end /= end_length;
+    for (const Vec3& candidate : {end, Vec3(-end)})
+      if (satisfies(work.constraints, candidate, k, NONE, work.constraints[k].slack))
+        work.extremes.directions.push_back(candidate);
+  }
+  return cap_around(work.extremes);
+}
+
+}  // namespace
+
+std::optional<PolarCap> edge_cap(const Surface& surface, std::int32_t edge, double least_wing) {
+  Scratch& work = scratch();
+  const ClearEdge clear(surface, edge, least_wing);
+  if (clear.is_clear) {
+    if (!clear.is_convex) return std::nullopt;
+    for (const std::int32_t triangle : surface.adjacency.edge_triangles[edge])
+      work.extremes.directions.push_back(surface.face_normals[static_cast<std::size_t>(triangle)]);
+    work.extremes.slack = 2.0 * slack_of(clear.size_per_height);
+    return cap_around(work.extremes);
+  }
+  const auto e = static_cast<std::size_t>(edge);
+  const auto& ends = surface.adjacency.edges[e];
+  const Vec3& p = surface.mesh.vertices[static_cast<std::size_t>(ends[0])];
+  Vec3 along = surface.mesh.vertices[static_cast<std::size_t>(ends[1])] - p;
+  const double length = along.norm();
+  if (!(length > 0.0)) return std::nullopt;
+  along /= length;
+
+  for (const std::int32_t triangle : surface.adjacency.edge_triangles[edge]) {
+    for (const std::int32_t corner : surface.mesh.triangles[static_cast<std::size_t>(triangle)]) {
+      if (corner == ends[0] || corner == ends[1]) continue;
+      const Vec3 to_corner = surface.mesh.vertices[static_cast<std::size_t>(corner)] - p;
+      const Vec3 across = to_corner - along.dot(to_corner) * along;
+      const double height = across.norm();
+      const double size = length + to_corner.norm();
+      if (!(height > LEAST_HEIGHT * size) || height <= least_wing) continue;
+      const double slack = slack_of(size / height);
+      if (slack < LARGEST_SLACK) work.constraints.push_back({across / height, slack});
+    }
+  }
+  if (surface.has_outer_side({FeatureKind::EDGE, edge}))
+    work.constraints.push_back({-surface.pseudo_normal({FeatureKind::EDGE, edge}), POLAR_SLACK});
+  if (work.constraints.empty()) return PolarCap{};
+
+  return cap_of_arc(along, work);
+}
+
+std::optional<PolarCap> chain_cap(const Surface& surface, const ShapeComplex& shape, std::int32_t chain) {
+  Scratch& work = scratch();
+  const auto& ends = shape.ends_of_chain(chain);
+  const Vec3 from_to = surface.mesh.vertices[static_cast<std::size_t>(ends[1])] -
+                       surface.mesh.vertices[static_cast<std::size_t>(ends[0])];
+  if (!(from_to.squaredNorm() > 0.0)) return std::nullopt;
+  // Of a triangle without area the wing is rounding, in a direction that says nothing.
+  const double least_wing = LEAST_WING * shape.regions.extent;
+  shape.for_each_chain_wing(surface, chain, [&](const Vec3& wing) {
+    const double depth = wing.norm();
+    if (depth > least_wing) work.constraints.push_back({wing / depth, POLAR_SLACK});
+    return true;
+  });
+  const FeatureId lead{FeatureKind::EDGE, shape.lead_of_chain(chain)};
+  if (surface.has_outer_side(lead)) {
+    std::vector<std::int32_t> regions;
+    shape.append_carriers(surface, {FeatureKind::EDGE, chain}, regions);
+    if (regions.size() == 2 && regions[0] >= 0 && work.constraints.size() == 2) {
+      const auto normal = [&](std::size_t k) -> const Vec3& {
+        return shape.regions.planes[static_cast<std::size_t>(regions[k])].normal;
+      };
+      // Of either normal against the other region's wing, whichever that is: its own is square to it.
+      const double rise = normal(0).dot(work.constraints[0].direction + work.constraints[1].direction);
+      if (rise > CLEAR_BEND) return std::nullopt;
+      if (rise < -CLEAR_BEND) {
+        work.extremes.directions = {normal(0), normal(1)};
+        work.extremes.slack = 2.0 * POLAR_SLACK;
+        return cap_around(work.extremes);
+      }
+    }
+    work.constraints.push_back({-surface.pseudo_normal(lead), POLAR_SLACK});
+  }
+  if (work.constraints.empty()) return PolarCap{};
+  return cap_of_arc(from_to.normalized(), work);
+}
+
+}  // namespace lmdbench::polar

@@ -1,0 +1,175 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/mesh/vertex_fan.h>
+#include <lmdbench/methods/certified/build/polar_extremes.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <utility>
+#include <vector>
+
+namespace lmdbench {
+
+namespace {
+
+using polar::Constraint, polar::Scratch;
+
+/// Crossings of planes that are closer to parallel than this (a sine) are left out: their neighbours bound
+/// the cone to within the slack.
+constexpr double LEAST_CROSSING = 1e-6;
+/// Planes whose angle has a larger sine than this cross clearly: most candidates can
+/// be rejected without a root.
+constexpr double CLEAR_CROSSING = 0.2;
+/// Which of the two crossings x and -x of two planes some constraint rejects for certain. The planes
+/// themselves reject neither. x need not be unit, and is at least CLEAR_CROSSING long; no constraint has more
+/// slack than POLAR_SLACK.
+std::array<bool, 2> clearly_rejected(const std::vector<Constraint>& constraints, const Vec3& x) {
+  // Planes that cross at such an angle shift their crossing by less than 2 / CLEAR_CROSSING slacks.
+  constexpr double LIMIT = (1.0 + 2.0 / CLEAR_CROSSING) * POLAR_SLACK;
+  double highest = 0.0, lowest = 0.0;
+  for (const Constraint& constraint : constraints) {
+    const double along = constraint.direction.dot(x);
+    highest = std::max(highest, along);
+    lowest = std::min(lowest, along);
+    if (highest > LIMIT && lowest < -LIMIT) break;  // nothing can take that back
+  }
+  return {highest > LIMIT, -lowest > LIMIT};
+}
+
+/// Crossings of two constraints' planes that satisfy all others. False when no two planes cross.
+bool find_crossings(Scratch& work) {
+  const std::size_t count = work.constraints.size();
+  work.extremes.directions.clear();
+  work.extremes.slack = 0.0;
+  bool crossed = false;
+  for (std::size_t i = 0; i < count; ++i) {
+    for (std::size_t j = i + 1; j < count; ++j) {
+      const Vec3& a = work.constraints[i].direction;
+      const Vec3& b = work.constraints[j].direction;
+      Vec3 crossing = a.cross(b);
+      const double squared_sine = crossing.squaredNorm();
+      if (squared_sine < LEAST_CROSSING * LEAST_CROSSING) continue;
+      crossed = true;
+      std::array<bool, 2> rejected{};
+      if (squared_sine > CLEAR_CROSSING * CLEAR_CROSSING)
+        rejected = clearly_rejected(work.constraints, crossing);
+      if (rejected[0] && rejected[1]) continue;
+      const double sine = std::sqrt(squared_sine);
+      crossing /= sine;
+      // Relaxed planes cross at most this far from the exact ones: s / cos(half their angle).
+      const double half_cosine = std::sqrt(std::max(0.0, 0.5 * (1.0 + a.dot(b))));
+      const double shift = POLAR_SLACK / std::max(half_cosine, LEAST_CROSSING);
+      for (const std::size_t sign : {0u, 1u}) {
+        const Vec3 candidate = sign == 0 ? crossing : Vec3(-crossing);
+        if (rejected[sign] || !polar::satisfies(work.constraints, candidate, i, j, shift)) continue;
+        work.extremes.directions.push_back(candidate);
+        work.extremes.slack = std::max(work.extremes.slack, POLAR_SLACK + shift);
+      }
+    }
+  }
+  return crossed;
+}
+
+/// Up to so many directions all crossings are tried; of more, those of a subset.
+constexpr std::size_t FEW_DIRECTIONS = 128;
+
+/// Like `find_crossings` (PROOF.md, lemma 5), in time linear in the number of constraints: of many, only the outermost are taken and then
+/// those that the crossings so far violate most, until none is violated beyond twice its slack or there are enough.
+/// `work.constraints` is the subset then. Fewer constraints leave a larger set, so that the cap still holds the
+/// whole cone; it is empty only where the whole is.
+bool find_crossings_of_many(Scratch& work) {
+  if (work.constraints.size() <= FEW_DIRECTIONS) return find_crossings(work);
+  const std::vector<Constraint> all = std::exchange(work.constraints, {});
+  std::vector<bool> taken(all.size(), false);
+  const auto farthest_along = [&](const Vec3& n) {
+    return static_cast<std::size_t>(std::max_element(all.begin(), all.end(),
+                                                     [&](const Constraint& a, const Constraint& b) {
+                                                       return a.direction.dot(n) < b.direction.dot(n);
+                                                     }) -
+                                    all.begin());
+  };
+  const auto take = [&](std::size_t i) {
+    if (!taken[i]) work.constraints.push_back(all[i]);
+    taken[i] = true;
+  };
+  for (const int x : {-1, 0, 1})
+    for (const int y : {-1, 0, 1})
+      for (const int z : {-1, 0, 1}) take(farthest_along(Vec3(x, y, z)));
+  while (true) {
+    if (!find_crossings(work)) return false;
+    const std::size_t before = work.constraints.size();
+    if (before > FEW_DIRECTIONS) return true;
+    for (const Vec3& crossing : work.extremes.directions) {
+      const std::size_t worst = farthest_along(crossing);
+      if (all[worst].direction.dot(crossing) > 2.0 * POLAR_SLACK) take(worst);
+    }
+    if (work.constraints.size() == before) return true;
+  }
+}
+
+std::optional<PolarCap> vertex_cap(const Surface& surface, std::int32_t vertex, const ShapeComplex* shape) {
+  if (surface.adjacency.vertex_triangles[vertex].empty()) return std::nullopt;
+  Scratch& work = polar::scratch();
+  const double least_wing = shape != nullptr ? LEAST_WING * shape->regions.extent : 0.0;
+  const auto constrain = [&](const Vec3& wing) {
+    const double length = wing.norm();
+    if (length > least_wing) work.constraints.push_back({wing / length, POLAR_SLACK});
+    return true;
+  };
+  if (shape != nullptr) {
+    shape->for_each_corner_wing(surface, vertex, constrain);
+  } else {
+    const Vec3& p = surface.mesh.vertices[static_cast<std::size_t>(vertex)];
+    for_each_neighbour(surface, vertex, [&](std::int32_t neighbour) {
+      return constrain(surface.mesh.vertices[static_cast<std::size_t>(neighbour)] - p);
+    });
+  }
+  if (!find_crossings_of_many(work)) return PolarCap{};
+  if (work.extremes.directions.empty()) return std::nullopt;
+  // Saddles are done here, and so are peaks, all of whose directions are outer ones. What lies above every triangle lies on the
+  // side of their mean, which costs more to make where the mesh deforms.
+  const auto above_all = [&](const Vec3& direction) {
+    return std::ranges::all_of(surface.adjacency.vertex_triangles[vertex], [&](std::int32_t t) {
+      const Vec3& normal = surface.face_normals[static_cast<std::size_t>(t)];
+      return normal.isZero(0.0) || normal.dot(direction) > 0.0;
+    });
+  };
+  if (!std::ranges::all_of(work.extremes.directions, above_all)) {
+    const Vec3 outer = surface.vertex_normal(vertex);
+    const bool all_outer = std::ranges::all_of(
+        work.extremes.directions, [&](const Vec3& direction) { return direction.dot(outer) >= 0.0; });
+    if (!all_outer && surface.has_outer_side({FeatureKind::VERTEX, vertex})) {
+      work.constraints.push_back({-outer, POLAR_SLACK});
+      find_crossings(work);
+    }
+  }
+  return polar::cap_around(work.extremes);
+}
+
+}  // namespace
+
+std::optional<PolarCap> polar_cap(const Surface& surface, const FeatureId& feature,
+                                  const ShapeComplex* shape) {
+  const auto of_normal = [](const Vec3& normal) {
+    return PolarCap{normal, 1.0 - 0.5 * POLAR_SLACK * POLAR_SLACK, POLAR_SLACK};
+  };
+  switch (feature.kind) {
+    case FeatureKind::VERTEX:
+      return vertex_cap(surface, feature.index, shape);
+    case FeatureKind::EDGE:
+      if (shape != nullptr && !shape->is_plain_chain(surface, shape->chain_of(feature.index)))
+        return polar::chain_cap(surface, *shape, shape->chain_of(feature.index));
+      return polar::edge_cap(surface, feature.index,
+                             shape != nullptr ? LEAST_WING * shape->regions.extent : 0.0);
+    case FeatureKind::FACE:
+      break;
+  }
+  const Vec3& normal = surface.face_normals[static_cast<std::size_t>(feature.index)];
+  if (normal.isZero(0.0)) return std::nullopt;
+  if (shape == nullptr || shape->region_of(feature.index) < 0) return of_normal(normal);
+  return of_normal(shape->regions.planes[static_cast<std::size_t>(shape->region_of(feature.index))].normal);
+}
+
+}  // namespace lmdbench

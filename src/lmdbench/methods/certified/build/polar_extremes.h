@@ -1,0 +1,53 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <lmdbench/methods/certified/build/polar_cap.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <vector>
+
+/// How polar caps are found; nothing outside polar_cap.cpp, edge_cap.cpp and polar_extremes.cpp needs this.
+namespace lmdbench::polar {
+
+/// n . direction <= slack for unit n.
+struct Constraint {
+  Vec3 direction;
+  double slack;
+};
+
+/// Extreme directions of a polar cone, and what must be added to their spread.
+struct Extremes {
+  std::vector<Vec3> directions;
+  double slack = 0.0;
+};
+
+/// Scratch memory of one thread: caps are built for every feature of a mesh.
+struct Scratch {
+  std::vector<Constraint> constraints;
+  Extremes extremes;
+};
+
+/// Emptied.
+Scratch& scratch();
+
+inline constexpr std::size_t NONE = std::numeric_limits<std::size_t>::max();
+
+/// Whether a direction satisfies all constraints but `i` and `j`, each relaxed by `extra`.
+bool satisfies(const std::vector<Constraint>& constraints, const Vec3& direction, std::size_t i,
+               std::size_t j, double extra);
+
+/// Smallest cap around the directions, widened by the slack; nothing where there are none.
+std::optional<PolarCap> cap_around(const Extremes& extremes);
+
+/// Cap of an edge.
+/// @param least_wing  heights of triangles over the edge up to this say nothing [m]
+std::optional<PolarCap> edge_cap(const Surface& surface, std::int32_t edge, double least_wing);
+
+/// Cap of a chain of a shape, from its wings and its regions' normals.
+std::optional<PolarCap> chain_cap(const Surface& surface, const ShapeComplex& shape, std::int32_t chain);
+
+}  // namespace lmdbench::polar

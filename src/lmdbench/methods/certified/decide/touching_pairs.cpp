@@ -1,0 +1,340 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/geometry/extent.h>
+#include <lmdbench/geometry/point_triangle.h>
+#include <lmdbench/geometry/triangle_contact_batch.h>
+#include <lmdbench/geometry/triangle_distance.h>
+#include <lmdbench/geometry/triangle_sides.h>
+#include <lmdbench/methods/certified/decide/touch.h>
+#include <lmdbench/methods/certified/decide/touching_pairs.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace lmdbench {
+
+namespace {
+
+/// Of features with more pairs of corners the sides are not tried as separating axes, because the triangles that are near each
+/// other may be fewer (scripts/tuned_constants.py --only MOST_CORNER_PAIRS experiments/extreme/peg-square.json).
+constexpr std::size_t MOST_CORNER_PAIRS = 64;
+
+/// Corners of a hull that are asked first whether it lies on both sides of a plane.
+constexpr std::size_t FEW_CORNERS = 4;
+
+/// Gaps that say that two triangles are apart are wider than this many touches.
+constexpr double MARGIN_IN_TOUCHES = 2.0;
+
+/// Of two triangles that cross along less than this part of their longest side the exact kernel says how long that is: pieces weigh in a
+/// contact's middle by their lengths, and where all of them are short and lie apart, so do the errors of these.
+constexpr double LEAST_CROSSING_LENGTH = 1e-4;
+
+using FeaturePair = std::pair<FeatureId, FeatureId>;
+
+Vec3 face_normal(const ShapeSide& side, std::int32_t face) {
+  return side.direction(side.surface.face_normals[static_cast<std::size_t>(face)]);
+}
+
+Triangle triangle_of(const ShapeSide& side, std::int32_t face) {
+  const Triangle t = side.surface.mesh.triangle(face);
+  return side.is_moving ? side.X_WS.triangle(t) : t;
+}
+
+/// From end to end of a chain.
+Vec3 from_end_to_end(const ShapeSide& side, std::int32_t chain) {
+  const auto& ends = side.shape.ends_of_chain(chain);
+  return side.vertex(ends[1]) - side.vertex(ends[0]);
+}
+
+/// Gap between points and a plane, with the axis from the points towards it.
+ClearGap gap_to(const Plane& plane, std::span<const Vec3> points) {
+  Extent heights;
+  for (const Vec3& p : points) heights.add(plane.height(p));
+  return heights.least >= -heights.greatest ? ClearGap{heights.least, -plane.normal}
+                                            : ClearGap{-heights.greatest, plane.normal};
+}
+
+/// The same for a region, by its hull: a gear's end has thousands of corners and a hull of some eighty.
+ClearGap gap_to(const Plane& plane, const ShapeSide& side, const RegionShape& shape) {
+  const Vec3& origin = shape.frame.origin;
+  const double height = plane.height(side.is_moving ? side.X_WS.point(origin) : origin);
+  const Vec2 rise(plane.normal.dot(side.direction(shape.frame.u)),
+                  plane.normal.dot(side.direction(shape.frame.v)));
+  // Nearly all that are asked lie on both sides, which a few corners tell.
+  Extent of_few;
+  for (std::size_t k = 0; k < FEW_CORNERS && !shape.hull.empty(); ++k)
+    of_few.add(height + rise.dot(shape.hull[k * shape.hull.size() / FEW_CORNERS]));
+  if (of_few.least < 0.0 && of_few.greatest > 0.0) return {};
+  const Extent along = extent_along(shape.hull, rise);
+  const double least = height + along.least, greatest = height + along.greatest;
+  return least >= -greatest ? ClearGap{least, -plane.normal} : ClearGap{-greatest, plane.normal};
+}
+
+/// Of a face that is the lead of a region of several.
+const RegionShape* shape_of(const ShapeSide& side, const FeatureId& face) {
+  const std::int32_t region = side.shape.region_of(face.index);
+  return region < 0 ? nullptr : side.shape.shapes.of_region(region);
+}
+
+/// Largest gap between two regions along the products of a side of one and a side of the other: with their own planes the
+/// separating axes of convex polygons. Walls of a box that stands over a box are separated by no plane of theirs.
+ClearGap gap_along_side_products(const ShapeSide& moving, std::int32_t region_moving,
+                                 std::span<const Vec3> corners_moving, const ShapeSide& fixed,
+                                 std::int32_t region_fixed, std::span<const Vec3> corners_fixed) {
+  ClearGap widest;
+  for (const std::int32_t s : moving.shape.regions.straight_edges_of_region[region_moving]) {
+    const Vec3 u = from_end_to_end(moving, s);
+    for (const std::int32_t t : fixed.shape.regions.straight_edges_of_region[region_fixed]) {
+      const Vec3 product = u.cross(from_end_to_end(fixed, t));
+      const double length = product.norm();
+      if (!(length > 0.0)) continue;
+      const Vec3 axis = product / length;
+      const Extent of_moving = extent_along(corners_moving, axis),
+                   of_fixed = extent_along(corners_fixed, axis);
+      const double ahead = of_fixed.least - of_moving.greatest, behind = of_moving.least - of_fixed.greatest;
+      if (ahead > widest.gap) widest = {ahead, axis};
+      if (behind > widest.gap) widest = {behind, -axis};
+    }
+  }
+  return widest;
+}
+
+/// Notes that the definition is to be asked for what the corners of one triangle share with the corners and chains of another one
+/// that is within touch of them.
+void note_corners(const TouchingPairs::Frame& frame, const ShapeSide& of_corners, std::int32_t t_corners,
+                  const ShapeSide& other, std::int32_t t_other, std::vector<FeaturePair>& asked) {
+  const Triangle triangle = triangle_of(other, t_other);
+  const auto ask = [&](const FeatureId& corner, const FeatureId& feature) {
+    asked.push_back(of_corners.is_moving ? FeaturePair(corner, feature) : FeaturePair(feature, corner));
+  };
+  for (const std::int32_t v : of_corners.surface.mesh.triangles[static_cast<std::size_t>(t_corners)]) {
+    if (!of_corners.shape.is_corner(v)) continue;
+    const double squared = point_triangle_distance(of_corners.vertex(v), triangle).squared_distance;
+    if (squared > frame.touch * frame.touch) continue;
+    const FeatureId corner{FeatureKind::VERTEX, v};
+    // Pairs of corners are asked for once, from the moving mesh.
+    if (of_corners.is_moving)
+      for (const std::int32_t w : other.surface.mesh.triangles[static_cast<std::size_t>(t_other)])
+        ask(corner, {FeatureKind::VERTEX, w});
+    for (const std::int32_t e : other.surface.adjacency.triangle_edges[static_cast<std::size_t>(t_other)])
+      if (const std::int32_t chain = other.shape.chain_of(e); chain >= 0)
+        ask(corner, {FeatureKind::EDGE, other.shape.lead_of_chain(chain)});
+  }
+}
+
+/// The same for parallel chains of two triangles within touch: the direction of what they share is one between points, too.
+void note_parallel_chains(const TouchingPairs::Frame& frame, std::int32_t t_moving, std::int32_t t_fixed,
+                          std::vector<FeaturePair>& asked) {
+  const ShapeSide &moving = frame.pair.moving, &fixed = frame.pair.fixed;
+  for (const std::int32_t e : moving.surface.adjacency.triangle_edges[static_cast<std::size_t>(t_moving)])
+    for (const std::int32_t f : fixed.surface.adjacency.triangle_edges[static_cast<std::size_t>(t_fixed)]) {
+      const std::int32_t c = moving.shape.chain_of(e), d = fixed.shape.chain_of(f);
+      if (c < 0 || d < 0) continue;
+      const Vec3 u = from_end_to_end(moving, c), v = from_end_to_end(fixed, d);
+      if (u.cross(v).norm() > 2.0 * frame.pair.tolerance.largest_tilt * u.norm() * v.norm()) continue;
+      asked.emplace_back(FeatureId{FeatureKind::EDGE, moving.shape.lead_of_chain(c)},
+                         FeatureId{FeatureKind::EDGE, fixed.shape.lead_of_chain(d)});
+    }
+}
+
+}  // namespace
+
+/// Pairs of triangles that are looked at together, in vectors.
+struct TouchingPairs::Batch {
+  static constexpr std::size_t SIZE = 64;
+  struct Entry {
+    std::int32_t moving, fixed;
+    std::size_t place;  ///< In certificates_.
+  };
+  std::array<Triangle, SIZE> moving, fixed;
+  std::array<Entry, SIZE> entries;
+  std::size_t count = 0;
+
+  bool is_full() const { return count == SIZE; }
+  void push(const Triangle& of_moving, const Triangle& of_fixed, const Entry& entry) {
+    moving[count] = of_moving;
+    fixed[count] = of_fixed;
+    entries[count++] = entry;
+  }
+};
+
+std::span<const Certificate> TouchingPairs::decide(Frame& frame, std::span<const WidePair> pairs) {
+  const ShapeSide &moving = frame.pair.moving, &fixed = frame.pair.fixed;
+  const bool is_joined = moving.shape.is_joined || fixed.shape.is_joined;
+  const double margin = MARGIN_IN_TOUCHES * frame.touch;
+  certificates_.assign(pairs.size(), Certificate{});
+  Batch batch, not_crossing;
+  for (std::size_t k = 0; k < pairs.size(); ++k) {
+    const FeatureId on_moving = pairs[k].a.feature_id(), on_fixed = pairs[k].b.feature_id();
+    ++frame.triangle_pairs;
+    if (is_joined && (shape_of(moving, on_moving) != nullptr || shape_of(fixed, on_fixed) != nullptr)) {
+      certificates_[k] = decide_regions(frame, pairs[k]);
+      continue;
+    }
+    const Triangle t_moving = triangle_of(moving, on_moving.index),
+                   t_fixed = triangle_of(fixed, on_fixed.index);
+    if (!frame.keeps && gap_along_normals(t_moving, face_normal(moving, on_moving.index), t_fixed,
+                                          face_normal(fixed, on_fixed.index), margin)
+                                .gap > margin)
+      continue;
+    batch.push(t_moving, t_fixed, {on_moving.index, on_fixed.index, k});
+    if (batch.is_full()) decide_batch(frame, batch, not_crossing);
+  }
+  if (batch.count > 0) decide_batch(frame, batch, not_crossing);
+  if (not_crossing.count > 0) decide_not_crossing(frame, not_crossing);
+  // Each once: a vertex is a corner of all its triangles, and asking for it looks at all of them.
+  std::ranges::sort(asked_);
+  asked_.erase(std::unique(asked_.begin(), asked_.end()), asked_.end());
+  for (const auto& [on_moving, on_fixed] : asked_)
+    lmdbench::decide(frame.pair, on_moving, on_fixed, frame.contacts);
+  asked_.clear();
+  return certificates_;
+}
+
+void TouchingPairs::decide_batch(Frame& frame, Batch& batch, Batch& not_crossing) {
+  std::array<ClearCrossing, Batch::SIZE> crossings;
+  find_clear_crossings(std::span(batch.moving).first(batch.count), std::span(batch.fixed).first(batch.count),
+                       std::span(crossings).first(batch.count));
+  for (std::size_t k = 0; k < batch.count; ++k) {
+    const Batch::Entry& entry = batch.entries[k];
+    const double length = crossings[k].length;
+    if (length > 0.0 && length * length > LEAST_CROSSING_LENGTH * LEAST_CROSSING_LENGTH *
+                                              std::max(squared_longest_side(batch.moving[k]),
+                                                       squared_longest_side(batch.fixed[k]))) {
+      ++frame.triangle_distances;
+      frame.intersections.push_back({{FeatureKind::FACE, entry.moving},
+                                     {FeatureKind::FACE, entry.fixed},
+                                     entry.moving,
+                                     entry.fixed,
+                                     frame.body,
+                                     1,
+                                     length,
+                                     crossings[k].middle});
+      frame.crossing_pairs.push_back({frame.body, entry.moving, entry.fixed});
+      continue;
+    }
+    not_crossing.push(batch.moving[k], batch.fixed[k], entry);
+    if (not_crossing.is_full()) decide_not_crossing(frame, not_crossing);
+  }
+  batch.count = 0;
+}
+
+void TouchingPairs::decide_not_crossing(Frame& frame, Batch& batch) {
+  const double margin = MARGIN_IN_TOUCHES * frame.touch;
+  std::array<ClearGap, Batch::SIZE> gaps;
+  find_clear_gaps(std::span(batch.moving).first(batch.count), std::span(batch.fixed).first(batch.count),
+                  std::span(gaps).first(batch.count));
+  for (std::size_t k = 0; k < batch.count; ++k) {
+    const Batch::Entry& entry = batch.entries[k];
+    certificates_[entry.place] = gaps[k].gap > margin ? Certificate{gaps[k].gap - margin, gaps[k].axis}
+                                                      : decide_triangles(frame, entry.moving, entry.fixed);
+  }
+  batch.count = 0;
+}
+
+/// Decides two triangles exactly.
+Certificate TouchingPairs::decide_triangles(Frame& frame, std::int32_t t_moving, std::int32_t t_fixed) {
+  const ShapeSide &moving = frame.pair.moving, &fixed = frame.pair.fixed;
+  const TrianglePairDistance nearest =
+      triangle_distance(triangle_of(moving, t_moving), triangle_of(fixed, t_fixed));
+  ++frame.triangle_distances;
+  if (nearest.intersecting) {
+    frame.crossing_pairs.push_back({frame.body, t_moving, t_fixed});
+    frame.intersections.push_back({moving.surface.feature_of(t_moving, nearest.feature_a),
+                                   fixed.surface.feature_of(t_fixed, nearest.feature_b), t_moving, t_fixed,
+                                   frame.body, nearest.minimiser_dimension, nearest.minimiser_measure,
+                                   nearest.point_a});
+  }
+  const double distance = std::sqrt(nearest.squared_distance);
+  if (distance <= frame.touch) {
+    note_corners(frame, moving, t_moving, fixed, t_fixed, asked_);
+    note_corners(frame, fixed, t_fixed, moving, t_moving, asked_);
+    note_parallel_chains(frame, t_moving, t_fixed, asked_);
+    return {};
+  }
+  return {distance - MARGIN_IN_TOUCHES * frame.touch, (nearest.point_b - nearest.point_a) / distance};
+}
+
+/// One feature of a pair of faces and regions.
+struct TouchingPairs::Half {
+  const ShapeSide& side;
+  std::int32_t lead, region;  ///< Region -1: a triangle without area.
+  const RegionShape* shape;   ///< Of a region of several faces.
+  std::vector<Vec3>& corners;
+
+  Half(const ShapeSide& of_side, const FeatureId& face, std::vector<Vec3>& room)
+      : side(of_side),
+        lead(face.index),
+        region(side.shape.region_of(lead)),
+        shape(shape_of(side, face)),
+        corners(room) {}
+
+  std::size_t corner_count() const { return shape != nullptr ? shape->corners.size() : 3; }
+  void collect_corners() const {
+    if (shape == nullptr) {
+      const Triangle t = triangle_of(side, lead);
+      corners.assign(t.begin(), t.end());
+      return;
+    }
+    corners.clear();
+    for (const std::int32_t v : shape->corners) corners.push_back(side.vertex(v));
+  }
+  /// From this one's plane to the other one.
+  ClearGap gap_to_other(const Half& other) const {
+    if (region < 0) return {};
+    const Plane plane = side.plane(region);
+    return other.shape != nullptr ? gap_to(plane, other.side, *other.shape)
+                                  : gap_to(plane, triangle_of(other.side, other.lead));
+  }
+  /// The faces that are near to points of the world.
+  void find_faces_near(std::span<const Vec3> points, double reach, std::vector<std::int32_t>& faces) const {
+    if (shape == nullptr) return faces.assign(1, lead);
+    Box2 box;
+    for (const Vec3& p : points) box.add(shape->frame.flat(side.point_to_surface(p)));
+    faces.clear();
+    side.shape.for_each_face_near(region, box, reach, [&](std::int32_t t) {
+      faces.push_back(t);
+      return true;
+    });
+  }
+};
+
+/// Of a pair of which at least one is a region of several faces: gaps between their outlines, then the triangles of the
+/// one with more corners near the other, against those of the other near each of them.
+Certificate TouchingPairs::decide_regions(Frame& frame, const WidePair& pair) {
+  const ShapeSide &moving = frame.pair.moving, &fixed = frame.pair.fixed;
+  const Half m(moving, pair.a.feature_id(), points_moving_), f(fixed, pair.b.feature_id(), points_fixed_);
+  const double margin = MARGIN_IN_TOUCHES * frame.touch;
+  if (const ClearGap gap = f.gap_to_other(m); gap.gap > margin) return {gap.gap - margin, gap.axis};
+  if (const ClearGap gap = m.gap_to_other(f); gap.gap > margin) return {gap.gap - margin, -gap.axis};
+  const bool moving_is_large = m.corner_count() > f.corner_count();
+  const Half &large = moving_is_large ? m : f, &small = moving_is_large ? f : m;
+  small.collect_corners();
+  if (m.corner_count() * f.corner_count() <= MOST_CORNER_PAIRS && m.region >= 0 && f.region >= 0) {
+    large.collect_corners();
+    if (const ClearGap gap = gap_along_side_products(moving, m.region, m.corners, fixed, f.region, f.corners);
+        gap.gap > margin)
+      return {gap.gap - margin, gap.axis};
+  }
+  large.find_faces_near(small.corners, margin, faces_of_large_);
+  for (const std::int32_t t_large : faces_of_large_) {
+    const Triangle t = triangle_of(large.side, t_large);
+    // What reaches the plane: a tooth that passes through the plane of a gear's end meets a few of its thousands.
+    if (small.region >= 0 && gap_to(small.side.plane(small.region), t).gap > margin) continue;
+    small.find_faces_near(t, margin, faces_of_small_);
+    for (const std::int32_t t_small : faces_of_small_) {
+      ++frame.triangle_pairs;
+      const std::int32_t t_moving = moving_is_large ? t_large : t_small;
+      const std::int32_t t_fixed = moving_is_large ? t_small : t_large;
+      if (clear_gap(triangle_of(moving, t_moving), face_normal(moving, t_moving), triangle_of(fixed, t_fixed),
+                    face_normal(fixed, t_fixed), margin)
+              .gap > 0.0)
+        continue;
+      decide_triangles(frame, t_moving, t_fixed);
+    }
+  }
+  return {};
+}
+
+}  // namespace lmdbench

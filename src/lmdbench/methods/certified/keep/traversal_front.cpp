@@ -1,0 +1,221 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/methods/certified/keep/traversal_front.h>
+#include <lmdbench/methods/certified/layout/wide_lane.h>
+#include <lmdbench/methods/certified/traverse/wide_lanes.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <utility>
+
+namespace lmdbench {
+
+namespace {
+
+/// Losses are at least this, so that nothing is divided by zero [m].
+constexpr double LEAST_LOSS = 1e-30;
+
+}  // namespace
+
+void TraversalFront::clear() {
+  test_queue_.clear();
+  leaf_queue_.clear();
+  requested_.clear();
+}
+
+std::uint32_t TraversalFront::add_record(const Work& work, std::uint32_t slot_a, std::uint32_t slot_b) {
+  const std::uint32_t index = test_queue_.add();
+  const WideKeptPair pair(work.a, work.b, slot_a, slot_b);
+  if (index == records_.size()) {
+    pairs_.push_back(pair);
+    records_.push_back({});
+  } else {
+    pairs_[index] = pair;
+    records_[index] = Record{};
+  }
+  records_[index].in_use = records_[index].is_requested = true;
+  requested_.push_back(index);
+  return index;
+}
+
+std::uint32_t TraversalFront::add_leaf(const Work& work, std::uint32_t slot_a, const WidePair& pair,
+                                       bool touches) {
+  const std::uint32_t index = leaf_queue_.add();
+  if (index == leaves_.size()) leaves_.push_back({});
+  leaves_[index] = {pair, slot_a, touches};
+  leaf_queue_.plan_now(index, work.motion);
+  return index;
+}
+
+void TraversalFront::plan_leaf(const WideHierarchy& a, const MotionForecast& motion, std::uint32_t index,
+                               const Certificate& certificate) {
+  if (!(certificate.slack > 0.0 && certificate.turn > 0.0)) {
+    leaf_queue_.plan_next(index, motion);
+    return;
+  }
+  const Leaf& leaf = leaves_[index];
+  const Vec3 c = centre_of_lane(a.nodes[leaf.slot_a / WIDE_WIDTH], leaf.slot_a % WIDE_WIDTH);
+  const Vec3 velocity = motion.turn() * c + motion.origin_velocity();
+  const double loss = certificate.gradient.dot(velocity) + certificate.spread * velocity.norm() +
+                      certificate.lever_arm * motion.spin() + (1.0 + certificate.spread) * motion.creep();
+  // As the node test does it; a deviation displaces the centre as well as it turns (PROOF.md, lemma 18).
+  const double weight =
+      std::max(1.0 + certificate.spread,
+               ((1.0 + certificate.spread) * c.norm() + certificate.lever_arm) / motion.extent());
+  const auto frames_of = [&](double slack, double loss_a_frame) {
+    const double wanted = (slack * (1.0 - static_cast<double>(DEVIATION_SHARE)) - motion.base()) /
+                          (loss_a_frame + motion.drift());
+    return std::min(std::max(wanted, static_cast<double>(LEAST_SHARE) * slack / loss_a_frame),
+                    static_cast<double>(MotionForecast::LONGEST_PLAN));
+  };
+  const double turn = certificate.turn * motion.extent();
+  const double loss_of_length = std::max(loss, LEAST_LOSS);
+  const double loss_of_turn = std::max(motion.spin() * motion.extent(), LEAST_LOSS);
+  const double frames = std::min(frames_of(certificate.slack, loss_of_length), frames_of(turn, loss_of_turn));
+  const double deviation_budget =
+      std::min((certificate.slack - loss_of_length * frames) / weight, turn - loss_of_turn * frames);
+  leaf_queue_.plan(index, frames, deviation_budget, motion);
+}
+
+void TraversalFront::drop_below(const Record& record) {
+  for (std::uint32_t left = record.opened_lanes; left != 0; left &= left - 1)
+    dropping_.push_back(record.below[static_cast<std::size_t>(std::countr_zero(left))]);
+  for (std::uint32_t left = record.lmd_lanes; left != 0; left &= left - 1)
+    leaf_queue_.drop(record.below[static_cast<std::size_t>(std::countr_zero(left))]);
+  for (std::uint32_t left = record.touch_lanes; left != 0; left &= left - 1)
+    leaf_queue_.drop(record.touching[static_cast<std::size_t>(std::countr_zero(left))]);
+}
+
+void TraversalFront::finish_dropping() {
+  while (!dropping_.empty()) {
+    const std::uint32_t index = dropping_.back();
+    dropping_.pop_back();
+    drop_below(records_[index]);
+    records_[index].in_use = false;
+    test_queue_.drop(index);
+  }
+}
+
+void TraversalFront::drop_record(std::uint32_t record) {
+  dropping_.push_back(record);
+  finish_dropping();
+}
+
+void TraversalFront::follow(const WideHierarchy& a, std::uint32_t seen_a, const WideHierarchy& b,
+                            std::uint32_t seen_b, const MotionForecast& motion) {
+  if (a.changes.now == seen_a && b.changes.now == seen_b) return;
+  for (std::uint32_t i = 0; i < test_queue_.size(); ++i) {
+    Record& record = records_[i];
+    if (!record.in_use) continue;
+    WideKeptPair& pair = pairs_[i];
+    const WideHierarchy &opened = pair.open_a ? a : b, &other = pair.open_a ? b : a;
+    const std::uint32_t seen_opened = pair.open_a ? seen_a : seen_b,
+                        seen_other = pair.open_a ? seen_b : seen_a;
+    const std::uint32_t slot = pair.open_a ? pair.slot_b : pair.slot_a;
+    if (!opened.changes.bounds_after(pair.node, seen_opened) &&
+        !other.changes.bounds_after(slot / WIDE_WIDTH, seen_other))
+      continue;
+    // Where the other child itself is another one now, the pair goes with the record above that opened its node.
+    if (opened.changes.lanes_after(pair.node, seen_opened)) {
+      drop_below(record);
+      finish_dropping();
+      record.opened_lanes = record.lmd_lanes = record.touch_lanes = 0;
+    }
+    pair.child = WideChild(other.nodes[slot / WIDE_WIDTH], slot % WIDE_WIDTH);
+    test_queue_.plan_now(i, motion);
+    for (std::uint32_t left = record.lmd_lanes; left != 0; left &= left - 1)
+      leaf_queue_.plan_now(record.below[static_cast<std::size_t>(std::countr_zero(left))], motion);
+    for (std::uint32_t left = record.touch_lanes; left != 0; left &= left - 1)
+      leaf_queue_.plan_now(record.touching[static_cast<std::size_t>(std::countr_zero(left))], motion);
+  }
+}
+
+void TraversalFront::apply(const Work& work, const WideKeptTest& test) {
+  // Records move in memory when one is added: by index, and nothing kept across.
+  const std::uint32_t index = test.pair;
+  test_queue_.plan(index, static_cast<double>(test.frames), static_cast<double>(test.deviation_budget),
+                   work.motion);
+  ++work.counters.node_tests;
+  work.counters.node_pairs += LANE_LISTS[test.used].count;
+
+  if (test.opened == records_[index].opened_lanes && test.lmd == records_[index].lmd_lanes &&
+      test.touch == records_[index].touch_lanes)
+    return;
+  const Record before = records_[index];
+  const WideKeptPair pair = pairs_[index];
+  const std::uint32_t first_slot = pair.node * WIDE_WIDTH;
+  const auto slot_a_of = [&](std::uint32_t lane) { return pair.open_a ? first_slot + lane : pair.slot_a; };
+  const auto slot_b_of = [&](std::uint32_t lane) { return pair.open_a ? pair.slot_b : first_slot + lane; };
+  const auto ref = [](const WideHierarchy& hierarchy, std::uint32_t slot) {
+    return WideRef::from_bits(hierarchy.nodes[slot / WIDE_WIDTH].child[slot % WIDE_WIDTH]);
+  };
+  const auto pair_of = [&](std::uint32_t lane) {
+    return WidePair{ref(work.a, slot_a_of(lane)), ref(work.b, slot_b_of(lane))};
+  };
+  for (std::uint32_t change = test.opened ^ before.opened_lanes; change != 0; change &= change - 1) {
+    const auto lane = static_cast<std::uint32_t>(std::countr_zero(change));
+    if ((test.opened >> lane & 1u) == 0) {
+      drop_record(before.below[lane]);
+    } else {
+      const std::uint32_t added = add_record(work, slot_a_of(lane), slot_b_of(lane));
+      records_[index].below[lane] = added;
+    }
+  }
+  for (std::uint32_t change = test.lmd ^ before.lmd_lanes; change != 0; change &= change - 1) {
+    const auto lane = static_cast<std::uint32_t>(std::countr_zero(change));
+    if ((test.lmd >> lane & 1u) == 0) {
+      leaf_queue_.drop(before.below[lane]);
+    } else {
+      records_[index].below[lane] = add_leaf(work, slot_a_of(lane), pair_of(lane), false);
+    }
+  }
+  for (std::uint32_t change = test.touch ^ before.touch_lanes; change != 0; change &= change - 1) {
+    const auto lane = static_cast<std::uint32_t>(std::countr_zero(change));
+    if ((test.touch >> lane & 1u) == 0) {
+      leaf_queue_.drop(before.touching[lane]);
+    } else {
+      records_[index].touching[lane] = add_leaf(work, slot_a_of(lane), pair_of(lane), true);
+    }
+  }
+  records_[index].opened_lanes = test.opened;
+  records_[index].lmd_lanes = test.lmd;
+  records_[index].touch_lanes = test.touch;
+}
+
+void TraversalFront::make_requested_tests(const Work& work) {
+  while (!requested_.empty()) {
+    // A place that was dropped and given to another pair while it waited is in the list twice.
+    std::erase_if(requested_, [&](std::uint32_t index) {
+      return !records_[index].in_use || !std::exchange(records_[index].is_requested, false);
+    });
+    // No batch is larger: one that is larger than all before must not allocate.
+    tests_.reserve(std::bit_ceil(records_.size()));
+    test_batch(work.a, work.b, work.query, work.forecast, pairs_, requested_, tests_);
+    requested_.clear();
+    for (const WideKeptTest& test : tests_) {
+      // An earlier test of this batch may have dropped the pair, and given its place to another, whose test comes in the next batch.
+      const Record& record = records_[test.pair];
+      if (record.in_use && !record.is_requested) apply(work, test);
+    }
+  }
+}
+
+void TraversalFront::start(const WideHierarchy& a, const WideHierarchy& b, const WideQuery& query,
+                           const MotionForecast& motion, const RigidTransform& X_BA, double search_distance,
+                           WideCounters& counters) {
+  clear();
+  const Work work{a, b, query, motion, WideForecast(motion, X_BA, search_distance), counters};
+  add_record(work, 0, 0);
+  make_requested_tests(work);
+}
+
+void TraversalFront::advance(const WideHierarchy& a, const WideHierarchy& b, const WideQuery& query,
+                             const MotionForecast& motion, const RigidTransform& X_BA, double search_distance,
+                             WideCounters& counters) {
+  test_queue_.collect(motion, requested_);
+  for (const std::uint32_t index : requested_) records_[index].is_requested = true;
+  make_requested_tests({a, b, query, motion, WideForecast(motion, X_BA, search_distance), counters});
+}
+
+}  // namespace lmdbench

@@ -1,0 +1,406 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/catalogue/deformation.h>
+#include <lmdbench/lmd/body.h>
+#include <lmdbench/methods/certified/build/build_wide_hierarchy.h>
+#include <lmdbench/methods/certified/build/polar_cap.h>
+#include <lmdbench/methods/certified/layout/wide_hierarchy.h>
+#include <lmdbench/methods/certified/layout/wide_lane.h>
+#include <lmdbench/methods/certified/traverse/wide_traversal.h>
+
+#include "methods/certified/traverse/wide_samples.h"
+#include <gtest/gtest.h>
+#include <support/polar_cone.h>
+#include <support/scenes.h>
+#include <tbb/global_control.h>
+
+#include <algorithm>
+#include <cstring>
+#include <functional>
+#include <numbers>
+#include <random>
+#include <set>
+#include <vector>
+
+namespace lmdbench {
+namespace {
+
+using testing::expect_same_pairs;
+using testing::extreme_directions;
+using testing::for_each_random_node_test;
+using testing::LaneSample;
+using testing::make_bushing;
+using testing::random_direction;
+using testing::random_transform;
+using testing::shapes;
+using testing::uniform;
+
+std::vector<FeatureId> all_features(const Surface& surface) {
+  std::vector<FeatureId> features;
+  const auto add = [&](FeatureKind kind, std::size_t count) {
+    for (std::size_t i = 0; i < count; ++i) features.push_back({kind, static_cast<std::int32_t>(i)});
+  };
+  add(FeatureKind::VERTEX, surface.mesh.vertices.size());
+  add(FeatureKind::EDGE, surface.adjacency.edges.size());
+  add(FeatureKind::FACE, surface.mesh.triangles.size());
+  return features;
+}
+
+TEST(PolarCap, HoldsThePolarCone) {
+  std::size_t narrow = 0, none = 0;
+  for (const TriangleMesh& mesh : shapes()) {
+    const Surface surface = build_surface(mesh);
+    for (const FeatureId& feature : all_features(surface)) {
+      const std::vector<Vec3> extremes = extreme_directions(surface, feature);
+      const auto cap = polar_cap(surface, feature);
+      if (!cap) {
+        EXPECT_TRUE(extremes.empty()) << to_string(feature.kind) << feature.index;
+        ++none;
+        continue;
+      }
+      if (cap->is_all_directions()) continue;
+      EXPECT_NEAR(cap->axis.norm(), 1.0, 1e-12);
+      for (const Vec3& direction : extremes) {
+        EXPECT_GE(cap->axis.dot(direction), cap->cosine) << to_string(feature.kind) << feature.index;
+        EXPECT_LE(cap->axis.cross(direction).norm(), cap->sine);
+      }
+      if (cap->cosine > 0.5) ++narrow;
+    }
+  }
+  EXPECT_GT(narrow, 1000u);
+  EXPECT_GT(none, 1000u);
+}
+
+TEST(PolarCap, OfTentsOfAnyBend) {
+  // Two triangles on one edge, flat to folded both ways, needle-like to fat: the cone is the arc from normal
+  // to normal where the edge is convex, empty where it is reflex.
+  std::mt19937_64 random(7);
+  std::size_t convex = 0, reflex = 0;
+  for (int i = 0; i < 20000; ++i) {
+    const double size = std::pow(10.0, 4.0 * uniform(random) - 2.0);
+    const double bend = (2.0 * uniform(random) - 1.0) * (i % 4 == 0 ? 1e-4 : 3.1);  // > 0: convex
+    const auto wing = [&](double angle) {
+      return Vec3(uniform(random) * 3.0 - 1.0, size * std::cos(angle), -size * std::sin(angle));
+    };
+    const Vec3 left = wing(0.5 * bend);
+    Vec3 right = wing(0.5 * bend);
+    right.y() = -right.y();
+    const Mat3 turn = testing::random_rotation(random).toRotationMatrix();
+    TriangleMesh tent;
+    tent.vertices = {turn * Vec3::Zero(), turn * Vec3::UnitX(), turn * left, turn * right};
+    tent.triangles = {{0, 1, 2}, {1, 0, 3}};
+    const Surface surface = build_surface(tent);
+    const auto cap = polar_cap(surface, {FeatureKind::EDGE, 0});
+    const double flatness = (3.0 + size) / size;
+    const double doubt = 50.0 * POLAR_SLACK * flatness;
+    if (bend > 0.0) {
+      ASSERT_TRUE(cap) << "bend " << bend << ", size " << size;
+      ++convex;
+      if (cap->is_all_directions()) {
+        ASSERT_GT(0.5 * bend + doubt, 1.5) << "bend " << bend << ", size " << size;
+        continue;
+      }
+      for (const Vec3& normal : surface.face_normals) {
+        ASSERT_GE(cap->axis.dot(normal), cap->cosine) << "bend " << bend << ", size " << size;
+        ASSERT_LE(cap->axis.cross(normal).norm(), cap->sine);
+      }
+      ASSERT_LE(std::acos(cap->cosine), 0.5 * bend + doubt) << "bend " << bend << ", size " << size;
+    } else if (-bend > doubt && -bend < 3.0) {
+      ASSERT_FALSE(cap) << "bend " << bend << ", size " << size;
+      ++reflex;
+    }
+  }
+  EXPECT_GT(convex, 5000u);
+  EXPECT_GT(reflex, 5000u);
+}
+
+TEST(PolarCap, IsTight) {
+  const Surface box = build_surface(make_box({1.0, 1.0, 1.0}));
+  for (const FeatureId& feature : all_features(box)) {
+    const auto cap = polar_cap(box, feature);
+    ASSERT_TRUE(cap);
+    const auto expected = [&] {
+      if (feature.kind == FeatureKind::FACE) return 1.0;
+      if (feature.kind == FeatureKind::VERTEX) return 1.0 / std::sqrt(3.0);
+      const auto triangles = box.incident_triangles(feature);
+      const bool flat = box.face_normals[static_cast<std::size_t>(triangles[0])].dot(
+                            box.face_normals[static_cast<std::size_t>(triangles[1])]) > 0.5;
+      return flat ? 1.0 : std::sqrt(0.5);
+    }();
+    EXPECT_NEAR(cap->cosine, expected, 1e-4) << to_string(feature.kind) << feature.index;
+  }
+}
+
+/// Calls visit(node, lane, features below).
+std::vector<FeatureId> visit_lanes(
+    const WideHierarchy& hierarchy, std::uint32_t node_index,
+    const std::function<void(std::uint32_t, std::size_t, const std::vector<FeatureId>&)>& visit) {
+  std::vector<FeatureId> all;
+  const WideNode& node = hierarchy.nodes[node_index];
+  for (std::size_t lane = 0; lane < WIDE_WIDTH; ++lane) {
+    const WideRef ref = WideRef::from_bits(node.child[lane]);
+    if (ref.is_empty()) continue;
+    const std::vector<FeatureId> below = ref.is_feature() ? std::vector<FeatureId>{ref.feature_id()}
+                                                          : visit_lanes(hierarchy, ref.node_index(), visit);
+    visit(node_index, lane, below);
+    all.insert(all.end(), below.begin(), below.end());
+  }
+  return all;
+}
+
+/// @param shape  null: of the mesh itself
+void expect_owns_and_bounds(const WideHierarchy& hierarchy, const Surface& surface,
+                            const ShapeComplex* shape) {
+  ASSERT_TRUE(bounds_what_is_below(hierarchy, surface, shape));
+  const auto check = [&](std::uint32_t node_index, std::size_t lane, const std::vector<FeatureId>& below) {
+    const WideNode& node = hierarchy.nodes[node_index];
+    const Vec3 axis = axis_of_lane(node, static_cast<std::uint32_t>(lane));
+    // With a shape, the wings of a corner are others than its edges.
+    if (axis.isZero(0.0) || (shape != nullptr && shape->is_joined)) return;
+    for (const FeatureId& feature : below)
+      for (const Vec3& direction : extreme_directions(surface, feature))
+        ASSERT_GE(direction.dot(axis), static_cast<double>(node.cosine[lane]));
+  };
+  std::vector<FeatureId> owned = visit_lanes(hierarchy, 0, check);
+  std::sort(owned.begin(), owned.end());
+  std::vector<FeatureId> expected;
+  for (const FeatureId& feature : all_features(surface))
+    if ((shape == nullptr || shape->is_lead(feature)) &&
+        (feature.kind == FeatureKind::FACE || polar_cap(surface, feature, shape)))
+      expected.push_back(feature);
+  EXPECT_EQ(owned, expected);
+  EXPECT_EQ(hierarchy.feature_count, expected.size());
+}
+
+TEST(WideHierarchy, OwnsEveryFeatureOnceAndBoundsIt) {
+  for (const TriangleMesh& mesh : shapes()) {
+    const Surface surface = build_surface(mesh);
+    expect_owns_and_bounds(build_wide_hierarchy(surface), surface, nullptr);
+  }
+}
+
+/// With the shape a lane holds a whole wall: every vertex of its region.
+TEST(WideHierarchy, KnowsHowNarrowLongWallsAre) {
+  const TriangleMesh mesh = make_bushing(48);
+  const Body body("bushing", build_surface(mesh));
+  const auto& hierarchy = body.prepared<WideHierarchy>();
+  const auto& shape = body.prepared<ShapeComplex>();
+  expect_owns_and_bounds(hierarchy, body.surface(), &shape);
+  ASSERT_EQ(hierarchy.widths.size(), hierarchy.nodes.size());
+  const double wall = 2.0 * 0.5 * std::sin(std::numbers::pi / 48.0);
+  std::size_t walls = 0;
+  visit_lanes(hierarchy, 0, [&](std::uint32_t n, std::size_t lane, const std::vector<FeatureId>& below) {
+    const WideNode& node = hierarchy.nodes[n];
+    const WideWidths& widths = hierarchy.widths[n];
+    const Vec3 across(widths.across[0][lane], widths.across[1][lane], widths.across[2][lane]);
+    const Vec3 axis(node.axis[0][lane], node.axis[1][lane], node.axis[2][lane]);
+    if (widths.half_width[lane] == 0.0F) {
+      EXPECT_TRUE(across.isZero(0.0));
+      return;
+    }
+    EXPECT_NEAR(across.norm(), 1.0, 1e-6);
+    EXPECT_NEAR(across.dot(axis), 0.0, 1e-6);
+    if (below.size() != 1 || below[0].kind != FeatureKind::FACE) return;
+    EXPECT_LE(static_cast<double>(widths.half_width[lane]), 0.51 * wall);
+    const Vec3 centre(node.centre[0][lane], node.centre[1][lane], node.centre[2][lane]);
+    std::vector<std::int32_t> corners;
+    shape.append_corners(body.surface(), below[0], corners);
+    for (const std::int32_t v : corners)
+      EXPECT_LE(
+          std::abs((mesh.vertices[static_cast<std::size_t>(v)] - hierarchy.origin - centre).dot(across)),
+          static_cast<double>(widths.half_width[lane]));
+    ++walls;
+  });
+  EXPECT_EQ(walls, 96u);
+
+  Body deforming("deforming", build_surface(mesh));
+  const auto& followed = deforming.prepared<WideHierarchy>();
+  deforming.prepared<ShapeComplex>();
+  std::vector<Vec3> vertices = mesh.vertices;
+  for (Vec3& p : vertices) p.x() *= 1.5;
+  deforming.deform(vertices);
+  EXPECT_TRUE(followed.widths.empty()) << "widths of another mesh";
+}
+
+TEST(WideHierarchy, WallsOfABoreMeetAFewOfAPeg) {
+  // Whatever the number of walls: a disc round a wall meets half of all others.
+  const auto touching_a_wall = [](int segments) {
+    const Body peg("peg", build_surface(make_sleeve(circle_outline(0.3999), nullptr,
+                                                    {.height = 1.0, .around = segments})));
+    const Body bushing("bushing", build_surface(make_bushing(segments)));
+    const auto &a = peg.prepared<WideHierarchy>(), &b = bushing.prepared<WideHierarchy>();
+    WideScratch scratch;
+    WideCounters counters;
+    find_wide_pairs(a, b, WideQuery(a, b, RigidTransform(), 0.01, 2e-8), WideKernel::VECTOR, scratch,
+                    counters);
+    return static_cast<double>(scratch.touch_pairs.size()) / segments;
+  };
+  EXPECT_LE(touching_a_wall(256), 8.0);
+}
+
+TEST(WideHierarchy, OwnsEveryFeatureOnceAndBoundsItWhileTheMeshDeforms) {
+  std::mt19937_64 random(21);
+  std::uint32_t refitted = 0, built_anew = 0;
+  for (const TriangleMesh& mesh : shapes()) {
+    for (const DeformationKind kind : {DeformationKind::BEND, DeformationKind::TWIST, DeformationKind::DENT,
+                                       DeformationKind::BREATHE, DeformationKind::CRUMPLE}) {
+      const double amplitude = kind == DeformationKind::TWIST  ? 6.0
+                               : kind == DeformationKind::BEND ? 1.0
+                                                               : 0.1;
+      const Deformation deformation(
+          mesh, {kind, amplitude, 0.2 + 0.8 * uniform(random), random_direction(random), 1});
+      Body body("deforming", build_surface(mesh));
+      const auto& hierarchy = body.prepared<WideHierarchy>();
+      const auto& shape = body.prepared<ShapeComplex>();
+      body.deform(mesh.vertices);
+      std::vector<Vec3> vertices;
+      for (int step = 1; step < 12; ++step) {
+        deformation.at(0.02 * step, vertices);
+        const std::uint32_t times = hierarchy.times_built_anew();
+        body.deform(vertices);
+        ++(hierarchy.times_built_anew() > times ? built_anew : refitted);
+        expect_owns_and_bounds(hierarchy, body.surface(), &shape);
+        if (::testing::Test::HasFailure()) return;
+      }
+    }
+  }
+  EXPECT_GT(refitted, built_anew);
+  EXPECT_GT(built_anew, 10u);
+}
+
+TEST(WideHierarchy, ABoundThatLosesAVertexIsSeen) {
+  const Surface box = build_surface(make_box({1.0, 1.0, 1.0}));
+  const WideHierarchy good = build_wide_hierarchy(box);
+  ASSERT_TRUE(bounds_what_is_below(good, box, nullptr));
+  WideHierarchy bad = good;
+  bad.nodes[0].radius[0] *= 0.99F;
+  EXPECT_FALSE(bounds_what_is_below(bad, box, nullptr));
+  bad = good;
+  bad.nodes.back().centre[1][0] += 0.01F;
+  EXPECT_FALSE(bounds_what_is_below(bad, box, nullptr));
+  bad = good;
+  bad.radius *= 0.99;
+  EXPECT_FALSE(bounds_what_is_below(bad, box, nullptr));
+}
+
+TEST(WideHierarchy, IsTheSameEveryTime) {
+  const Surface surface =
+      build_surface(make_blob(1.0, 0.3, 5));  // large enough to be built by several threads
+  const WideHierarchy a = build_wide_hierarchy(surface), b = build_wide_hierarchy(surface);
+  ASSERT_EQ(a.nodes.size(), b.nodes.size());
+  EXPECT_EQ(std::memcmp(a.nodes.data(), b.nodes.data(), a.nodes.size() * sizeof(WideNode)), 0);
+}
+
+TEST(WideHierarchy, DoesNotDependOnTheNumberOfThreads) {
+  const TriangleMesh mesh = make_blob(1.0, 0.3, 5);
+  const auto with_threads = [&](std::size_t threads) {
+    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+    return build_wide_hierarchy(build_surface(mesh));
+  };
+  const WideHierarchy one = with_threads(1), four = with_threads(4);
+  ASSERT_EQ(one.nodes.size(), four.nodes.size());
+  EXPECT_EQ(std::memcmp(one.nodes.data(), four.nodes.data(), one.nodes.size() * sizeof(WideNode)), 0);
+}
+
+TEST(WideHierarchy, IsCompact) {
+  const Surface surface = build_surface(make_blob(1.0, 0.3, 5));
+  const WideHierarchy hierarchy = build_wide_hierarchy(surface);
+  EXPECT_LE(static_cast<double>(hierarchy.bytes()) / static_cast<double>(surface.mesh.triangles.size()),
+            140.0);
+}
+
+TEST(WideHierarchy, OfAnEmptyMeshIsEmpty) {
+  EXPECT_TRUE(build_wide_hierarchy(build_surface(TriangleMesh{})).nodes.empty());
+}
+
+TEST(WideNodeTest, VectorAndScalarAgreeBitForBit) {
+  std::mt19937_64 random(1);
+  std::size_t alive = 0;
+  std::size_t with_widths = 0;
+  for_each_random_node_test(random, [&](const WideQuery& query, const WideNode& node, const WideProbe& probe,
+                                        const WideWidthTest* widths) {
+    const WideMasks scalar = test_lanes_scalar(node, probe, query.limits, widths);
+    const WideMasks vector = test_lanes_vector(node, probe, query.limits, widths);
+    ASSERT_EQ(scalar.lmd, vector.lmd);
+    ASSERT_EQ(scalar.touch, vector.touch);
+    ASSERT_EQ(scalar.used, vector.used);
+    ASSERT_EQ(scalar.beyond, vector.beyond);
+    ASSERT_EQ(scalar.not_collinear, vector.not_collinear);
+    if (scalar.lmd != 0) ++alive;
+    if (widths != nullptr && scalar.lmd != 0) ++with_widths;
+  });
+  EXPECT_GT(with_widths, 10u);
+  EXPECT_GT(alive, 100u);
+}
+
+TEST(WideNodeTest, NeverRejectsAPairOfOppositeDirections) {
+  // The lane is placed so that the direction from the probe's point to the lane's lies in both cones at a
+  // distance within the cutoff: whatever the bodies, the pair must survive. Distance at most the touch
+  // distance: must touch.
+  std::mt19937_64 random(2);
+  std::size_t rejected = 0, by_width = 0;
+  for (int i = 0; i < 200000; ++i) {
+    const LaneSample a(random);
+    LaneSample b(random);
+    const double cutoff = 0.2 * uniform(random);
+    const double distance = cutoff * (i % 2 == 0 ? 1.0 : uniform(random));
+    // Turn b so that its direction is the opposite of a's, then move its point to a's point + distance.
+    const Mat3 turn = Eigen::Quaterniond::FromTwoVectors(b.direction, -a.direction).toRotationMatrix();
+    b.turn(turn, a.point + distance * a.direction - turn * b.point);
+    WideNode home{}, node{};
+    WideWidths of_probe{}, of_node{};
+    a.store(home, 0);
+    b.store(node, 3);
+    if (i % 3 != 1) a.store(of_probe, 0);
+    if (i % 3 != 2) b.store(of_node, 3);
+    const WideTransform same(Mat3::Identity(), Vec3::Zero());
+    const WideProbe probe = make_probe(WideChild(home, 0), same);
+    const WideWidthTest widths = make_width_test(of_node, of_probe, 0, same);
+    const double size = 1.0 + b.centre.norm();
+    const WideLimits limits{static_cast<float>(cutoff * (1.0 + 1e-7)),
+                            static_cast<float>(distance * (1.0 + 1e-7)),
+                            static_cast<float>(POSITION_ROUNDING * size)};
+    for (const WideWidthTest* const with : {static_cast<const WideWidthTest*>(nullptr), &widths}) {
+      const WideMasks masks = test_lanes_scalar(node, probe, limits, with);
+      ASSERT_EQ(masks.lmd, 8u) << i;
+      ASSERT_EQ(masks.touch, 8u) << i;
+    }
+    // A slightly larger gap than the cutoff along a's axis is what the test is for.
+    WideLimits shorter = limits;
+    shorter.reach *= 0.5F;
+    shorter.touch = 0.0F;
+    if (test_lanes_scalar(node, probe, shorter).lmd == 0)
+      ++rejected;
+    else if (test_lanes_scalar(node, probe, shorter, &widths).lmd == 0)
+      ++by_width;
+  }
+  EXPECT_GT(rejected, 10000u);
+  EXPECT_GT(by_width, 1000u);
+}
+
+TEST(WideTraversal, VectorAndScalarFindTheSamePairs) {
+  std::mt19937_64 random(3);
+  std::size_t pairs = 0;
+  for (const TriangleMesh& mesh : shapes()) {
+    const Body body("shape", build_surface(mesh));
+    const auto& hierarchy = body.prepared<WideHierarchy>();
+    for (int i = 0; i < 30; ++i) {
+      const WideQuery query(hierarchy, hierarchy,
+                            random_transform(2.0 * hierarchy.radius * uniform(random), random),
+                            0.2 * uniform(random), 1e-9);
+      WideScratch vector, scalar;
+      WideCounters of_vector, of_scalar;
+      find_wide_pairs(hierarchy, hierarchy, query, WideKernel::VECTOR, vector, of_vector);
+      find_wide_pairs(hierarchy, hierarchy, query, WideKernel::SCALAR, scalar, of_scalar);
+      ASSERT_NO_FATAL_FAILURE(expect_same_pairs(vector, of_vector, scalar, of_scalar));
+      pairs += vector.lmd_pairs.size();
+      std::set<std::pair<std::uint32_t, std::uint32_t>> unique;
+      for (const WidePair& pair : vector.lmd_pairs) unique.emplace(pair.a.bits(), pair.b.bits());
+      EXPECT_EQ(unique.size(), vector.lmd_pairs.size());
+    }
+  }
+  EXPECT_GT(pairs, 1000u);
+}
+
+}  // namespace
+}  // namespace lmdbench
